@@ -1,0 +1,42 @@
+# Compiler settings that hold for every target of the project.
+option(HEARTH_BUILD_TESTS "Build tests and benchmarks" ${PROJECT_IS_TOP_LEVEL})
+option(HEARTH_HARDENED "Turn on the standard library's own checks" OFF)
+set(HEARTH_SANITIZE "" CACHE STRING "Sanitizers to build with, as for -fsanitize")
+
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/bin)
+
+find_program(HEARTH_CCACHE ccache)
+if(HEARTH_CCACHE)
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${HEARTH_CCACHE})
+  set(CMAKE_C_COMPILER_LAUNCHER ${HEARTH_CCACHE})
+endif()
+
+add_library(hearth_warnings INTERFACE)
+target_compile_options(hearth_warnings INTERFACE
+  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -Wnon-virtual-dtor -Woverloaded-virtual
+  -Wcast-align -Wformat=2 -Wundef -Werror)
+
+add_library(hearth_settings INTERFACE)
+# One result on every machine: no contraction into fused multiply-adds, no reassociation.
+target_compile_options(hearth_settings INTERFACE -ffp-contract=off -fvisibility=hidden -fvisibility-inlines-hidden)
+target_include_directories(hearth_settings INTERFACE ${PROJECT_SOURCE_DIR})
+if(HEARTH_HARDENED)
+  target_compile_definitions(hearth_settings INTERFACE _GLIBCXX_ASSERTIONS)
+endif()
+if(HEARTH_SANITIZE)
+  target_compile_options(hearth_settings INTERFACE -fsanitize=${HEARTH_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
+  target_link_options(hearth_settings INTERFACE -fsanitize=${HEARTH_SANITIZE})
+endif()
+if(CMAKE_BUILD_TYPE STREQUAL "Debug")
+  target_compile_options(hearth_settings INTERFACE -Og)
+endif()
+
+find_program(HEARTH_MOLD mold)
+if(HEARTH_MOLD)
+  target_link_options(hearth_settings INTERFACE -fuse-ld=mold)
+endif()

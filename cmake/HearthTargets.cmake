@@ -1,0 +1,27 @@
+# hearth_library(NAME SOURCES ... LINKS ... PRIVATE_LINKS ...): a static library held to the house's warnings.
+# LINKS are the arrows of DESIGN; PRIVATE_LINKS are third-party libraries that stay inside the .cpp files.
+function(hearth_library name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LINKS;PRIVATE_LINKS" ${ARGN})
+  add_library(${name} STATIC ${ARG_SOURCES})
+  target_link_libraries(${name} PUBLIC hearth_settings ${ARG_LINKS} PRIVATE hearth_warnings ${ARG_PRIVATE_LINKS})
+endfunction()
+
+# hearth_executable(NAME SOURCES ... LINKS ...): a program in <build>/bin.
+function(hearth_executable name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LINKS" ${ARGN})
+  add_executable(${name} ${ARG_SOURCES})
+  target_link_libraries(${name} PRIVATE hearth_settings hearth_warnings ${ARG_LINKS})
+endfunction()
+
+# hearth_test(NAME SOURCES ... LINKS ... LABELS ...): a GoogleTest program, registered as one ctest per program.
+function(hearth_test name)
+  cmake_parse_arguments(ARG "" "TIMEOUT" "SOURCES;LINKS;LABELS" ${ARGN})
+  add_executable(${name} ${ARG_SOURCES})
+  target_link_libraries(${name} PRIVATE hearth_settings hearth_warnings ${ARG_LINKS} GTest::gtest GTest::gmock GTest::gtest_main)
+  set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
+  add_test(NAME ${name} COMMAND ${name})
+  if(NOT ARG_TIMEOUT)
+    set(ARG_TIMEOUT 600)
+  endif()
+  set_tests_properties(${name} PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT ${ARG_TIMEOUT})
+endfunction()

@@ -1,0 +1,125 @@
+// The numbered list of everything that can be wrong with an input or a file: the one source for codes, exit codes,
+// hints and the checker. A number is never reused. E1xxx input files, E2xxx containers, E3xxx meaning of chunks,
+// E4xxx the machine, E7xxx Hearth itself; W is a warning with the same numbering.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+namespace hearth
+{
+
+/// What an issue means for the process: the exit codes of sysexits.h that Hearth uses.
+enum class IssueClass : uint8_t
+{
+    warning,    ///< the work goes on
+    usage,      ///< 2: the command line is wrong
+    malformed,  ///< 65: the input's content is wrong
+    missing,    ///< 66: an input does not exist or cannot be read
+    internal,   ///< 70: a defect of Hearth
+    cannotWrite,///< 73: an output cannot be created
+    io,         ///< 74: reading or writing failed half way
+};
+
+// X(name, code, class, summary, hint)
+#define HEARTH_ISSUES(X)                                                                                     \
+    X(usage, 1000, usage, "the command line is wrong", "see --help")                                         \
+    X(input_missing, 1001, missing, "an input file cannot be read", "check the path and its permissions")    \
+    X(input_kind_unknown, 1002, malformed, "the kind of file is not known",                                  \
+      "use glTF, GLB, OBJ, PLY, STL, OFF, Draco or an image")                                                \
+    X(input_too_large, 1003, malformed, "an input asks for more than the limits allow",                      \
+      "split the asset, or check that its counts are right")                                                 \
+    X(json_syntax, 1100, malformed, "the JSON text is not valid", "export the file again")                   \
+    X(gltf_structure, 1101, malformed, "a glTF property has the wrong type or is missing",                   \
+      "run the Khronos glTF validator on the file")                                                          \
+    X(gltf_value, 1102, malformed, "a glTF property has a value that is not allowed",                        \
+      "run the Khronos glTF validator on the file")                                                          \
+    X(gltf_reference, 1103, malformed, "a glTF index points outside its array",                              \
+      "run the Khronos glTF validator on the file")                                                          \
+    X(gltf_version, 1104, malformed, "the glTF version is not supported", "export the file as glTF 2.0")     \
+    X(gltf_extension, 1105, malformed, "a required glTF extension is not supported",                         \
+      "export the file without it")                                                                          \
+    X(glb_structure, 1106, malformed, "the GLB container is damaged", "export the file again")               \
+    X(gltf_bounds, 1107, malformed, "data lies outside its buffer or buffer view",                           \
+      "the file is damaged or was cut off: export it again")                                                 \
+    X(gltf_data, 1108, malformed, "the data of an accessor is not allowed",                                  \
+      "run the Khronos glTF validator on the file")                                                          \
+    X(gltf_hierarchy, 1109, malformed, "the nodes do not form a tree", "give every node one parent at most") \
+    X(uri_outside, 1110, malformed, "a URI leaves the folder of its asset",                                  \
+      "put the file beside the asset and use a relative path")                                               \
+    X(uri_malformed, 1111, malformed, "a URI cannot be understood", "use a relative path or a data URI")     \
+    X(buffer_missing, 1112, missing, "a buffer file cannot be read", "put the file where the asset expects it") \
+    X(buffer_short, 1113, malformed, "a buffer is shorter than it says",                                     \
+      "the file is damaged or was cut off: export it again")                                                 \
+    X(codec_failed, 1114, malformed, "compressed geometry cannot be decoded",                                \
+      "the file is damaged: export it again")                                                                \
+    X(index_out_of_range, 1115, malformed, "an index points outside the vertices", "export the file again")  \
+    X(mesh_syntax, 1200, malformed, "a mesh file is not written as its format asks", "export the file again") \
+    X(mesh_counts, 1201, malformed, "a mesh file ends before its counts are met",                            \
+      "the file is damaged or was cut off: export it again")                                                 \
+    X(mesh_empty, 1202, malformed, "a mesh file has no geometry", "check the export")                        \
+    X(image_malformed, 1300, malformed, "an image cannot be decoded", "save the image again")                \
+    X(image_unsupported, 1301, malformed, "an image uses a feature that is not supported",                   \
+      "save the image as PNG, JPEG, WebP, HDR or EXR")                                                       \
+    X(image_missing, 1302, warning, "an image is missing; a placeholder is drawn",                           \
+      "put the file where the asset expects it")                                                             \
+    X(image_replaced, 1303, warning, "an image cannot be used; a placeholder is drawn",                      \
+      "save the image again as PNG, JPEG or WebP")                                                           \
+    X(dropped, 1400, warning, "a part of the source is not kept", "")                                        \
+    X(degraded, 1401, warning, "a part of the source is drawn in a simpler way", "")                         \
+    X(repaired, 1402, warning, "a part of the source was repaired", "")                                      \
+    X(container_truncated, 2000, malformed, "the file is too short", "cook the asset again")                 \
+    X(container_magic, 2001, malformed, "the file is not a Hearth container", "name a .hearth file")         \
+    X(container_version, 2002, malformed, "the file was written by another major version",                   \
+      "cook the asset again with this version")                                                              \
+    X(container_endian, 2003, malformed, "the file has the byte order of another machine",                   \
+      "cook the asset for a little-endian machine")                                                          \
+    X(container_size, 2004, malformed, "the file's size is not the size it was written with",                \
+      "the file was cut off or appended to: cook the asset again")                                           \
+    X(container_header, 2005, malformed, "the header is damaged", "cook the asset again")                    \
+    X(container_feature, 2006, malformed, "the file needs a feature that this version lacks",                \
+      "use a newer version of Hearth")                                                                       \
+    X(container_table, 2007, malformed, "the chunk table is damaged", "cook the asset again")                \
+    X(container_padding, 2008, malformed, "bytes between the chunks are not zero", "cook the asset again")   \
+    X(chunk_hash, 2009, malformed, "a chunk's content does not match its hash", "cook the asset again")      \
+    X(chunk_codec, 2010, malformed, "a chunk cannot be decompressed", "cook the asset again")                \
+    X(chunk_missing, 2011, malformed, "a chunk that is needed is missing", "cook the asset again")           \
+    X(chunk_size, 2012, malformed, "a chunk's size does not fit its content", "cook the asset again")        \
+    X(page_hash, 2013, malformed, "a geometry page does not match its hash", "cook the asset again")         \
+    X(meaning_range, 3000, malformed, "a range points outside its table", "cook the asset again")            \
+    X(meaning_reference, 3001, malformed, "an index points outside its table", "cook the asset again")       \
+    X(meaning_value, 3002, malformed, "a value is not allowed", "cook the asset again")                      \
+    X(meaning_monotone, 3003, malformed, "errors or spheres shrink towards the root", "cook the asset again") \
+    X(meaning_bounds, 3004, malformed, "a bound does not contain what it claims", "cook the asset again")    \
+    X(meaning_order, 3005, malformed, "records are not in the order that the format asks",                   \
+      "cook the asset again")                                                                                \
+    X(meaning_geometry, 3006, malformed, "a cluster's geometry is not valid", "cook the asset again")        \
+    X(cannot_write, 4000, cannotWrite, "an output cannot be written", "check the folder, its rights and the space left") \
+    X(read_failed, 4001, io, "reading failed", "check the disk")                                             \
+    X(device, 4002, internal, "no usable graphics device", "install a Vulkan driver (mesa-vulkan-drivers)")  \
+    X(child_failed, 7001, internal, "a cooker ended abnormally", "report it, with the input")                \
+    X(internal, 7000, internal, "Hearth has a defect", "report it, with the input")
+
+enum class Issue : uint16_t
+{
+#define HEARTH_ISSUE_ENUM(name, code, kind, summary, hint) name = code,
+    HEARTH_ISSUES(HEARTH_ISSUE_ENUM)
+#undef HEARTH_ISSUE_ENUM
+};
+
+struct IssueInfo
+{
+    Issue issue;
+    std::string_view name;
+    IssueClass kind;
+    std::string_view summary;
+    std::string_view hint;
+};
+
+/// All issues, in the order of the list above.
+std::span<const IssueInfo> allIssues();
+const IssueInfo& issueInfo(Issue issue);
+
+} // namespace hearth

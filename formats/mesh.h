@@ -1,0 +1,243 @@
+// Chunks of the mesh hierarchy and its geometry pages, as packed, and of the source meshes that parts carry.
+// See FORMAT.md, "Hierarchy"; the cut rule stands beside GroupRecord.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "formats/container.h"
+
+namespace hearth::formats
+{
+
+inline constexpr uint32_t kChunkMeshes = fourCC("MESH");     ///< MeshRecord[]
+inline constexpr uint32_t kChunkLevels = fourCC("LEVL");     ///< LevelRecord[]
+inline constexpr uint32_t kChunkGroups = fourCC("GRUP");     ///< GroupRecord[]
+inline constexpr uint32_t kChunkClusters = fourCC("CLUS");   ///< ClusterRecord[]
+inline constexpr uint32_t kChunkPageTable = fourCC("PGTB");  ///< PageRecord[]
+inline constexpr uint32_t kChunkPageParents = fourCC("PGPA");///< u32[]: pages that must be resident before a page
+inline constexpr uint32_t kChunkPages = fourCC("PAGE");      ///< the pages, each aligned to 64 bytes
+inline constexpr uint32_t kChunkSourceMesh = fourCC("SMSH"); ///< mesh `index` as imported: SourceArray table + data
+inline constexpr uint32_t kChunkDeformation = fourCC("DEFM");///< joints, weights, morph targets of mesh `index`
+
+inline constexpr uint32_t kClusterMaxTriangles = 128;
+inline constexpr uint32_t kClusterMaxVertices = 256;
+inline constexpr uint32_t kPageMaxBytes = 65536;
+
+/// Which attributes a mesh's vertices have. A vertex is 32-bit words in this order:
+/// position (3 floats), then each present attribute.
+enum VertexAttributes : uint32_t
+{
+    kVertexNormal = 1,  ///< 1 word: octahedral, 2 x snorm16 (x in the low half)
+    kVertexTangent = 2, ///< 1 word: octahedral, 2 x snorm16, the lowest bit of y is 1 where the bitangent is flipped
+    kVertexUv0 = 4,     ///< 2 floats each
+    kVertexUv1 = 8,
+    kVertexUv2 = 16,
+    kVertexUv3 = 32,
+    kVertexColor = 64, ///< 2 words: 4 x unorm16, linear RGBA
+};
+
+/// Words of one vertex with these attributes.
+constexpr uint32_t vertexWords(uint32_t attributes)
+{
+    uint32_t words = 3;
+    words += (attributes & kVertexNormal) ? 1 : 0;
+    words += (attributes & kVertexTangent) ? 1 : 0;
+    for (uint32_t uv = kVertexUv0; uv <= kVertexUv3; uv <<= 1)
+        words += (attributes & uv) ? 2 : 0;
+    words += (attributes & kVertexColor) ? 2 : 0;
+    return words;
+}
+
+struct MeshRecord
+{
+    StringRef name;
+    uint32_t attributes;
+    uint32_t source_faces;
+    uint32_t source_triangles;
+    uint32_t source_vertices;
+    uint32_t degenerate_triangles;
+    uint32_t lod_count;
+    Range levels;
+    Range groups;
+    Range clusters;
+    Range pages;
+    Float3 box_min;
+    Float3 box_max;
+    uint32_t skinned;
+    uint32_t morph_target_count;
+};
+
+/// Levels stand finest first: the first level of a mesh is the source.
+struct LevelRecord
+{
+    Range clusters;
+    uint32_t triangle_count;
+    float max_error;
+};
+
+/// Clusters that are simplified together and replaced together.
+/// The cut: with E(g) the projected error of a group, draw cluster x if and only if
+///     (x.refined_group == none or E(refined_group) <= threshold) and E(group) > threshold,
+/// where E of a root group (error = infinity) is infinite. Errors and spheres are monotone: for every cluster x,
+/// error(refined_group) <= error(group), and the sphere of refined_group lies inside the sphere of group.
+struct GroupRecord
+{
+    Float3 sphere_center;
+    float sphere_radius;
+    float error;
+    uint32_t level;
+    Range clusters;
+    uint32_t page;
+    uint32_t reserved[3];
+};
+
+/// What culling and drawing need to know of a cluster; 112 bytes, read by the GPU as it is.
+struct ClusterRecord
+{
+    Float3 box_min;
+    uint32_t material;
+    Float3 box_max;
+    uint32_t page;
+    Float3 sphere_center;
+    float sphere_radius;
+    Float3 cone_axis;
+    float cone_cutoff;
+    Float3 cone_apex;
+    uint32_t page_offset;
+    uint32_t group;
+    uint32_t refined_group;
+    uint32_t vertex_count;
+    uint32_t triangle_count;
+    float error;
+    uint32_t level;
+    uint32_t mesh;
+    uint32_t reserved;
+};
+
+/// One page: clusters of whole groups, in the order of the cluster table. Each cluster's data starts at its
+/// page_offset: vertex_count vertices, then 3 u8 vertex indices for each triangle, padded to 4 bytes with zeros.
+struct PageRecord
+{
+    uint64_t offset;
+    uint32_t stored_size;
+    uint32_t size;
+    uint32_t codec;
+    uint32_t mesh;
+    Range clusters;
+    Range parents;
+    uint64_t hash;
+    uint32_t reserved[2];
+};
+
+enum class SourceSemantic : uint32_t
+{
+    position = 0,           ///< f32 x 3
+    normal = 1,             ///< f32 x 3, unit
+    tangent = 2,            ///< f32 x 4, w = +-1: sign of the bitangent
+    uv = 3,                 ///< f32 x 2, set 0..3
+    color = 4,              ///< f32 x 4, linear
+    joints = 5,             ///< u16 x 4, set 0..; joint of the skin
+    weights = 6,            ///< f32 x 4, set 0..; sum over the sets is 1
+    index = 7,              ///< u32 x 3 for each triangle
+    triangle_material = 8,  ///< u32 for each triangle, or none
+    morph_position = 9,     ///< f32 x 3 deltas, set = target
+    morph_normal = 10,      ///< f32 x 3 deltas, set = target
+    morph_tangent = 11,     ///< f32 x 3 deltas, set = target
+};
+
+/// Chunks SMSH and DEFM: SourceMeshHeader, then array_count SourceArrays, then the data, each array 16-aligned.
+struct SourceMeshHeader
+{
+    uint32_t array_count;
+    uint32_t face_count;
+    uint32_t vertex_count;
+    uint32_t triangle_count;
+    uint32_t source_vertex_count;
+    StringRef name;
+    uint32_t reserved;
+};
+
+struct SourceArray
+{
+    uint32_t semantic;
+    uint32_t set;
+    uint64_t offset;
+    uint64_t count;
+    uint32_t element_size;
+    uint32_t reserved;
+};
+
+} // namespace hearth::formats
+
+HEARTH_RECORD(hearth::formats::MeshRecord, 96, HEARTH_FIELD(hearth::formats::MeshRecord, name, "may be empty"),
+              HEARTH_FIELD(hearth::formats::MeshRecord, attributes, "bits of the vertex layout"),
+              HEARTH_FIELD(hearth::formats::MeshRecord, source_faces, "polygons before triangulation"),
+              HEARTH_FIELD(hearth::formats::MeshRecord, source_triangles, "triangles of the source"),
+              HEARTH_FIELD(hearth::formats::MeshRecord, source_vertices, "vertices as the source counts them"),
+              HEARTH_FIELD(hearth::formats::MeshRecord, degenerate_triangles, "source triangles without area, not kept"),
+              HEARTH_FIELD(hearth::formats::MeshRecord, lod_count, "number of levels"),
+              HEARTH_FIELD(hearth::formats::MeshRecord, levels, "chunk LEVL, finest first"),
+              HEARTH_FIELD(hearth::formats::MeshRecord, groups, "chunk GRUP"),
+              HEARTH_FIELD(hearth::formats::MeshRecord, clusters, "chunk CLUS"),
+              HEARTH_FIELD(hearth::formats::MeshRecord, pages, "chunk PGTB; the first holds the coarsest level"),
+              HEARTH_FIELD(hearth::formats::MeshRecord, box_min, "object space"),
+              HEARTH_FIELD(hearth::formats::MeshRecord, box_max, "object space"),
+              HEARTH_FIELD(hearth::formats::MeshRecord, skinned, "1: chunk DEFM has joints and weights"),
+              HEARTH_FIELD(hearth::formats::MeshRecord, morph_target_count, "targets in chunk DEFM"));
+HEARTH_RECORD(hearth::formats::LevelRecord, 16,
+              HEARTH_FIELD(hearth::formats::LevelRecord, clusters, "chunk CLUS"),
+              HEARTH_FIELD(hearth::formats::LevelRecord, triangle_count, ""),
+              HEARTH_FIELD(hearth::formats::LevelRecord, max_error, "largest error of its clusters, object space"));
+HEARTH_RECORD(hearth::formats::GroupRecord, 48,
+              HEARTH_FIELD(hearth::formats::GroupRecord, sphere_center, "object space"),
+              HEARTH_FIELD(hearth::formats::GroupRecord, sphere_radius, "contains the spheres of all refined groups"),
+              HEARTH_FIELD(hearth::formats::GroupRecord, error, "object space; of what replaces it; infinity for a root"),
+              HEARTH_FIELD(hearth::formats::GroupRecord, level, "of its clusters"),
+              HEARTH_FIELD(hearth::formats::GroupRecord, clusters, "chunk CLUS"),
+              HEARTH_FIELD(hearth::formats::GroupRecord, page, "that holds all its clusters"),
+              HEARTH_FIELD(hearth::formats::GroupRecord, reserved, "0"));
+HEARTH_RECORD(hearth::formats::ClusterRecord, 112,
+              HEARTH_FIELD(hearth::formats::ClusterRecord, box_min, "object space"),
+              HEARTH_FIELD(hearth::formats::ClusterRecord, material, "material, or none for the default"),
+              HEARTH_FIELD(hearth::formats::ClusterRecord, box_max, "object space"),
+              HEARTH_FIELD(hearth::formats::ClusterRecord, page, "page that holds the geometry"),
+              HEARTH_FIELD(hearth::formats::ClusterRecord, sphere_center, "bounding sphere"),
+              HEARTH_FIELD(hearth::formats::ClusterRecord, sphere_radius, ""),
+              HEARTH_FIELD(hearth::formats::ClusterRecord, cone_axis, "normal cone"),
+              HEARTH_FIELD(hearth::formats::ClusterRecord, cone_cutoff,
+                           "sine of the half-angle, rounded up; 1: the cone never culls"),
+              HEARTH_FIELD(hearth::formats::ClusterRecord, cone_apex,
+                           "every triangle's plane has it on or behind its front side"),
+              HEARTH_FIELD(hearth::formats::ClusterRecord, page_offset, "first byte of its data in the decoded page"),
+              HEARTH_FIELD(hearth::formats::ClusterRecord, group, "group that it is simplified in"),
+              HEARTH_FIELD(hearth::formats::ClusterRecord, refined_group, "group that it was made from, none at level 0"),
+              HEARTH_FIELD(hearth::formats::ClusterRecord, vertex_count, "1 to 256"),
+              HEARTH_FIELD(hearth::formats::ClusterRecord, triangle_count, "1 to 128"),
+              HEARTH_FIELD(hearth::formats::ClusterRecord, error, "of refined_group, 0 at level 0"),
+              HEARTH_FIELD(hearth::formats::ClusterRecord, level, "0 is the source"),
+              HEARTH_FIELD(hearth::formats::ClusterRecord, mesh, "mesh"),
+              HEARTH_FIELD(hearth::formats::ClusterRecord, reserved, "0"));
+HEARTH_RECORD(hearth::formats::PageRecord, 56,
+              HEARTH_FIELD(hearth::formats::PageRecord, offset, "from the start of chunk PAGE; a multiple of 64"),
+              HEARTH_FIELD(hearth::formats::PageRecord, stored_size, "bytes in the file"),
+              HEARTH_FIELD(hearth::formats::PageRecord, size, "bytes after decompression, at most 65536"),
+              HEARTH_FIELD(hearth::formats::PageRecord, codec, "0 none, 1 zstd"),
+              HEARTH_FIELD(hearth::formats::PageRecord, mesh, "mesh"),
+              HEARTH_FIELD(hearth::formats::PageRecord, clusters, "chunk CLUS"),
+              HEARTH_FIELD(hearth::formats::PageRecord, parents,
+                           "chunk PGPA: pages, all earlier, that hold what this page refines"),
+              HEARTH_FIELD(hearth::formats::PageRecord, hash, "XXH3-64 of the stored bytes"),
+              HEARTH_FIELD(hearth::formats::PageRecord, reserved, "0"));
+HEARTH_RECORD(hearth::formats::SourceMeshHeader, 32,
+              HEARTH_FIELD(hearth::formats::SourceMeshHeader, array_count, ""),
+              HEARTH_FIELD(hearth::formats::SourceMeshHeader, face_count, "polygons before triangulation"),
+              HEARTH_FIELD(hearth::formats::SourceMeshHeader, vertex_count, "of the arrays that follow"),
+              HEARTH_FIELD(hearth::formats::SourceMeshHeader, triangle_count, ""),
+              HEARTH_FIELD(hearth::formats::SourceMeshHeader, source_vertex_count, "vertices as the source counts them"),
+              HEARTH_FIELD(hearth::formats::SourceMeshHeader, name, "may be empty"),
+              HEARTH_FIELD(hearth::formats::SourceMeshHeader, reserved, "0"));
+HEARTH_RECORD(hearth::formats::SourceArray, 32, HEARTH_FIELD(hearth::formats::SourceArray, semantic, "what it holds"),
+              HEARTH_FIELD(hearth::formats::SourceArray, set, "UV set, influence set or morph target"),
+              HEARTH_FIELD(hearth::formats::SourceArray, offset, "from the start of the chunk; a multiple of 16"),
+              HEARTH_FIELD(hearth::formats::SourceArray, count, "elements"),
+              HEARTH_FIELD(hearth::formats::SourceArray, element_size, "bytes of one element"),
+              HEARTH_FIELD(hearth::formats::SourceArray, reserved, "0"));
