@@ -1,0 +1,97 @@
+// Receives what import reads, mesh by mesh and image by image, and writes the import part.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "cook/mesh/source_mesh.h"
+#include "formats/container_writer.h"
+#include "formats/scene.h"
+
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace hearth::import
+{
+
+/// An image as decoded: rows top to bottom, tightly packed.
+struct DecodedImage
+{
+    uint32_t width = 0;
+    uint32_t height = 0;
+    bool is_float = false;          ///< texels are RGBA16 float (linear), else RGBA8 as stored in the file
+    std::vector<std::byte> texels;  ///< width * height * (is_float ? 8 : 4)
+};
+
+/// How the source counts itself, for the report.
+struct SourceCounts
+{
+    uint64_t triangles = 0; ///< over meshes, not instances
+    uint64_t faces = 0;     ///< polygons before triangulation
+    uint64_t vertices = 0;  ///< glTF: over the distinct POSITION accessors; scans: vertices of the file
+    uint64_t materials = 0;
+    uint64_t joints = 0;    ///< distinct joint nodes
+    uint64_t animations = 0;
+    uint64_t morph_targets = 0;
+};
+
+/// The import part being written. Small records collect in the public vectors; meshes and images go to the file
+/// at once, so that one mesh and one image are in memory at a time.
+class PartBuilder
+{
+public:
+    static Result<PartBuilder> create(const std::string& path, std::string source_name);
+
+    /// The name's place in the string table; equal names share it.
+    formats::StringRef intern(std::string_view text);
+
+    /// Next mesh; meshes get the indices 0, 1, ... in call order.
+    Status addMesh(const mesh::SourceMesh& mesh);
+
+    /// Next image (finest mip only); returns its index. `record` brings name, format and flags.
+    Result<uint32_t> addImage(formats::ImageRecord record, const DecodedImage& image);
+
+    /// Note something that the user should know; printed to stderr by the program and kept in META.
+    void warn(Issue issue, std::string where, std::string detail);
+
+    /// A source file that was read: name relative to the asset's folder, and its content for the hash.
+    void addSource(std::string name, std::span<const std::byte> content);
+
+    Status finish();
+
+    std::vector<formats::NodeRecord> nodes;
+    std::vector<formats::InstanceRecord> instances;
+    std::vector<formats::CameraRecord> cameras;
+    std::vector<formats::LightRecord> lights;
+    std::vector<formats::MaterialRecord> materials;
+    std::vector<formats::SkinRecord> skins;
+    std::vector<formats::JointRecord> joints;
+    std::vector<formats::AnimationRecord> animations;
+    std::vector<formats::AnimationChannelRecord> channels;
+    std::vector<float> keys;
+    std::vector<float> morph_weights;
+    SourceCounts counts;
+
+    const std::vector<Error>& warnings() const { return warnings_; }
+
+private:
+    PartBuilder(formats::ContainerWriter writer, std::string source_name);
+
+    struct SourceFile
+    {
+        std::string name;
+        uint64_t size = 0;
+        uint64_t hash = 0;
+    };
+
+    formats::ContainerWriter writer_;
+    std::string source_name_;
+    std::string strings_;
+    std::map<std::string, formats::StringRef, std::less<>> string_refs_;
+    std::vector<formats::ImageRecord> images_;
+    uint32_t mesh_count_ = 0;
+    std::vector<Error> warnings_;
+    std::vector<SourceFile> sources_;
+};
+
+} // namespace hearth::import
