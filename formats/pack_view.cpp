@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "formats/pack_view.h"
+
+#include "formats/byte_reader.h"
+
+#include <algorithm>
+
+namespace hearth::formats
+{
+
+std::optional<ClusterGeometry> ClusterGeometry::at(std::span<const std::byte> page,
+                                                   const ClusterRecord& cluster, uint32_t attributes)
+{
+    if ((attributes & ~kVertexAttributesAll) != 0 || cluster.vertex_count > kClusterMaxVertices ||
+        cluster.triangle_count > kClusterMaxTriangles)
+        return std::nullopt;
+    const uint32_t words = vertexWords(attributes);
+    const auto data = checkedPart(page, cluster.page_offset,
+                                  clusterBytes(attributes, cluster.vertex_count, cluster.triangle_count));
+    if (!data)
+        return std::nullopt;
+    ClusterGeometry geometry;
+    geometry.vertices_ = data->first(size_t{cluster.vertex_count} * words * 4);
+    geometry.indices_ = data->subspan(geometry.vertices_.size(), size_t{cluster.triangle_count} * 3);
+    geometry.attributes_ = attributes;
+    geometry.words_ = words;
+    geometry.vertex_count_ = cluster.vertex_count;
+    geometry.triangle_count_ = cluster.triangle_count;
+    return geometry;
+}
+
+Result<PackView> PackView::read(ContainerReader reader)
+{
+    PackView view(std::move(reader));
+    HEARTH_TRY(view.readTables());
+    return view;
+}
+
+Status PackView::readTables()
+{
+    const auto table = [this]<typename T>(uint32_t type, Records<T>& records) -> Status
+    {
+        HEARTH_ASSIGN_OR_RETURN(records, reader_.records<T>(type));
+        return success();
+    };
+    HEARTH_ASSIGN_OR_RETURN(meta_, reader_.read(kChunkMeta));
+    HEARTH_ASSIGN_OR_RETURN(strings_, reader_.read(kChunkStrings));
+    HEARTH_TRY(table(kChunkNodes, nodes_));
+    HEARTH_TRY(table(kChunkInstances, instances_));
+    HEARTH_TRY(table(kChunkCameras, cameras_));
+    HEARTH_TRY(table(kChunkLights, lights_));
+    HEARTH_TRY(table(kChunkMaterials, materials_));
+    HEARTH_TRY(table(kChunkImages, images_));
+    HEARTH_TRY(table(kChunkSkins, skins_));
+    HEARTH_TRY(table(kChunkJoints, joints_));
+    HEARTH_TRY(table(kChunkAnimations, animations_));
+    HEARTH_TRY(table(kChunkChannels, channels_));
+    HEARTH_TRY(table(kChunkKeys, keys_));
+    HEARTH_TRY(table(kChunkMorphWeights, morph_weights_));
+    HEARTH_TRY(table(kChunkMeshes, meshes_));
+    HEARTH_TRY(table(kChunkLevels, levels_));
+    HEARTH_TRY(table(kChunkGroups, groups_));
+    HEARTH_TRY(table(kChunkClusters, clusters_));
+    HEARTH_TRY(table(kChunkPageTable, pages_));
+    HEARTH_TRY(table(kChunkPageParents, page_parents_));
+
+    // pages are read one by one from the file, each with its own codec
+    const ChunkEntry* pages = reader_.find(kChunkPages);
+    if (pages != nullptr && pages->codec != static_cast<uint32_t>(Codec::none))
+        return Error{Issue::chunk_codec, name(), chunkName(kChunkPages, 0),
+                     "the chunk of the pages is compressed"};
+    HEARTH_ASSIGN_OR_RETURN(page_bytes_, reader_.read(kChunkPages));
+    return success();
+}
+
+std::string_view PackView::text(StringRef ref) const
+{
+    return insideTable({ref.offset, ref.length}, strings().size()) ? strings().substr(ref.offset, ref.length)
+                                                                   : std::string_view();
+}
+
+Result<ChunkData> PackView::imageData(uint32_t image) const
+{
+    if (reader_.find(kChunkImageData, image) == nullptr)
+        return Error{Issue::chunk_missing, name(), chunkName(kChunkImageData, image), ""};
+    return reader_.read(kChunkImageData, image);
+}
+
+Status PackView::decodePage(uint32_t page, std::span<std::byte> out) const
+{
+    const std::string where = "page " + std::to_string(page);
+    if (page >= pages().size())
+        return Error{Issue::meaning_reference, name(), where,
+                     "there are " + std::to_string(pages().size()) + " pages"};
+    const PageRecord& record = pages()[page];
+    if (record.size != out.size() || record.size > kPageMaxBytes)
+        return Error{Issue::meaning_value, name(), where, "a size of " + std::to_string(record.size)};
+    const auto stored = checkedPart(pageBytes(), record.offset, record.stored_size);
+    if (!stored)
+        return Error{Issue::meaning_range, name(), where, "the page lies outside chunk PAGE"};
+    if (hashBytes(*stored) != record.hash)
+        return Error{Issue::page_hash, name(), where, ""};
+    if (record.codec == static_cast<uint32_t>(Codec::zstd))
+        return decompress(*stored, out) ? success() : Error{Issue::chunk_codec, name(), where, ""};
+    if (record.codec != static_cast<uint32_t>(Codec::none) || stored->size() != out.size())
+        return Error{Issue::chunk_codec, name(), where, "sizes and codec do not agree"};
+    std::copy(stored->begin(), stored->end(), out.begin());
+    return success();
+}
+
+Result<std::vector<std::byte>> PackView::decodePage(uint32_t page) const
+{
+    const bool legal = page < pages().size() && pages()[page].size <= kPageMaxBytes;
+    std::vector<std::byte> bytes(legal ? pages()[page].size : 0);
+    HEARTH_TRY(decodePage(page, bytes));
+    return bytes;
+}
+
+} // namespace hearth::formats

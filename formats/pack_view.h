@@ -1,0 +1,221 @@
+// All tables of a part or pack as typed spans, and access to its texels and geometry pages.
+// A view is safe on any container, but says nothing about meaning: checkPack (formats/pack_check.h) does.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "formats/container_reader.h"
+#include "formats/mesh.h"
+#include "formats/scene.h"
+#include "formats/vertex_codec.h"
+
+#include <array>
+#include <cstring>
+#include <optional>
+
+namespace hearth::formats
+{
+
+/// The records of `range`, or nothing where it does not lie inside the table.
+template <typename T>
+std::span<const T> recordsOf(std::span<const T> table, Range range)
+{
+    if (range.first > table.size() || range.count > table.size() - range.first)
+        return {};
+    return table.subspan(range.first, range.count);
+}
+
+/// Whether [first, first + count) lies inside a table of `size` records.
+constexpr bool insideTable(Range range, size_t size)
+{
+    return range.first <= size && range.count <= size - range.first;
+}
+
+/// Bytes of a texel; 0 for a format that does not exist.
+constexpr uint32_t texelBytes(uint32_t format)
+{
+    switch (static_cast<TexelFormat>(format))
+    {
+    case TexelFormat::rgba8_srgb:
+    case TexelFormat::rgba8_unorm:
+        return 4;
+    case TexelFormat::rgba16_float:
+        return 8;
+    }
+    return 0;
+}
+
+struct MipExtent
+{
+    uint32_t width;
+    uint32_t height;
+};
+
+/// Size of mip `mip` in texels; mip < 32.
+constexpr MipExtent mipExtent(const ImageRecord& image, uint32_t mip)
+{
+    return {std::max(1u, image.width >> mip), std::max(1u, image.height >> mip)};
+}
+
+/// First byte of mip `mip` in the image's data; `mip` = mip_count gives the size of all. Cannot overflow for images
+/// of at most 2^28 texels a side.
+constexpr uint64_t mipOffset(const ImageRecord& image, uint32_t mip)
+{
+    uint64_t offset = 0;
+    for (uint32_t i = 0; i < mip && i < 32; ++i)
+        offset += uint64_t{mipExtent(image, i).width} * mipExtent(image, i).height * texelBytes(image.format);
+    return offset;
+}
+
+/// A cluster's vertices and triangles in a decoded page, which must outlive it. Vertex and triangle numbers are the
+/// caller's contract; the indices in the data are as the file has them.
+class ClusterGeometry
+{
+public:
+    /// nullopt where the cluster's data does not lie inside the page, or its attributes do not exist.
+    static std::optional<ClusterGeometry> at(std::span<const std::byte> page, const ClusterRecord& cluster,
+                                             uint32_t attributes);
+
+    uint32_t vertexCount() const { return vertex_count_; }
+    uint32_t triangleCount() const { return triangle_count_; }
+    uint32_t attributes() const { return attributes_; }
+    bool has(uint32_t attribute) const { return (attributes_ & attribute) != 0; }
+
+    /// The bytes of all vertices, vertexWords(attributes()) words each.
+    std::span<const std::byte> vertexBytes() const { return vertices_; }
+    /// Three u8 for each triangle.
+    std::span<const std::byte> indexBytes() const { return indices_; }
+
+    uint32_t word(uint32_t vertex, uint32_t word) const
+    {
+        HEARTH_RUNTIME_ASSERT(vertex < vertex_count_ && word < words_);
+        uint32_t value;
+        std::memcpy(&value, vertices_.data() + (size_t{vertex} * words_ + word) * 4, sizeof(value));
+        return value;
+    }
+
+    std::array<uint32_t, 3> triangle(uint32_t triangle) const
+    {
+        HEARTH_RUNTIME_ASSERT(triangle < triangle_count_);
+        const std::byte* index = indices_.data() + size_t{triangle} * 3;
+        return {std::to_integer<uint32_t>(index[0]), std::to_integer<uint32_t>(index[1]),
+                std::to_integer<uint32_t>(index[2])};
+    }
+
+    Float3 position(uint32_t vertex) const
+    {
+        return {asFloat(word(vertex, 0)), asFloat(word(vertex, 1)), asFloat(word(vertex, 2))};
+    }
+
+    /// Each of these needs has(its attribute).
+    Float3 normal(uint32_t vertex) const { return decodeNormal(word(vertex, wordOf(kVertexNormal))); }
+    Float4 tangent(uint32_t vertex) const { return decodeTangent(word(vertex, wordOf(kVertexTangent))); }
+    Float2 uv(uint32_t vertex, uint32_t set) const
+    {
+        const uint32_t first = wordOf(uint32_t{kVertexUv0} << set);
+        return {asFloat(word(vertex, first)), asFloat(word(vertex, first + 1))};
+    }
+    Float4 color(uint32_t vertex) const
+    {
+        const uint32_t first = wordOf(kVertexColor);
+        return decodeColor({{word(vertex, first), word(vertex, first + 1)}});
+    }
+
+private:
+    ClusterGeometry() = default;
+    static float asFloat(uint32_t bits) { return std::bit_cast<float>(bits); }
+    uint32_t wordOf(uint32_t attribute) const
+    {
+        HEARTH_RUNTIME_ASSERT(has(attribute));
+        return attributeWord(attributes_, attribute);
+    }
+
+    std::span<const std::byte> vertices_;
+    std::span<const std::byte> indices_;
+    uint32_t attributes_ = 0;
+    uint32_t words_ = 0;
+    uint32_t vertex_count_ = 0;
+    uint32_t triangle_count_ = 0;
+};
+
+/// The tables of one container. A chunk that is not there is an empty table. Spans hold as long as the view lives.
+class PackView
+{
+public:
+    /// Read and decompress the tables. errors: those of ContainerReader::records; chunk_codec for compressed PAGE.
+    static Result<PackView> read(ContainerReader reader);
+
+    const ContainerReader& container() const { return reader_; }
+    const std::string& name() const { return reader_.name(); }
+
+    /// META: JSON text.
+    std::string_view meta() const { return textOf(meta_); }
+    /// STRS, all of it.
+    std::string_view strings() const { return textOf(strings_); }
+    /// A name; empty where it points outside the string table.
+    std::string_view text(StringRef ref) const;
+
+    std::span<const NodeRecord> nodes() const { return nodes_.span(); }
+    std::span<const InstanceRecord> instances() const { return instances_.span(); }
+    std::span<const CameraRecord> cameras() const { return cameras_.span(); }
+    std::span<const LightRecord> lights() const { return lights_.span(); }
+    std::span<const MaterialRecord> materials() const { return materials_.span(); }
+    std::span<const ImageRecord> images() const { return images_.span(); }
+    std::span<const SkinRecord> skins() const { return skins_.span(); }
+    std::span<const JointRecord> joints() const { return joints_.span(); }
+    std::span<const AnimationRecord> animations() const { return animations_.span(); }
+    std::span<const AnimationChannelRecord> channels() const { return channels_.span(); }
+    std::span<const float> keys() const { return keys_.span(); }
+    std::span<const float> morphWeights() const { return morph_weights_.span(); }
+    std::span<const MeshRecord> meshes() const { return meshes_.span(); }
+    std::span<const LevelRecord> levels() const { return levels_.span(); }
+    std::span<const GroupRecord> groups() const { return groups_.span(); }
+    std::span<const ClusterRecord> clusters() const { return clusters_.span(); }
+    std::span<const PageRecord> pages() const { return pages_.span(); }
+    std::span<const uint32_t> pageParents() const { return page_parents_.span(); }
+
+    /// Chunk PAGE, as it lies in the file.
+    std::span<const std::byte> pageBytes() const { return page_bytes_.bytes(); }
+
+    /// The texels of an image, all mips, finest first. errors: chunk_missing, and those of ContainerReader::read.
+    Result<ChunkData> imageData(uint32_t image) const;
+
+    /// Decode a page into `out`, whose size is the page's. Any number of threads may do so at once.
+    /// errors: meaning_reference, meaning_range, meaning_value, page_hash, chunk_codec.
+    Status decodePage(uint32_t page, std::span<std::byte> out) const;
+
+    /// The same into memory of its own.
+    Result<std::vector<std::byte>> decodePage(uint32_t page) const;
+
+private:
+    explicit PackView(ContainerReader reader) : reader_(std::move(reader)) {}
+    Status readTables();
+    static std::string_view textOf(const ChunkData& data)
+    {
+        return {reinterpret_cast<const char*>(data.bytes().data()), data.bytes().size()};
+    }
+
+    ContainerReader reader_;
+    ChunkData meta_;
+    ChunkData strings_;
+    Records<NodeRecord> nodes_;
+    Records<InstanceRecord> instances_;
+    Records<CameraRecord> cameras_;
+    Records<LightRecord> lights_;
+    Records<MaterialRecord> materials_;
+    Records<ImageRecord> images_;
+    Records<SkinRecord> skins_;
+    Records<JointRecord> joints_;
+    Records<AnimationRecord> animations_;
+    Records<AnimationChannelRecord> channels_;
+    Records<float> keys_;
+    Records<float> morph_weights_;
+    Records<MeshRecord> meshes_;
+    Records<LevelRecord> levels_;
+    Records<GroupRecord> groups_;
+    Records<ClusterRecord> clusters_;
+    Records<PageRecord> pages_;
+    Records<uint32_t> page_parents_;
+    ChunkData page_bytes_;
+};
+
+} // namespace hearth::formats
