@@ -7,6 +7,7 @@
 #include <cerrno>
 #include <cstring>
 #include <fcntl.h>
+#include <numeric>
 #include <sys/mman.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -22,11 +23,6 @@ namespace
 // A chunk that claims to unpack to more than this is a bomb, not an asset.
 constexpr uint64_t kMaxChunkSize = uint64_t{1} << 32;
 
-bool allZero(std::span<const std::byte> bytes)
-{
-    return std::all_of(bytes.begin(), bytes.end(), [](std::byte b) { return b == std::byte{0}; });
-}
-
 struct Mapping
 {
     void* address = nullptr;
@@ -38,9 +34,43 @@ struct Mapping
     }
 };
 
+std::pair<uint32_t, uint32_t> idOf(const ChunkEntry& entry)
+{
+    return {entry.type, entry.index};
+}
+
+/// One frame of `stored` unpacks to `size` bytes; they pass through a small buffer.
+bool decodesTo(std::span<const std::byte> stored, uint64_t size)
+{
+    const std::unique_ptr<ZSTD_DCtx, size_t (*)(ZSTD_DCtx*)> context(ZSTD_createDCtx(), ZSTD_freeDCtx);
+    std::vector<std::byte> buffer(ZSTD_DStreamOutSize());
+    ZSTD_inBuffer in{stored.data(), stored.size(), 0};
+    uint64_t total = 0;
+    for (;;)
+    {
+        ZSTD_outBuffer out{buffer.data(), buffer.size(), 0};
+        const size_t rest = ZSTD_decompressStream(context.get(), &out, &in);
+        total += out.pos;
+        if (ZSTD_isError(rest) || total > size)
+            return false;
+        if (rest == 0)
+            return in.pos == in.size && total == size;
+        if (out.pos == 0 && in.pos == in.size)
+            return false;
+    }
+}
+
 } // namespace
 
-uint64_t hashBytes(std::span<const std::byte> bytes) { return XXH3_64bits(bytes.data(), bytes.size()); }
+bool allZero(std::span<const std::byte> bytes)
+{
+    return std::all_of(bytes.begin(), bytes.end(), [](std::byte b) { return b == std::byte{0}; });
+}
+
+uint64_t hashBytes(std::span<const std::byte> bytes)
+{
+    return XXH3_64bits(bytes.data(), bytes.size());
+}
 
 bool decompress(std::span<const std::byte> stored, std::span<std::byte> out)
 {
@@ -97,7 +127,8 @@ Result<ContainerReader> ContainerReader::open(const std::string& path, Check che
     return reader;
 }
 
-Result<ContainerReader> ContainerReader::fromBytes(std::span<const std::byte> bytes, std::string name, Check check)
+Result<ContainerReader> ContainerReader::fromBytes(std::span<const std::byte> bytes, std::string name,
+                                                   Check check)
 {
     ContainerReader reader;
     reader.name_ = std::move(name);
@@ -111,12 +142,14 @@ Result<ContainerReader> ContainerReader::fromBytes(std::span<const std::byte> by
 
 Status ContainerReader::checkStructure()
 {
-    const auto fail = [&](Issue issue, std::string detail, std::string where = "")
-    { return Error{issue, name_, std::move(where), std::move(detail)}; };
+    const auto fail = [&](Issue issue, std::string detail, std::string where = "") {
+        return Error{issue, name_, std::move(where), std::move(detail)};
+    };
 
     const auto header = ByteReader(bytes_).read<FileHeader>();
     if (!header)
-        return fail(Issue::container_truncated, std::to_string(bytes_.size()) + " bytes are too few for a header");
+        return fail(Issue::container_truncated,
+                    std::to_string(bytes_.size()) + " bytes are too few for a header");
     header_ = *header;
     if (std::memcmp(header_.magic, kMagic, sizeof(kMagic)) != 0)
         return fail(Issue::container_magic, "");
@@ -150,7 +183,8 @@ Status ContainerReader::checkStructure()
         const std::string where = chunkName(entry.type, entry.index);
         at = (at + kChunkAlignment - 1) / kChunkAlignment * kChunkAlignment;
         if (entry.offset != at || entry.stored_size > header_.table_offset - at || entry.element_size == 0 ||
-            entry.size % entry.element_size != 0 || entry.size > kMaxChunkSize * (entry.codec == 0 ? 16 : 1) ||
+            entry.size % entry.element_size != 0 ||
+            entry.size > kMaxChunkSize * (entry.codec == 0 ? 16 : 1) ||
             !allZero(std::as_bytes(std::span(entry.reserved))))
             return fail(Issue::container_table, "the table's entry is not valid", where);
         const bool stored = entry.codec == static_cast<uint32_t>(Codec::none);
@@ -162,12 +196,16 @@ Status ContainerReader::checkStructure()
     if (at != header_.table_offset)
         return fail(Issue::container_table, "there are bytes that belong to no chunk");
 
-    std::vector<std::pair<uint32_t, uint32_t>> ids;
-    for (const ChunkEntry& entry : table_)
-        ids.emplace_back(entry.type, entry.index);
-    std::sort(ids.begin(), ids.end());
-    if (const auto twice = std::adjacent_find(ids.begin(), ids.end()); twice != ids.end())
-        return fail(Issue::container_table, "the chunk stands twice", chunkName(twice->first, twice->second));
+    entries_by_id_.resize(table_.size());
+    std::iota(entries_by_id_.begin(), entries_by_id_.end(), 0u);
+    std::sort(entries_by_id_.begin(), entries_by_id_.end(),
+              [this](uint32_t a, uint32_t b) { return idOf(table_[a]) < idOf(table_[b]); });
+    const auto twice =
+        std::adjacent_find(entries_by_id_.begin(), entries_by_id_.end(),
+                           [this](uint32_t a, uint32_t b) { return idOf(table_[a]) == idOf(table_[b]); });
+    if (twice != entries_by_id_.end())
+        return fail(Issue::container_table, "the chunk stands twice",
+                    chunkName(table_[*twice].type, table_[*twice].index));
     return success();
 }
 
@@ -191,9 +229,11 @@ Status ContainerReader::checkContents() const
 
 const ChunkEntry* ContainerReader::find(uint32_t type, uint32_t index) const
 {
-    const auto found = std::find_if(table_.begin(), table_.end(),
-                                    [&](const ChunkEntry& e) { return e.type == type && e.index == index; });
-    return found == table_.end() ? nullptr : &*found;
+    const std::pair<uint32_t, uint32_t> id{type, index};
+    const auto found =
+        std::lower_bound(entries_by_id_.begin(), entries_by_id_.end(), id,
+                         [this](uint32_t entry, const auto& key) { return idOf(table_[entry]) < key; });
+    return found == entries_by_id_.end() || idOf(table_[*found]) != id ? nullptr : &table_[*found];
 }
 
 std::span<const std::byte> ContainerReader::stored(const ChunkEntry& entry) const
@@ -219,16 +259,28 @@ Result<ChunkData> ContainerReader::read(uint32_t type, uint32_t index) const
     if (ZSTD_getFrameContentSize(bytes.data(), bytes.size()) != entry->size)
         return Error{Issue::chunk_codec, name_, chunkName(type, index), ""};
     auto blocks = std::make_shared<std::vector<Block>>((entry->size + kChunkAlignment - 1) / kChunkAlignment);
-    const std::span<std::byte> out(reinterpret_cast<std::byte*>(blocks->data()), static_cast<size_t>(entry->size));
+    const std::span<std::byte> out(reinterpret_cast<std::byte*>(blocks->data()),
+                                   static_cast<size_t>(entry->size));
     if (!decompress(bytes, out))
         return Error{Issue::chunk_codec, name_, chunkName(type, index), ""};
     return ChunkData(out, blocks);
 }
 
+Status ContainerReader::checkDecodes(const ChunkEntry& entry) const
+{
+    const std::span<const std::byte> bytes = stored(entry);
+    if (check_ == Check::structure && hashBytes(bytes) != entry.hash)
+        return Error{Issue::chunk_hash, name_, chunkName(entry.type, entry.index), ""};
+    if (entry.codec == static_cast<uint32_t>(Codec::zstd) && !decodesTo(bytes, entry.size))
+        return Error{Issue::chunk_codec, name_, chunkName(entry.type, entry.index), ""};
+    return success();
+}
+
 Error ContainerReader::sizeError(const ChunkEntry& entry, size_t element_size) const
 {
     return {Issue::chunk_size, name_, chunkName(entry.type, entry.index),
-            "records of " + std::to_string(entry.element_size) + " bytes, expected " + std::to_string(element_size)};
+            "records of " + std::to_string(entry.element_size) + " bytes, expected " +
+                std::to_string(element_size)};
 }
 
 } // namespace hearth::formats

@@ -71,7 +71,7 @@ public:
     const FileHeader& header() const { return header_; }
     std::span<const ChunkEntry> chunks() const { return table_; }
 
-    /// The entry of a chunk, or nullptr.
+    /// The entry of a chunk, or nullptr. Time O(log chunks).
     const ChunkEntry* find(uint32_t type, uint32_t index = 0) const;
 
     /// The stored bytes of a chunk as they lie in the file (still compressed, hash not checked again).
@@ -79,6 +79,10 @@ public:
 
     /// Decompressed content; empty if the chunk does not exist. errors: chunk_hash, chunk_codec.
     Result<ChunkData> read(uint32_t type, uint32_t index = 0) const;
+
+    /// Whether the content can be decompressed to the size that the table says, without keeping it.
+    /// errors: chunk_hash, chunk_codec.
+    Status checkDecodes(const ChunkEntry& entry) const;
 
     /// Content as records. errors: those of read, and chunk_size where it is not a whole number of T.
     template <typename T>
@@ -101,6 +105,7 @@ private:
     std::shared_ptr<const void> owner_;
     FileHeader header_{};
     std::vector<ChunkEntry> table_;
+    std::vector<uint32_t> entries_by_id_; ///< entries sorted by type and index
     Check check_ = Check::everything;
 };
 
@@ -109,6 +114,9 @@ std::string chunkName(uint32_t type, uint32_t index);
 
 /// XXH3-64, the hash of the format.
 uint64_t hashBytes(std::span<const std::byte> bytes);
+
+/// Whether all bytes are zero.
+bool allZero(std::span<const std::byte> bytes);
 
 /// Decompress one zstd frame whose size is known to be `size`; false where it is not.
 bool decompress(std::span<const std::byte> stored, std::span<std::byte> out);

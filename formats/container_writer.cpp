@@ -91,12 +91,14 @@ Result<ContainerWriter> ContainerWriter::create(const std::string& path, Contain
     return ContainerWriter(std::move(state));
 }
 
-Status ContainerWriter::addChunk(ChunkId id, std::span<const std::byte> bytes, uint32_t element_size, Codec codec)
+Status ContainerWriter::addChunk(ChunkId id, std::span<const std::byte> bytes, uint32_t element_size,
+                                 Codec codec)
 {
     if (codec == Codec::zstd && !bytes.empty())
     {
         std::vector<std::byte> packed(ZSTD_compressBound(bytes.size()));
-        const size_t size = ZSTD_compress(packed.data(), packed.size(), bytes.data(), bytes.size(), kZstdLevel);
+        const size_t size =
+            ZSTD_compress(packed.data(), packed.size(), bytes.data(), bytes.size(), kZstdLevel);
         HEARTH_ASSERT(!ZSTD_isError(size));
         if (size < bytes.size())
         {

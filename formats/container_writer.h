@@ -35,7 +35,8 @@ public:
     Status addChunk(ChunkId id, std::span<const std::byte> bytes, uint32_t element_size, Codec codec);
 
     template <typename T>
-    Status addRecords(uint32_t type, std::span<const T> records, Codec codec = Codec::zstd, uint32_t index = 0)
+    Status addRecords(uint32_t type, std::span<const T> records, Codec codec = Codec::zstd,
+                      uint32_t index = 0)
     {
         static_assert(std::is_trivially_copyable_v<T>);
         return addChunk({.type = type, .index = index}, std::as_bytes(records), sizeof(T), codec);

@@ -88,6 +88,10 @@ enum class IssueClass : uint8_t
     X(chunk_missing, 2011, malformed, "a chunk that is needed is missing", "cook the asset again")           \
     X(chunk_size, 2012, malformed, "a chunk's size does not fit its content", "cook the asset again")        \
     X(page_hash, 2013, malformed, "a geometry page does not match its hash", "cook the asset again")         \
+    X(container_kind, 2014, malformed, "the container is of another kind than is needed",                    \
+      "name a pack (.hearth) that hearth-link wrote")                                                        \
+    X(chunk_version, 2015, malformed, "a chunk was written by a newer version",                              \
+      "use a newer version of Hearth, or cook the asset again with this one")                                \
     X(meaning_range, 3000, malformed, "a range points outside its table", "cook the asset again")            \
     X(meaning_reference, 3001, malformed, "an index points outside its table", "cook the asset again")       \
     X(meaning_value, 3002, malformed, "a value is not allowed", "cook the asset again")                      \
@@ -96,6 +100,9 @@ enum class IssueClass : uint8_t
     X(meaning_order, 3005, malformed, "records are not in the order that the format asks",                   \
       "cook the asset again")                                                                                \
     X(meaning_geometry, 3006, malformed, "a cluster's geometry is not valid", "cook the asset again")        \
+    X(meaning_text, 3007, malformed, "a text is not valid UTF-8", "cook the asset again")                    \
+    X(meaning_padding, 3008, malformed, "bytes that must be zero are not", "cook the asset again")           \
+    X(meaning_tree, 3009, malformed, "records do not form a tree", "cook the asset again")                   \
     X(cannot_write, 4000, cannotWrite, "an output cannot be written", "check the folder, its rights and the space left") \
     X(read_failed, 4001, io, "reading failed", "check the disk")                                             \
     X(device, 4002, internal, "no usable graphics device", "install a Vulkan driver (mesa-vulkan-drivers)")  \

@@ -2,6 +2,7 @@
 #include "formats/pack_view.h"
 
 #include "formats/byte_reader.h"
+#include "formats/chunk_list.h"
 
 #include <algorithm>
 
@@ -36,8 +37,42 @@ Result<PackView> PackView::read(ContainerReader reader)
     return view;
 }
 
+namespace
+{
+
+// Tables shrink by 2 to 5 in real packs. One that claims far more would fill the memory out of a small file.
+constexpr uint64_t kMaxTableRatio = 256;
+constexpr uint64_t kSmallTable = uint64_t{1} << 20;
+// far above any real table, and low enough that indices and sums of ranges fit 32 bits
+constexpr uint64_t kMaxTableSize = uint64_t{1} << 32;
+
+/// errors: chunk_version, chunk_size for tables that no writer makes.
+Status checkEntry(const ContainerReader& reader, const ChunkEntry& entry)
+{
+    const ChunkInfo* info = chunkInfo(entry.type);
+    if (info == nullptr)
+        return success();
+    const std::string where = chunkName(entry.type, entry.index);
+    if (entry.version != info->version)
+        return Error{Issue::chunk_version, reader.name(), where,
+                     "version " + std::to_string(entry.version) + ", this reads " +
+                         std::to_string(info->version)};
+    const bool table = !info->one_per_index && entry.type != kChunkPages;
+    if (table && (entry.size > kMaxTableSize ||
+                  (entry.size > kSmallTable && entry.size / kMaxTableRatio > entry.stored_size)))
+        return Error{Issue::chunk_size, reader.name(), where,
+                     std::to_string(entry.size) + " bytes from " + std::to_string(entry.stored_size) +
+                         " in the file are not plausible"};
+    return success();
+}
+
+} // namespace
+
 Status PackView::readTables()
 {
+    for (const ChunkEntry& entry : reader_.chunks())
+        HEARTH_TRY(checkEntry(reader_, entry));
+
     const auto table = [this]<typename T>(uint32_t type, Records<T>& records) -> Status
     {
         HEARTH_ASSIGN_OR_RETURN(records, reader_.records<T>(type));

@@ -1,0 +1,60 @@
+// Every chunk type that exists, in one list: readers, FORMAT.md and the tests take it from here.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "formats/mesh.h"
+#include "formats/scene.h"
+
+#include <algorithm>
+#include <array>
+
+namespace hearth::formats
+{
+
+struct ChunkInfo
+{
+    uint32_t type;
+    uint32_t version; ///< newest that this code reads
+    std::string_view content;
+    bool one_per_index; ///< many chunks of the type, one for each mesh or image
+    std::string_view meaning;
+};
+
+inline constexpr std::array kChunkList{
+    ChunkInfo{kChunkMeta, 1, "JSON text", false, "provenance and import report"},
+    ChunkInfo{kChunkStrings, 1, "UTF-8 text", false, "string table that every StringRef points into"},
+    ChunkInfo{kChunkNodes, 1, "NodeRecord[]", false, "the scene's nodes, in the order of the source"},
+    ChunkInfo{kChunkInstances, 1, "InstanceRecord[]", false, "drawn copies of meshes, rest pose"},
+    ChunkInfo{kChunkCameras, 1, "CameraRecord[]", false, "cameras of the source"},
+    ChunkInfo{kChunkLights, 1, "LightRecord[]", false, "punctual lights"},
+    ChunkInfo{kChunkMaterials, 1, "MaterialRecord[]", false, "metallic-roughness materials"},
+    ChunkInfo{kChunkImages, 1, "ImageRecord[]", false, "images"},
+    ChunkInfo{kChunkImageData, 1, "texels", true, "one for each image: all mips, finest first"},
+    ChunkInfo{kChunkSkins, 1, "SkinRecord[]", false, "skins"},
+    ChunkInfo{kChunkJoints, 1, "JointRecord[]", false, "joints of all skins"},
+    ChunkInfo{kChunkAnimations, 1, "AnimationRecord[]", false, "animations"},
+    ChunkInfo{kChunkChannels, 1, "AnimationChannelRecord[]", false, "channels of all animations"},
+    ChunkInfo{kChunkKeys, 1, "f32[]", false, "times and values of all channels"},
+    ChunkInfo{kChunkMorphWeights, 1, "f32[]", false, "rest weights of nodes with morph targets"},
+    ChunkInfo{kChunkMeshes, 1, "MeshRecord[]", false, "one for each mesh of the source, same index"},
+    ChunkInfo{kChunkLevels, 1, "LevelRecord[]", false, "levels of detail of all meshes"},
+    ChunkInfo{kChunkGroups, 1, "GroupRecord[]", false, "groups of all meshes"},
+    ChunkInfo{kChunkClusters, 1, "ClusterRecord[]", false, "clusters of all meshes"},
+    ChunkInfo{kChunkPageTable, 1, "PageRecord[]", false, "the geometry pages"},
+    ChunkInfo{kChunkPageParents, 1, "u32[]", false, "for each page, the pages that it refines"},
+    ChunkInfo{kChunkPages, 1, "pages", false, "geometry; stored without a codec, each page has its own"},
+    ChunkInfo{kChunkSourceMesh, 1, "SourceMeshHeader, SourceArray[], data", true,
+              "parts only: a mesh as imported"},
+    ChunkInfo{kChunkDeformation, 1, "SourceMeshHeader, SourceArray[], data", true,
+              "joints, weights and morph targets of a mesh"},
+};
+
+/// The list's line for a type, or nullptr: readers skip types that they do not know.
+constexpr const ChunkInfo* chunkInfo(uint32_t type)
+{
+    const auto found = std::find_if(kChunkList.begin(), kChunkList.end(),
+                                    [type](const ChunkInfo& chunk) { return chunk.type == type; });
+    return found == kChunkList.end() ? nullptr : &*found;
+}
+
+} // namespace hearth::formats

@@ -1,0 +1,150 @@
+// Meaning of geometry pages: every page is decoded and each cluster held against the bounds that its record claims.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "formats/check_tools.h"
+#include "formats/pack_check.h"
+
+namespace hearth::formats::check
+{
+
+namespace
+{
+
+/// In doubles, the error of a check is far below what its slack allows.
+struct Double3
+{
+    double x = 0, y = 0, z = 0;
+};
+
+Double3 widen(Float3 v)
+{
+    return {v.x, v.y, v.z};
+}
+Double3 operator-(Double3 a, Double3 b)
+{
+    return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+double dot(Double3 a, Double3 b)
+{
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+double length(Double3 a)
+{
+    return std::sqrt(dot(a, a));
+}
+Double3 cross(Double3 a, Double3 b)
+{
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+Status checkVertices(const PackView& view, size_t i, const ClusterGeometry& geometry)
+{
+    const ClusterRecord& cluster = view.clusters()[i];
+    const Double3 center = widen(cluster.sphere_center);
+    const auto wrong = [&](Issue issue, uint32_t vertex, const char* what)
+    { return fail(view, issue, "cluster", i, "vertex " + std::to_string(vertex) + ": " + what); };
+    for (uint32_t v = 0; v < geometry.vertexCount(); ++v)
+    {
+        const Float3 p = geometry.position(v);
+        if (!finite(p))
+            return wrong(Issue::meaning_geometry, v, "its position is not finite");
+        for (int axis = 0; axis < 3; ++axis)
+            if (p[axis] < cluster.box_min[axis] || p[axis] > cluster.box_max[axis])
+                return wrong(Issue::meaning_bounds, v, "it lies outside the cluster's box");
+        if (length(widen(p) - center) > cluster.sphere_radius * (1 + kSphereSlack))
+            return wrong(Issue::meaning_bounds, v, "it lies outside the cluster's sphere");
+        for (const uint32_t attribute : {kVertexNormal, kVertexTangent})
+            if (geometry.has(attribute) &&
+                !legalOctahedral(geometry.word(v, attributeWord(geometry.attributes(), attribute))))
+                return wrong(Issue::meaning_geometry, v, "a direction has no legal code");
+        for (uint32_t set = 0; set < 4; ++set)
+            if (geometry.has(uint32_t{kVertexUv0} << set) && !finite(geometry.uv(v, set)))
+                return wrong(Issue::meaning_geometry, v, "a UV is not finite");
+    }
+    return success();
+}
+
+/// The normal cone holds the triangle's normal, and its apex is not in front of the triangle.
+Status checkCone(const PackView& view, size_t i, Double3 normal, Double3 corner)
+{
+    const ClusterRecord& cluster = view.clusters()[i];
+    const Double3 axis = widen(cluster.cone_axis);
+    const double sine = length(cross(normal, axis)) / length(axis);
+    if (!(dot(normal, axis) > 0) || !(sine <= cluster.cone_cutoff + kConeSlack))
+        return fail(view, Issue::meaning_bounds, "cluster", i,
+                    "a triangle's normal lies outside its normal cone");
+    const Double3 apex = widen(cluster.cone_apex);
+    const double reach = cluster.sphere_radius + length(apex - widen(cluster.sphere_center));
+    if (!(dot(normal, apex - corner) <= kApexSlack * reach))
+        return fail(view, Issue::meaning_bounds, "cluster", i,
+                    "the apex of its normal cone is in front of a triangle");
+    return success();
+}
+
+Status checkTriangles(const PackView& view, size_t i, const ClusterGeometry& geometry)
+{
+    bool has_area = false;
+    for (uint32_t t = 0; t < geometry.triangleCount(); ++t)
+    {
+        const std::array<uint32_t, 3> corners = geometry.triangle(t);
+        for (const uint32_t corner : corners)
+            if (corner >= geometry.vertexCount())
+                return fail(view, Issue::meaning_geometry, "cluster", i,
+                            "triangle " + std::to_string(t) + " names vertex " + std::to_string(corner) +
+                                " of " + std::to_string(geometry.vertexCount()));
+        const Double3 a = widen(geometry.position(corners[0]));
+        const Double3 b = widen(geometry.position(corners[1]));
+        const Double3 c = widen(geometry.position(corners[2]));
+        const Double3 normal = cross(b - a, c - a);
+        const double area = length(normal);
+        if (!(area > 0))
+            continue;
+        has_area = true;
+        if (view.clusters()[i].cone_cutoff < 1)
+            HEARTH_TRY(checkCone(view, i, {normal.x / area, normal.y / area, normal.z / area}, a));
+    }
+    if (!has_area)
+        return fail(view, Issue::meaning_geometry, "cluster", i, "none of its triangles has an area");
+    return success();
+}
+
+/// Clusters lie in the page in their order; what is between them, behind them and behind their indices is zero.
+Status checkPage(const PackView& view, uint32_t page_index, std::span<const std::byte> page)
+{
+    const PageRecord& record = view.pages()[page_index];
+    const uint32_t attributes = view.meshes()[record.mesh].attributes;
+    size_t end = 0;
+    for (uint32_t i = record.clusters.first; i < record.clusters.first + record.clusters.count; ++i)
+    {
+        const ClusterRecord& cluster = view.clusters()[i];
+        const auto geometry = ClusterGeometry::at(page, cluster, attributes);
+        if (!geometry)
+            return fail(view, Issue::meaning_range, "cluster", i, "its geometry lies outside its page");
+        if (cluster.page_offset < end)
+            return fail(view, Issue::meaning_order, "cluster", i, "its geometry overlaps that of another");
+        if (!allZero(page.subspan(end, cluster.page_offset - end)))
+            return fail(view, Issue::meaning_padding, "cluster", i, "bytes before its geometry are not 0");
+        HEARTH_TRY(checkVertices(view, i, *geometry));
+        HEARTH_TRY(checkTriangles(view, i, *geometry));
+        // zeros behind the indices are looked at as bytes before the next cluster
+        end = cluster.page_offset + geometry->vertexBytes().size() + geometry->indexBytes().size();
+    }
+    if (!allZero(page.subspan(end)))
+        return fail(view, Issue::meaning_padding, "page", page_index, "bytes at its end are not 0");
+    return success();
+}
+
+} // namespace
+
+Status checkPageGeometry(const PackView& view)
+{
+    std::vector<std::byte> buffer(kPageMaxBytes);
+    for (uint32_t i = 0; i < view.pages().size(); ++i)
+    {
+        const std::span<std::byte> page = std::span(buffer).first(view.pages()[i].size);
+        HEARTH_TRY(view.decodePage(i, page));
+        HEARTH_TRY(checkPage(view, i, page));
+    }
+    return success();
+}
+
+} // namespace hearth::formats::check

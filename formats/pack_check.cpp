@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "formats/pack_check.h"
+
+#include "formats/byte_reader.h"
+#include "formats/check_tools.h"
+
+namespace hearth::formats
+{
+
+namespace check
+{
+
+namespace
+{
+
+/// Length of the UTF-8 character that starts at `text[0]`, or 0 where there is none (also surrogates, overlong forms).
+size_t characterLength(std::string_view text)
+{
+    const auto byte = [&](size_t i) { return static_cast<unsigned char>(text[i]); };
+    const unsigned char first = byte(0);
+    if (first < 0x80)
+        return 1;
+    const size_t length = first >= 0xC2 && first < 0xE0 ? 2 : first >= 0xE0 && first < 0xF0 ? 3 : 4;
+    if (first < 0xC2 || first > 0xF4 || text.size() < length)
+        return 0;
+    for (size_t i = 1; i < length; ++i)
+        if ((byte(i) & 0xC0) != 0x80)
+            return 0;
+    const bool overlong = (first == 0xE0 && byte(1) < 0xA0) || (first == 0xF0 && byte(1) < 0x90);
+    const bool surrogate = first == 0xED && byte(1) > 0x9F;
+    const bool beyond = first == 0xF4 && byte(1) > 0x8F;
+    return overlong || surrogate || beyond ? 0 : length;
+}
+
+Status checkUtf8(const PackView& view, uint32_t chunk, std::string_view text)
+{
+    for (size_t at = 0; at < text.size();)
+    {
+        const size_t length = characterLength(text.substr(at));
+        if (length == 0)
+            return Error{Issue::meaning_text, view.name(), chunkName(chunk, 0), "byte " + std::to_string(at)};
+        at += length;
+    }
+    return success();
+}
+
+/// A name lies inside the string table and does not cut a character in two.
+template <typename Record>
+Status checkNames(const PackView& view, const char* kind, std::span<const Record> records)
+{
+    const std::string_view all = view.strings();
+    const auto cuts = [&](size_t at)
+    { return at < all.size() && (static_cast<unsigned char>(all[at]) & 0xC0) == 0x80; };
+    for (size_t i = 0; i < records.size(); ++i)
+    {
+        const StringRef name = records[i].name;
+        if (!insideTable({name.offset, name.length}, all.size()))
+            return fail(view, Issue::meaning_range, kind, i, "its name lies outside chunk STRS");
+        if (cuts(name.offset) || cuts(size_t{name.offset} + name.length))
+            return fail(view, Issue::meaning_text, kind, i, "its name cuts a character of chunk STRS in two");
+    }
+    return success();
+}
+
+Status checkMaterialsOfClusters(const PackView& view)
+{
+    for (size_t i = 0; i < view.clusters().size(); ++i)
+        if (!noneOrBelow(view.clusters()[i].material, view.materials().size()))
+            return fail(view, Issue::meaning_reference, "cluster", i,
+                        "material " + std::to_string(view.clusters()[i].material) + " of " +
+                            std::to_string(view.materials().size()));
+    return success();
+}
+
+Status checkDeformation(const PackView& view, uint32_t mesh)
+{
+    const ChunkEntry* entry = view.container().find(kChunkDeformation, mesh);
+    if (entry == nullptr)
+        return Error{Issue::chunk_missing, view.name(), chunkName(kChunkDeformation, mesh), ""};
+    HEARTH_ASSIGN_OR_RETURN(const ChunkData data, view.container().read(kChunkDeformation, mesh));
+    ByteReader reader(data.bytes());
+    const auto header = reader.read<SourceMeshHeader>();
+    if (!header)
+        return fail(view, Issue::chunk_size, "deformation", mesh, "too short for its header");
+    for (uint32_t i = 0; i < header->array_count; ++i)
+    {
+        const auto array = reader.read<SourceArray>();
+        if (!array || array->element_size == 0 ||
+            !checkedPart(data.bytes(), array->offset, array->count, array->element_size))
+            return fail(view, Issue::meaning_range, "deformation", mesh,
+                        "array " + std::to_string(i) + " lies outside the chunk");
+    }
+    return success();
+}
+
+} // namespace
+
+Status checkTexts(const PackView& view)
+{
+    HEARTH_TRY(checkUtf8(view, kChunkMeta, view.meta()));
+    HEARTH_TRY(checkUtf8(view, kChunkStrings, view.strings()));
+    HEARTH_TRY(checkNames(view, "material", view.materials()));
+    HEARTH_TRY(checkNames(view, "image", view.images()));
+    HEARTH_TRY(checkNames(view, "skin", view.skins()));
+    HEARTH_TRY(checkNames(view, "animation", view.animations()));
+    HEARTH_TRY(checkNames(view, "node", view.nodes()));
+    HEARTH_TRY(checkNames(view, "camera", view.cameras()));
+    HEARTH_TRY(checkNames(view, "light", view.lights()));
+    return checkNames(view, "mesh", view.meshes());
+}
+
+Status checkDeformations(const PackView& view)
+{
+    for (uint32_t i = 0; i < view.meshes().size(); ++i)
+        if (view.meshes()[i].skinned != 0 || view.meshes()[i].morph_target_count != 0)
+            HEARTH_TRY(checkDeformation(view, i));
+    return success();
+}
+
+} // namespace check
+
+Status checkHierarchy(const PackView& view)
+{
+    HEARTH_TRY(check::checkMeshTables(view));
+    HEARTH_TRY(check::checkPageTables(view));
+    return check::checkPageGeometry(view);
+}
+
+Status checkPack(const PackView& view)
+{
+    if (view.container().kind() != ContainerKind::pack)
+        return Error{Issue::container_kind, view.name(), "", "this is a part, not a pack"};
+    HEARTH_TRY(check::checkTexts(view));
+    HEARTH_TRY(check::checkMaterials(view));
+    HEARTH_TRY(check::checkImages(view));
+    HEARTH_TRY(check::checkSkins(view));
+    HEARTH_TRY(check::checkAnimations(view));
+    HEARTH_TRY(check::checkNodes(view));
+    HEARTH_TRY(check::checkInstances(view));
+    HEARTH_TRY(check::checkCameras(view));
+    HEARTH_TRY(check::checkLights(view));
+    HEARTH_TRY(checkHierarchy(view));
+    HEARTH_TRY(check::checkMaterialsOfClusters(view));
+    return check::checkDeformations(view);
+}
+
+} // namespace hearth::formats

@@ -1,0 +1,34 @@
+// Checks what a pack means: everything that a runtime relies on without looking again. See FORMAT.md, "Checking".
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "formats/pack_view.h"
+
+namespace hearth::formats
+{
+
+// Bounds are computed and checked in floating point. A writer that works in 32-bit floats, rounds each operation once
+// and rounds bounds up by one part in a million stays well inside what is allowed here.
+
+/// A sphere contains another, or a point, if the distance needed is at most radius * (1 + kSphereSlack).
+inline constexpr double kSphereSlack = 1e-5;
+/// A normal lies in a cone if the sine of its angle to the axis is at most cone_cutoff + kConeSlack.
+inline constexpr double kConeSlack = 1e-4;
+/// An apex lies behind a plane if it is in front by at most kApexSlack * (sphere_radius + distance of the apex from
+/// the centre of the sphere).
+inline constexpr double kApexSlack = 1e-4;
+/// Vectors that must be unit have a length within this of 1.
+inline constexpr double kUnitSlack = 1e-3;
+/// Largest width and height of an image.
+inline constexpr uint32_t kImageMaxSize = 16384;
+
+/// Check everything. The first error in reading order is returned: texts, materials, images, skins, animations, nodes,
+/// instances, cameras, lights, then checkHierarchy, then what refers from one to the other.
+/// Time linear in the size of the tables and decoded pages; safe on any container.
+/// errors: container_kind, chunk_*, page_hash, meaning_*.
+Status checkPack(const PackView& view);
+
+/// Check meshes, levels, groups, clusters, pages and geometry alone: what a clusters part already has.
+Status checkHierarchy(const PackView& view);
+
+} // namespace hearth::formats
