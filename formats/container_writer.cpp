@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "formats/container_writer.h"
 
+#include "formats/container_reader.h"
+
 #define XXH_STATIC_LINKING_ONLY // XXH3_state_t on the stack
 #include <xxhash.h>
 #include <zstd.h>
@@ -91,12 +93,14 @@ Result<ContainerWriter> ContainerWriter::create(const std::string& path, Contain
     return ContainerWriter(std::move(state));
 }
 
-Status ContainerWriter::addChunk(ChunkId id, std::span<const std::byte> bytes, uint32_t element_size, Codec codec)
+Status ContainerWriter::addChunk(ChunkId id, std::span<const std::byte> bytes, uint32_t element_size,
+                                 Codec codec)
 {
     if (codec == Codec::zstd && !bytes.empty())
     {
         std::vector<std::byte> packed(ZSTD_compressBound(bytes.size()));
-        const size_t size = ZSTD_compress(packed.data(), packed.size(), bytes.data(), bytes.size(), kZstdLevel);
+        const size_t size =
+            ZSTD_compress(packed.data(), packed.size(), bytes.data(), bytes.size(), kZstdLevel);
         HEARTH_ASSERT(!ZSTD_isError(size));
         if (size < bytes.size())
         {
@@ -111,6 +115,19 @@ Status ContainerWriter::addChunk(ChunkId id, std::span<const std::byte> bytes, u
     HEARTH_TRY(beginChunk(id, element_size));
     HEARTH_TRY(append(bytes));
     return endChunk();
+}
+
+Status ContainerWriter::addStored(ChunkId id, const ChunkEntry& entry, std::span<const std::byte> stored)
+{
+    HEARTH_TRY(beginChunk(id, entry.element_size));
+    HEARTH_TRY(append(stored));
+    ChunkEntry& copy = state_->table.back();
+    copy.codec = entry.codec;
+    copy.size = entry.size;
+    HEARTH_TRY(endChunk());
+    if (copy.hash != entry.hash || copy.stored_size != entry.stored_size)
+        return Error{Issue::chunk_hash, state_->path, chunkName(id.type, id.index), ""};
+    return success();
 }
 
 Status ContainerWriter::beginChunk(ChunkId id, uint32_t element_size)

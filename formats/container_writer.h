@@ -35,7 +35,8 @@ public:
     Status addChunk(ChunkId id, std::span<const std::byte> bytes, uint32_t element_size, Codec codec);
 
     template <typename T>
-    Status addRecords(uint32_t type, std::span<const T> records, Codec codec = Codec::zstd, uint32_t index = 0)
+    Status addRecords(uint32_t type, std::span<const T> records, Codec codec = Codec::zstd,
+                      uint32_t index = 0)
     {
         static_assert(std::is_trivially_copyable_v<T>);
         return addChunk({.type = type, .index = index}, std::as_bytes(records), sizeof(T), codec);
@@ -45,6 +46,10 @@ public:
     {
         return addChunk({.type = type, .index = index}, std::as_bytes(std::span(text)), 1, codec);
     }
+
+    /// Add a chunk as it is stored in another container, without packing it again. errors: chunk_hash where `stored`
+    /// is not what `entry` says.
+    Status addStored(ChunkId id, const ChunkEntry& entry, std::span<const std::byte> stored);
 
     /// A chunk too large to hold in memory: begin, append any number of times, end. Stored without a codec.
     Status beginChunk(ChunkId id, uint32_t element_size);
