@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "formats/container_writer.h"
 
+#include "formats/container_reader.h"
+
 #define XXH_STATIC_LINKING_ONLY // XXH3_state_t on the stack
 #include <xxhash.h>
 #include <zstd.h>
@@ -113,6 +115,19 @@ Status ContainerWriter::addChunk(ChunkId id, std::span<const std::byte> bytes, u
     HEARTH_TRY(beginChunk(id, element_size));
     HEARTH_TRY(append(bytes));
     return endChunk();
+}
+
+Status ContainerWriter::addStored(ChunkId id, const ChunkEntry& entry, std::span<const std::byte> stored)
+{
+    HEARTH_TRY(beginChunk(id, entry.element_size));
+    HEARTH_TRY(append(stored));
+    ChunkEntry& copy = state_->table.back();
+    copy.codec = entry.codec;
+    copy.size = entry.size;
+    HEARTH_TRY(endChunk());
+    if (copy.hash != entry.hash || copy.stored_size != entry.stored_size)
+        return Error{Issue::chunk_hash, state_->path, chunkName(id.type, id.index), ""};
+    return success();
 }
 
 Status ContainerWriter::beginChunk(ChunkId id, uint32_t element_size)
