@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/mesh/weld.h"
+
+#include <bit>
+#include <cstring>
+
+namespace hearth::mesh
+{
+
+namespace
+{
+
+constexpr uint32_t kEmpty = 0xFFFFFFFFu;
+
+uint64_t mix(uint64_t h)
+{
+    // finaliser of splitmix64 (S. Vigna): neighbouring coordinates spread over the whole table
+    h = (h ^ (h >> 30)) * 0xBF58476D1CE4E5B9u;
+    h = (h ^ (h >> 27)) * 0x94D049BB133111EBu;
+    return h ^ (h >> 31);
+}
+
+/// Open-addressing set of element indices; hash and equality are the caller's.
+class IndexSet
+{
+public:
+    explicit IndexSet(size_t count) : slots_(std::bit_ceil(count * 2 + 1), kEmpty) {}
+
+    /// The element that equals `index`, which is `index` itself when it is new.
+    template <typename Equal>
+    uint32_t findOrInsert(uint32_t index, uint64_t hash, Equal equal)
+    {
+        const size_t mask = slots_.size() - 1;
+        for (size_t slot = hash & mask;; slot = (slot + 1) & mask)
+        {
+            if (slots_[slot] == kEmpty)
+                return slots_[slot] = index;
+            if (equal(slots_[slot], index))
+                return slots_[slot];
+        }
+    }
+
+private:
+    std::vector<uint32_t> slots_;
+};
+
+/// One array of a mesh as rows of bytes.
+struct Rows
+{
+    const std::byte* data;
+    size_t size;
+
+    const std::byte* operator[](uint32_t row) const { return data + row * size; }
+};
+
+template <typename T>
+void addRows(std::vector<Rows>& rows, const std::vector<T>& values)
+{
+    if (!values.empty())
+        rows.push_back({reinterpret_cast<const std::byte*>(values.data()), sizeof(T)});
+}
+
+std::vector<Rows> allRows(const SourceMesh& mesh)
+{
+    std::vector<Rows> rows;
+    addRows(rows, mesh.positions);
+    addRows(rows, mesh.normals);
+    addRows(rows, mesh.tangents);
+    for (const auto& uv : mesh.uvs)
+        addRows(rows, uv);
+    addRows(rows, mesh.colors);
+    for (const auto& set : mesh.joint_sets)
+        addRows(rows, set);
+    for (const auto& set : mesh.weight_sets)
+        addRows(rows, set);
+    for (const MorphTarget& target : mesh.morph_targets)
+    {
+        addRows(rows, target.positions);
+        addRows(rows, target.normals);
+        addRows(rows, target.tangents);
+    }
+    return rows;
+}
+
+uint64_t hashRow(const std::byte* row, size_t size, uint64_t hash)
+{
+    // every array's element is a multiple of four bytes
+    for (size_t i = 0; i < size; i += sizeof(uint32_t))
+    {
+        uint32_t word;
+        std::memcpy(&word, row + i, sizeof(word));
+        hash = (hash ^ word) * 0x9E3779B97F4A7C15u;
+        hash ^= hash >> 32;
+    }
+    return hash;
+}
+
+} // namespace
+
+Weld weldPositions(std::span<const Float3> positions)
+{
+    Weld weld;
+    weld.position_of_vertex.resize(positions.size());
+    IndexSet set(positions.size());
+    const auto equal = [&](uint32_t a, uint32_t b) { return positions[a] == positions[b]; };
+    for (uint32_t vertex = 0; vertex < positions.size(); ++vertex)
+    {
+        const Float3 p = positions[vertex] + Float3{}; // -0 + 0 = +0
+        const uint64_t xy = std::bit_cast<uint32_t>(p.x) | uint64_t{std::bit_cast<uint32_t>(p.y)} << 32;
+        const uint32_t first =
+            set.findOrInsert(vertex, mix(mix(xy) + std::bit_cast<uint32_t>(p.z)), equal);
+        weld.position_of_vertex[vertex] =
+            first == vertex ? weld.position_count++ : weld.position_of_vertex[first];
+    }
+    return weld;
+}
+
+std::vector<uint32_t> firstEqualVertices(const SourceMesh& mesh)
+{
+    const std::vector<Rows> rows = allRows(mesh);
+    std::vector<uint32_t> first(mesh.vertexCount());
+    IndexSet set(mesh.vertexCount());
+    const auto equal = [&](uint32_t a, uint32_t b)
+    {
+        for (const Rows& array : rows)
+            if (std::memcmp(array[a], array[b], array.size) != 0)
+                return false;
+        return true;
+    };
+    for (uint32_t vertex = 0; vertex < first.size(); ++vertex)
+    {
+        uint64_t hash = 0;
+        for (const Rows& array : rows)
+            hash = hashRow(array[vertex], array.size, hash);
+        first[vertex] = set.findOrInsert(vertex, mix(hash), equal);
+    }
+    return first;
+}
+
+} // namespace hearth::mesh
