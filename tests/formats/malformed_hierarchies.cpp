@@ -190,7 +190,7 @@ std::vector<MalformedPack> malformedPages()
          [](PackModel& p) { p.page_parents.push_back(0); }},
         {"pageOffset", Issue::meaning_order, "page 1", [](PackModel& p) { p.pages[1].offset += 64; }},
         {"pageOutside", Issue::meaning_range, "page 3",
-         [](PackModel& p) { p.page_bytes.resize(p.page_bytes.size() - 1); }},
+         [](PackModel& p) { p.page_bytes.pop_back(); }},
         {"pagePadding", Issue::meaning_padding, "page 1",
          [](PackModel& p) { p.page_bytes[p.pages[1].offset - 1] = std::byte{1}; }},
         {"pageBytesBehind", Issue::meaning_range, "chunk PAGE 0",
