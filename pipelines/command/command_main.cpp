@@ -103,7 +103,7 @@ void addInspect(CLI::App& app, Work& run)
         {
             run = [options]
             {
-                const auto pack = command::openPack(options->file);
+                const auto pack = command::openContainer(options->file);
                 if (!pack.ok())
                     return fail(pack.error());
                 const command::PackSummary summary = command::summarize(*pack);

@@ -9,8 +9,12 @@
 namespace hearth::command
 {
 
-/// Map the file and check all of it: container, hashes, and for packs the meaning of every record.
+/// Map the file and check all of it: the container, every hash, and for a pack the meaning of every record.
+/// A part is opened as well: its tables are safe to read, but nobody has looked at what they mean.
 /// errors: those of ContainerReader::open, PackView::read and checkPack.
+Result<formats::PackView> openContainer(const std::string& path);
+
+/// The same for packs alone. errors: container_kind where it is a part.
 Result<formats::PackView> openPack(const std::string& path);
 
 } // namespace hearth::command

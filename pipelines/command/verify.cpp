@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/command/verify.h"
 
+#include "formats/pack_check.h"
 #include "pipelines/command/open_pack.h"
 #include "pipelines/command/terminal.h"
 
@@ -12,16 +13,35 @@ namespace hearth::command
 
 using namespace formats;
 
-Result<PackView> openPack(const std::string& path)
+namespace
+{
+
+Result<PackView> readContainer(const std::string& path)
 {
     HEARTH_ASSIGN_OR_RETURN(ContainerReader reader, ContainerReader::open(path, Check::everything));
-    HEARTH_ASSIGN_OR_RETURN(PackView view, PackView::read(std::move(reader)));
+    return PackView::read(std::move(reader));
+}
+
+} // namespace
+
+Result<PackView> openContainer(const std::string& path)
+{
+    HEARTH_ASSIGN_OR_RETURN(PackView view, readContainer(path));
+    if (view.container().kind() == ContainerKind::pack)
+        HEARTH_TRY(checkPack(view));
+    return view;
+}
+
+Result<PackView> openPack(const std::string& path)
+{
+    HEARTH_ASSIGN_OR_RETURN(PackView view, readContainer(path));
+    HEARTH_TRY(checkPack(view));
     return view;
 }
 
 Result<std::string> verifyFile(const std::string& path)
 {
-    HEARTH_ASSIGN_OR_RETURN(const PackView view, openPack(path));
+    HEARTH_ASSIGN_OR_RETURN(const PackView view, openContainer(path));
     const FileHeader& header = view.container().header();
     if (view.container().kind() != ContainerKind::pack)
         return fmt::format("{}: ok: part, {}, {} chunks\n", path, readableSize(header.file_size),

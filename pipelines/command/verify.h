@@ -9,7 +9,7 @@
 namespace hearth::command
 {
 
-/// One line that says what was found to be right. errors: those of openPack.
+/// One line that says what was found to be right. errors: those of openContainer.
 Result<std::string> verifyFile(const std::string& path);
 
 /// Schema "hearth.verify/1", for a file that is right and for one that is not.
