@@ -2,7 +2,7 @@
 #include "pipelines/link/link.h"
 
 #include "formats/container_writer.h"
-#include "formats/pack_view.h"
+#include "formats/pack_check.h"
 #include "pipelines/link/merged_meta.h"
 #include "pipelines/link/rebase.h"
 
@@ -170,6 +170,7 @@ Status writeScene(ContainerWriter& writer, std::span<const Source> sources)
     HEARTH_TRY(write(kChunkCameras, &PackView::cameras));
     HEARTH_TRY(write(kChunkLights, &PackView::lights));
     HEARTH_TRY(write(kChunkMaterials, &PackView::materials));
+    HEARTH_TRY(writeTable(writer, sources, kChunkImages, &Source::textures_part, &PackView::images));
     HEARTH_TRY(write(kChunkSkins, &PackView::skins));
     HEARTH_TRY(write(kChunkJoints, &PackView::joints));
     HEARTH_TRY(write(kChunkAnimations, &PackView::animations));
@@ -223,12 +224,11 @@ Status writePack(const std::string& path, std::span<const Source> sources)
     HEARTH_TRY(writeStrings(writer, sources));
     HEARTH_TRY(writeScene(writer, sources));
     HEARTH_TRY(writeMeshes(writer, sources));
-    HEARTH_TRY(writeTable(writer, sources, kChunkImages, &Source::textures_part, &PackView::images));
+    HEARTH_TRY(writePages(writer, sources));
     for (const Source& source : sources)
         HEARTH_TRY(copyChunks(writer, source.clusters_part, kChunkDeformation, source.offsets.meshes));
     for (const Source& source : sources)
         HEARTH_TRY(copyChunks(writer, source.textures_part, kChunkImageData, source.offsets.images));
-    HEARTH_TRY(writePages(writer, sources));
     return writer.finish();
 }
 
@@ -237,7 +237,7 @@ Status checkWritten(const std::string& path)
 {
     HEARTH_ASSIGN_OR_RETURN(ContainerReader reader, ContainerReader::open(path));
     HEARTH_ASSIGN_OR_RETURN(const PackView pack, PackView::read(std::move(reader)));
-    return success();
+    return checkPack(pack);
 }
 
 } // namespace
