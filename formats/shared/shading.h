@@ -24,18 +24,18 @@ struct Material
     float roughness;
     float normal_scale;
     float occlusion_strength;
-    uint flags;      ///< formats::MaterialFlags
-    uint alpha_mode; ///< formats::AlphaMode
-    uint textures;   ///< bit i: texture i is there
-    uint uv_sets;    ///< four bits each
+    uint flags;         ///< formats::MaterialFlags
+    uint alpha_mode;    ///< formats::AlphaMode
+    uint textures;      ///< bit i: texture i is there
+    uint uv_sets;       ///< four bits each
     Float4 uv_rows[10]; ///< two rows for each texture; uv = (row0 . (u, v, 1), row1 . (u, v, 1))
 };
 
 /// formats::LightRecord made ready: direction and cone as the falloff needs them.
 struct Light
 {
-    Float3 position; ///< world
-    uint type;       ///< formats::LightType
+    Float3 position;  ///< world
+    uint type;        ///< formats::LightType
     Float3 direction; ///< unit, the way the light shines
     float range;      ///< metres; 0: unlimited
     Float3 intensity; ///< linear colour times candela or lux, after exposure

@@ -18,7 +18,8 @@ struct RequiredFormat
 
 constexpr RequiredFormat kRequiredFormats[] = {
     {VK_FORMAT_R32_UINT, VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BIT, "R32_UINT"},
-    {VK_FORMAT_R8G8B8A8_SRGB, VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BIT | VK_FORMAT_FEATURE_SAMPLED_IMAGE_FILTER_LINEAR_BIT,
+    {VK_FORMAT_R8G8B8A8_SRGB,
+     VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BIT | VK_FORMAT_FEATURE_SAMPLED_IMAGE_FILTER_LINEAR_BIT,
      "R8G8B8A8_SRGB"},
     {VK_FORMAT_D32_SFLOAT, VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT, "D32_SFLOAT"},
     {VK_FORMAT_D16_UNORM, VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT, "D16_UNORM"},
@@ -72,7 +73,8 @@ Error vulkanError(VkResult result, const char* what)
         break;
     }
     return {Issue::device_failed, "", "",
-            std::string("cannot ") + what + ": " + reason + " (VkResult " + std::to_string(static_cast<int>(result)) + ")"};
+            std::string("cannot ") + what + ": " + reason + " (VkResult " +
+                std::to_string(static_cast<int>(result)) + ")"};
 }
 
 } // namespace hearth::gpu

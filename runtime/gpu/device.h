@@ -48,7 +48,10 @@ class Unique
 public:
     Unique() = default;
     Unique(const Device& device, T handle) : device_(&device), handle_(handle) {}
-    Unique(Unique&& other) noexcept : device_(other.device_), handle_(std::exchange(other.handle_, VK_NULL_HANDLE)) {}
+    Unique(Unique&& other) noexcept
+        : device_(other.device_), handle_(std::exchange(other.handle_, VK_NULL_HANDLE))
+    {
+    }
     Unique& operator=(Unique&& other) noexcept
     {
         std::swap(device_, other.device_);

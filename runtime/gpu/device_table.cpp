@@ -4,7 +4,8 @@
 namespace hearth::gpu
 {
 
-const char* DeviceTable::load(PFN_vkGetInstanceProcAddr get_instance_proc_addr, VkInstance instance, VkDevice device)
+const char* DeviceTable::load(PFN_vkGetInstanceProcAddr get_instance_proc_addr, VkInstance instance,
+                              VkDevice device)
 {
 #define HEARTH_LOAD(name)                                                                                    \
     name = reinterpret_cast<PFN_##name>(get_instance_proc_addr(instance, #name));                            \

@@ -26,7 +26,8 @@ std::optional<uint32_t> findType(const VkPhysicalDeviceMemoryProperties& memory,
 }
 
 /// The best type there is: each kind can do with less than it would like.
-std::optional<uint32_t> chooseType(const VkPhysicalDeviceMemoryProperties& memory, uint32_t allowed, MemoryKind kind)
+std::optional<uint32_t> chooseType(const VkPhysicalDeviceMemoryProperties& memory, uint32_t allowed,
+                                   MemoryKind kind)
 {
     VkMemoryPropertyFlags best = VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT;
     VkMemoryPropertyFlags enough = 0;
@@ -48,7 +49,8 @@ VkDeviceSize alignUp(VkDeviceSize value, VkDeviceSize alignment)
 
 } // namespace
 
-Result<MemoryArena::Piece> MemoryArena::allocate(const VkMemoryRequirements& needs, MemoryKind kind, bool image)
+Result<MemoryArena::Piece> MemoryArena::allocate(const VkMemoryRequirements& needs, MemoryKind kind,
+                                                 bool image)
 {
     const auto type = chooseType(device_->memory, needs.memoryTypeBits, kind);
     if (!type)
@@ -95,7 +97,8 @@ Result<Buffer> MemoryArena::createBuffer(VkDeviceSize size, VkBufferUsageFlags u
     info.usage = usage;
     info.sharingMode = VK_SHARING_MODE_EXCLUSIVE;
     VkBuffer handle;
-    HEARTH_TRY_VK(device_->vk.vkCreateBuffer(device_->handle, &info, device_->allocator, &handle), "create a buffer");
+    HEARTH_TRY_VK(device_->vk.vkCreateBuffer(device_->handle, &info, device_->allocator, &handle),
+                  "create a buffer");
     buffer.handle = UniqueBuffer(*device_, handle);
 
     VkMemoryRequirements needs;
@@ -122,7 +125,8 @@ Result<Image> MemoryArena::createImage(const ImageDescription& description)
     info.sharingMode = VK_SHARING_MODE_EXCLUSIVE;
     info.initialLayout = VK_IMAGE_LAYOUT_UNDEFINED;
     VkImage handle;
-    HEARTH_TRY_VK(device_->vk.vkCreateImage(device_->handle, &info, device_->allocator, &handle), "create an image");
+    HEARTH_TRY_VK(device_->vk.vkCreateImage(device_->handle, &info, device_->allocator, &handle),
+                  "create an image");
     Image image;
     image.handle = UniqueImage(*device_, handle);
     image.format = description.format;

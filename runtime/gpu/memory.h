@@ -13,9 +13,9 @@ namespace hearth::gpu
 
 enum class MemoryKind
 {
-    device,  ///< fastest for the GPU; not mapped
-    staging, ///< mapped and coherent, written by the CPU
-    readback,///< mapped and coherent, read by the CPU; cached where there is such memory
+    device,   ///< fastest for the GPU; not mapped
+    staging,  ///< mapped and coherent, written by the CPU
+    readback, ///< mapped and coherent, read by the CPU; cached where there is such memory
 };
 
 struct Buffer
