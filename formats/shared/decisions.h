@@ -13,8 +13,12 @@ HEARTH_SHARED_BEGIN
 /// that it stands for can add up to, so that a test that is right in real numbers stays right in floats.
 HEARTH_CONSTANT float kRoundingSlack = 9.5367431640625e-7f;
 
-/// Rasterisers snap vertices to 1/256 pixel, which can turn a sliver that faces just away; in sines of an angle.
+/// Rasterisers snap vertices to 1/256 pixel, which can turn a sliver that faces just away; and the checker allows a
+/// cone to miss a tenth of this (formats::kConeSlack). In sines of an angle.
 HEARTH_CONSTANT float kConeMargin = 1e-3f;
+
+/// How far the checker lets an apex stand in front of a plane: formats::kApexSlack.
+HEARTH_CONSTANT float kApexMargin = 1e-4f;
 
 /// Errors above are infinite: the group is a root, nothing coarser exists.
 HEARTH_CONSTANT float kLargestError = 1e38f;
@@ -22,6 +26,12 @@ HEARTH_CONSTANT float kLargestError = 1e38f;
 HEARTH_FUNCTION float dot3(Float3 a, Float3 b)
 {
     HEARTH_PRECISE float sum = (a.x * b.x + a.y * b.y) + a.z * b.z;
+    return sum;
+}
+
+HEARTH_FUNCTION float sum3(Float3 a)
+{
+    HEARTH_PRECISE float sum = (a.x + a.y) + a.z;
     return sum;
 }
 
@@ -114,17 +124,18 @@ HEARTH_FUNCTION bool clusterInCut(HEARTH_IN(FrameView) view, HEARTH_IN(Instance)
 
 /// True where every triangle of the cluster faces away from the eye. In object space, where any affine matrix,
 /// mirrored or sheared, leaves the facing as it is. Not for double-sided materials.
-HEARTH_FUNCTION bool coneFacesAway(Float3 eye_object, float eye_slack, Float3 cone_axis, float cone_cutoff,
-                                   Float3 cone_apex)
+HEARTH_FUNCTION bool coneFacesAway(Float3 eye_object, float eye_slack, HEARTH_IN(Cluster) cluster)
 {
-    if (cone_cutoff >= 1.0f)
+    if (cluster.cone_cutoff >= 1.0f)
         return false;
-    HEARTH_PRECISE Float3 to_apex = cone_apex - eye_object;
+    HEARTH_PRECISE Float3 to_apex = cluster.cone_apex - eye_object;
+    HEARTH_PRECISE Float3 from_center = cluster.cone_apex - cluster.sphere_center;
     HEARTH_PRECISE float distance = sqrt(dot3(to_apex, to_apex));
-    HEARTH_PRECISE float slack =
-        2.0f * eye_slack + (abs(cone_apex.x) + abs(cone_apex.y) + abs(cone_apex.z)) * kRoundingSlack;
-    HEARTH_PRECISE float needed = (cone_cutoff + kConeMargin) * distance + slack;
-    return dot3(to_apex, cone_axis) >= needed;
+    HEARTH_PRECISE float reach = cluster.sphere_radius + sqrt(dot3(from_center, from_center));
+    HEARTH_PRECISE float position_slack =
+        (2.0f * eye_slack + sum3(abs3(cluster.cone_apex)) * kRoundingSlack) + reach * kApexMargin;
+    HEARTH_PRECISE float needed = (cluster.cone_cutoff + kConeMargin) * distance + position_slack;
+    return dot3(to_apex, cluster.cone_axis) >= needed;
 }
 
 /// The instance pass: where the eye is in object space, and whether anything of the mesh can be seen.
@@ -139,7 +150,7 @@ HEARTH_FUNCTION InstanceState decideInstance(HEARTH_IN(FrameView) view, HEARTH_I
     Float3 row_z = row3(inverse.object_from_world_z);
     Float3 size = abs3(offset);
     HEARTH_PRECISE float magnitude =
-        (dot3(abs3(row_x), size) + dot3(abs3(row_y), size)) + dot3(abs3(row_z), size);
+        sum3(Float3(dot3(abs3(row_x), size), dot3(abs3(row_y), size), dot3(abs3(row_z), size)));
 
     InstanceState state;
     state.eye_object = Float3(dot3(row_x, offset), dot3(row_y, offset), dot3(row_z, offset));
@@ -170,8 +181,7 @@ HEARTH_FUNCTION bool decideCluster(HEARTH_IN(FrameView) view, HEARTH_IN(Instance
         boxOutsideFrustum(view, instance, cluster.box_min, cluster.box_max))
         return false;
     bool test_cone = (view.flags & kCullCone) != 0u && !double_sided && state.cone_valid != 0u;
-    return !(test_cone && coneFacesAway(state.eye_object, state.eye_slack, cluster.cone_axis,
-                                        cluster.cone_cutoff, cluster.cone_apex));
+    return !(test_cone && coneFacesAway(state.eye_object, state.eye_slack, cluster));
 }
 
 HEARTH_SHARED_END

@@ -112,11 +112,41 @@ struct VisibleCluster
     uint cluster;
 };
 
+/// Items [first_item, first_item + item_count) of the work list are drawn by one indirect draw with one pipeline.
+struct Bin
+{
+    uint first_item;
+    uint item_count;
+};
+
+/// The indirect draw of a bin (VkDrawIndirectCommand), and the first slot of the visible list that it draws:
+/// drawIndirectFirstInstance is not required of the device, so the first instance is always 0.
+struct BinDraw
+{
+    uint vertex_count;
+    uint instance_count;
+    uint first_vertex;
+    uint first_instance;
+    uint first_slot;
+    uint reserved0;
+    uint reserved1;
+    uint reserved2;
+};
+
+/// Counters of a frame, for the caller to read back.
+struct FrameCounters
+{
+    uint drawn_clusters;   ///< clusters that passed all tests
+    uint dropped_clusters; ///< of these, the last ones for which the visible list had no slot
+    uint reserved0;
+    uint reserved1;
+};
+
 /// What drawing needs of a cluster; `address` counts words in the geometry pool.
 struct ClusterDraw
 {
     uint address;
-    uint counts; ///< vertices | triangles << 16
+    uint counts; ///< vertices | triangles << 9 | level << 17
     uint attributes;
     uint material; ///< 1 + row of the material table; 0 is the sky
 };
@@ -142,19 +172,21 @@ struct FrameView
 };
 
 HEARTH_CONSTANT uint kWorkItemClusters = 64;
+/// Work items that one workgroup of the scan adds up.
+HEARTH_CONSTANT uint kScanBlockItems = 1024;
+/// Workgroups of a dispatch in x; more go to y (65535 is what every device has in each).
+HEARTH_CONSTANT uint kDispatchRow = 32768;
+/// Vertices of one instance of a cluster draw: 128 triangles without indices.
+HEARTH_CONSTANT uint kClusterVertices = 384;
+/// The geometry pool is cut into slices of 128 MiB, the storage buffer range that every device has.
+HEARTH_CONSTANT uint kPoolSliceBits = 25; ///< of a word address
+HEARTH_CONSTANT uint kPoolSlices = 4;
 HEARTH_CONSTANT uint kItemDoubleSided = 1; ///< skip the normal cone
 
 HEARTH_CONSTANT uint kCullInstances = 1;
 HEARTH_CONSTANT uint kCullFrustum = 2;
 HEARTH_CONSTANT uint kCullCone = 4;
 HEARTH_CONSTANT uint kCullEverything = 7;
-
-HEARTH_CONSTANT uint kViewFinal = 0;
-HEARTH_CONSTANT uint kViewClusters = 1;
-HEARTH_CONSTANT uint kViewLod = 2;
-HEARTH_CONSTANT uint kViewTriangles = 3;
-HEARTH_CONSTANT uint kViewNormals = 4;
-HEARTH_CONSTANT uint kViewDepth = 5;
 
 /// Visibility buffer: slot << kTriangleBits | triangle.
 HEARTH_CONSTANT uint kTriangleBits = 7;

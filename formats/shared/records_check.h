@@ -51,3 +51,8 @@ static_assert(sizeof(hearth::shared::MeshBounds) == 32);
 static_assert(sizeof(hearth::shared::InstanceInverse) == 48);
 static_assert(sizeof(hearth::shared::InstanceState) == 32);
 static_assert(sizeof(hearth::shared::FrameView) == 176);
+static_assert(sizeof(hearth::shared::BinDraw) == 32);
+static_assert(sizeof(hearth::shared::WorkItem) == 16);
+static_assert(sizeof(hearth::shared::WorkResult) == 16);
+static_assert(sizeof(hearth::shared::ClusterDraw) == 16);
+static_assert(hearth::shared::kClusterVertices == 3 * hearth::formats::kClusterMaxTriangles);
