@@ -104,7 +104,7 @@ HEARTH_RECORD(hearth::formats::Range, 8,
 HEARTH_RECORD(
     hearth::formats::FileHeader, 128,
     HEARTH_FIELD(hearth::formats::FileHeader, magic, "\"HRTH\" AB \"PACK\" BB 0D 0A 1A 0A 00 00"),
-    HEARTH_FIELD(hearth::formats::FileHeader, version_major, "readers refuse a greater one"),
+    HEARTH_FIELD(hearth::formats::FileHeader, version_major, "readers refuse another one"),
     HEARTH_FIELD(hearth::formats::FileHeader, version_minor, "greater ones only add chunks and fields"),
     HEARTH_FIELD(hearth::formats::FileHeader, endian_mark, "0x01020304, little-endian"),
     HEARTH_FIELD(hearth::formats::FileHeader, header_size, "size of this header: 128"),
