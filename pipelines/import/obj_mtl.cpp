@@ -3,6 +3,8 @@
 #include "pipelines/import/obj_materials.h"
 #include "pipelines/import/scan_text.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 
@@ -83,7 +85,7 @@ private:
         else if (keyword == "Ns")
             material_->has_shininess = readScalar(material_->shininess);
         else if (std::find(kIgnored.begin(), kIgnored.end(), keyword) == kIgnored.end())
-            note(Issue::dropped, "'" + std::string(keyword.substr(0, 40)) + "' is not kept");
+            note(Issue::dropped, fmt::format("'{}' is not kept", keyword.substr(0, 40)));
     }
 
     void note(Issue issue, std::string detail)

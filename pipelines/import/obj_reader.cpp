@@ -4,6 +4,8 @@
 #include "pipelines/import/scan_file.h"
 #include "pipelines/import/scan_text.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <limits>
@@ -104,7 +106,7 @@ private:
             const auto value = readNumber();
             if (!value || count == N)
                 return syntax(value ? "more than " + std::to_string(N) + " numbers"
-                                    : "'" + shortened(text_.word()) + "' is not a number");
+                                    : fmt::format("'{}' is not a number", shortened(text_.word())));
             values[count++] = *value;
         }
         return count;
@@ -253,7 +255,7 @@ private:
             text_.skip(1);
         }
         if (!atCornerEnd())
-            return syntax("'" + shortened(text_.word()) + "' follows a corner");
+            return syntax(fmt::format("'{}' follows a corner", shortened(text_.word())));
         addIndex(file_.corner_uvs, index[kUv]);
         addIndex(file_.corner_normals, index[kNormal]);
         file_.corner_positions.push_back(index[kPosition]);
@@ -287,7 +289,7 @@ private:
     {
         const auto number = text_.integer();
         if (!number)
-            return syntax("'" + shortened(text_.word()) + "' is not an index");
+            return syntax(fmt::format("'{}' is not an index", shortened(text_.word())));
         const auto count = static_cast<int64_t>(countOf(kind));
         const int64_t from_zero = *number < 0 ? count + *number : *number - 1;
         if (*number == 0 || from_zero < 0 || from_zero >= kNone)
@@ -300,15 +302,34 @@ private:
         return success();
     }
 
-    Status checkReferences() const
+    /// Positions must be there. Corners whose UV or normal is not become corners without one.
+    Status checkReferences()
     {
-        for (size_t kind = kPosition; kind <= kNormal; ++kind)
-            if (forward_[kind].index > countOf(kind))
-                return Error{
-                    Issue::index_out_of_range, source_.path, "line " + std::to_string(forward_[kind].line),
-                    std::string(kKindNames[kind]) + " index " + std::to_string(forward_[kind].index) +
-                        " with " + std::to_string(countOf(kind)) + " in the file"};
+        const ForwardReference& position = forward_[kPosition];
+        if (position.index > file_.positions.size())
+            return Error{
+                Issue::index_out_of_range, source_.path, "line " + std::to_string(position.line),
+                fmt::format("vertex index {} with {} in the file", position.index, file_.positions.size())};
+        forgetMissing(kUv, file_.corner_uvs);
+        forgetMissing(kNormal, file_.corner_normals);
         return success();
+    }
+
+    void forgetMissing(size_t kind, std::vector<uint32_t>& indices)
+    {
+        size_t missing = 0;
+        for (uint32_t& index : indices)
+            if (index != kNone && index >= countOf(kind))
+            {
+                index = kNone;
+                ++missing;
+            }
+        if (missing > 0)
+            file_.note(
+                Issue::repaired, "line " + std::to_string(forward_[kind].line),
+                fmt::format("{} corners name a {} that the file does not have", missing, kKindNames[kind]));
+        if (countOf(kind) == 0)
+            indices.clear();
     }
 
     void useMaterial(std::string_view name)
@@ -354,7 +375,7 @@ private:
     void finishNotes()
     {
         for (const auto& [keyword, dropped] : dropped_)
-            noteDropped(dropped, Issue::dropped, "statements '" + keyword + "' are not kept");
+            noteDropped(dropped, Issue::dropped, fmt::format("statements '{}' are not kept", keyword));
         noteDropped(small_faces_, Issue::dropped, "faces with fewer than three corners are not kept");
         noteDropped(mended_, Issue::repaired, "numbers have the sign of the exponent before the letter");
         noteDropped(bad_colors_, Issue::repaired, "vertex colours are not finite and became white");
