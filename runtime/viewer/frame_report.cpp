@@ -29,13 +29,6 @@ std::string quoted(std::string_view text)
     return result + "\"";
 }
 
-template <typename Range>
-void appendWords(std::vector<std::byte>& out, const Range& values)
-{
-    const auto bytes = std::as_bytes(std::span(values));
-    out.insert(out.end(), bytes.begin(), bytes.end());
-}
-
 } // namespace
 
 Result<VisibleList> readVisibleList(VulkanHost& host, const gpu::Renderer& renderer, const gpu::Scene& scene)
@@ -112,12 +105,17 @@ std::string formatReport(const FrameReport& report, const formats::PackView& pac
 std::vector<std::byte> formatVisibility(const VisibleList& list, std::span<const std::byte> pixels,
                                         uint32_t width, uint32_t height)
 {
-    std::vector<std::byte> out;
     const uint32_t header[] = {formats::fourCC("HVIS"), width, height,
                                static_cast<uint32_t>(list.slots.size())};
-    appendWords(out, header);
-    appendWords(out, list.slots);
-    out.insert(out.end(), pixels.begin(), pixels.end());
+    const std::span<const std::byte> parts[] = {std::as_bytes(std::span(header)),
+                                                std::as_bytes(std::span(list.slots)), pixels};
+    std::vector<std::byte> out(parts[0].size() + parts[1].size() + parts[2].size());
+    size_t at = 0;
+    for (const std::span<const std::byte> part : parts)
+    {
+        std::copy(part.begin(), part.end(), out.begin() + static_cast<ptrdiff_t>(at));
+        at += part.size();
+    }
     return out;
 }
 
