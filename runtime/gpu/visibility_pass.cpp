@@ -19,8 +19,7 @@ Result<VisibilityPass> VisibilityPass::create(const Device& device, const DrawLa
             .layout = layouts.pipeline.get(),
             .render_pass = render_pass,
             .subpass = kSubpassVisibility,
-            .cull =
-                facing == Facing::doubleSided ? VkCullModeFlags{VK_CULL_MODE_NONE} : VK_CULL_MODE_BACK_BIT,
+            .cull = facing == Facing::doubleSided ? VK_CULL_MODE_NONE : VK_CULL_MODE_BACK_BIT,
             .front_face =
                 facing == Facing::mirrored ? VK_FRONT_FACE_CLOCKWISE : VK_FRONT_FACE_COUNTER_CLOCKWISE,
             .depth_compare = VK_COMPARE_OP_GREATER, // reversed: 1 at the near plane, 0 infinitely far away
