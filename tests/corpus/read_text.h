@@ -1,0 +1,17 @@
+// Text files as strings and lines.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace hearth::corpus
+{
+
+/// The first `max_size` bytes of a file; empty where it cannot be read.
+std::string readText(const std::string& path, size_t max_size);
+
+std::vector<std::string> linesOf(const std::string& text);
+std::string firstLine(const std::string& text);
+
+} // namespace hearth::corpus
