@@ -130,6 +130,7 @@ Result<ContainerReader> ContainerReader::open(const std::string& path, Check che
 Result<ContainerReader> ContainerReader::fromBytes(std::span<const std::byte> bytes, std::string name,
                                                    Check check)
 {
+    HEARTH_ASSERT(reinterpret_cast<uintptr_t>(bytes.data()) % alignof(uint64_t) == 0);
     ContainerReader reader;
     reader.name_ = std::move(name);
     reader.bytes_ = bytes;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "formats/container_writer.h"
 
+#include "formats/container_reader.h"
+
 #define XXH_STATIC_LINKING_ONLY // XXH3_state_t on the stack
 #include <xxhash.h>
 #include <zstd.h>
@@ -8,7 +10,6 @@
 #include <cerrno>
 #include <cstring>
 #include <fcntl.h>
-#include <sys/stat.h>
 #include <unistd.h>
 #include <vector>
 
@@ -82,10 +83,14 @@ Result<ContainerWriter> ContainerWriter::create(const std::string& path, Contain
     auto state = std::make_unique<State>();
     state->path = path;
     state->kind = kind;
-    state->temporary_path = path + ".tmp-XXXXXX";
-    state->file = ::mkstemp(state->temporary_path.data());
-    if (state->file < 0)
-        return state->failure("cannot create");
+    // not mkstemp: the file gets the rights that the user's umask gives
+    for (int attempt = 0; state->file < 0; ++attempt)
+    {
+        state->temporary_path = path + ".tmp-" + std::to_string(::getpid()) + "-" + std::to_string(attempt);
+        state->file = ::open(state->temporary_path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+        if (state->file < 0 && errno != EEXIST)
+            return state->failure("cannot create");
+    }
     const FileHeader blank{};
     HEARTH_TRY(state->write(std::as_bytes(std::span(&blank, 1))));
     return ContainerWriter(std::move(state));
@@ -113,6 +118,19 @@ Status ContainerWriter::addChunk(ChunkId id, std::span<const std::byte> bytes, u
     HEARTH_TRY(beginChunk(id, element_size));
     HEARTH_TRY(append(bytes));
     return endChunk();
+}
+
+Status ContainerWriter::addStored(ChunkId id, const ChunkEntry& entry, std::span<const std::byte> stored)
+{
+    HEARTH_TRY(beginChunk(id, entry.element_size));
+    HEARTH_TRY(append(stored));
+    ChunkEntry& copy = state_->table.back();
+    copy.codec = entry.codec;
+    copy.size = entry.size;
+    HEARTH_TRY(endChunk());
+    if (copy.hash != entry.hash || copy.stored_size != entry.stored_size)
+        return Error{Issue::chunk_hash, state_->path, chunkName(id.type, id.index), ""};
+    return success();
 }
 
 Status ContainerWriter::beginChunk(ChunkId id, uint32_t element_size)
@@ -181,10 +199,7 @@ Status ContainerWriter::finish()
     HEARTH_TRY(s.write(std::as_bytes(std::span(s.table))));
     if (::pwrite(s.file, &header, sizeof(header), 0) != static_cast<ssize_t>(sizeof(header)))
         return s.failure("cannot write");
-    // mkstemp makes a private file; an output has the rights that the user's umask gives
-    const mode_t mask = ::umask(0);
-    ::umask(mask);
-    if (::fchmod(s.file, 0666 & ~mask) != 0 || ::fsync(s.file) != 0)
+    if (::fsync(s.file) != 0)
         return s.failure("cannot write");
     if (::rename(s.temporary_path.c_str(), s.path.c_str()) != 0)
         return s.failure("cannot rename into place");

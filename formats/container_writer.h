@@ -47,6 +47,10 @@ public:
         return addChunk({.type = type, .index = index}, std::as_bytes(std::span(text)), 1, codec);
     }
 
+    /// Add a chunk as it is stored in another container, without packing it again. errors: chunk_hash where `stored`
+    /// is not what `entry` says.
+    Status addStored(ChunkId id, const ChunkEntry& entry, std::span<const std::byte> stored);
+
     /// A chunk too large to hold in memory: begin, append any number of times, end. Stored without a codec.
     Status beginChunk(ChunkId id, uint32_t element_size);
     Status append(std::span<const std::byte> bytes);

@@ -106,6 +106,9 @@ enum class IssueClass : uint8_t
     X(cannot_write, 4000, cannotWrite, "an output cannot be written", "check the folder, its rights and the space left") \
     X(read_failed, 4001, io, "reading failed", "check the disk")                                             \
     X(device, 4002, internal, "no usable graphics device", "install a Vulkan driver (mesa-vulkan-drivers)")  \
+    X(device_failed, 4003, internal, "the graphics device failed", "close other programs, or choose another --device") \
+    X(device_limit, 4004, internal, "the scene does not fit the graphics device",                            \
+      "split the scene, or use a device with higher limits")                                                  \
     X(child_failed, 7001, internal, "a cooker ended abnormally", "report it, with the input")                \
     X(internal, 7000, internal, "Hearth has a defect", "report it, with the input")
 

@@ -19,8 +19,8 @@ struct DecodedImage
 {
     uint32_t width = 0;
     uint32_t height = 0;
-    bool is_float = false;          ///< texels are RGBA16 float (linear), else RGBA8 as stored in the file
-    std::vector<std::byte> texels;  ///< width * height * (is_float ? 8 : 4)
+    bool is_float = false;         ///< texels are RGBA16 float (linear), else RGBA8 as stored in the file
+    std::vector<std::byte> texels; ///< width * height * (is_float ? 8 : 4)
 };
 
 /// How the source counts itself, for the report.
@@ -30,7 +30,7 @@ struct SourceCounts
     uint64_t faces = 0;     ///< polygons before triangulation
     uint64_t vertices = 0;  ///< glTF: over the distinct POSITION accessors; scans: vertices of the file
     uint64_t materials = 0;
-    uint64_t joints = 0;    ///< distinct joint nodes
+    uint64_t joints = 0; ///< distinct joint nodes
     uint64_t animations = 0;
     uint64_t morph_targets = 0;
 };
@@ -74,8 +74,14 @@ public:
 
     const std::vector<Error>& warnings() const { return warnings_; }
 
+    /// Messages beyond the first hundred, which are only counted.
+    uint64_t warningsLeftOut() const { return warnings_left_out_; }
+
 private:
     PartBuilder(formats::ContainerWriter writer, std::string source_name);
+
+    /// The text of chunk META, schema hearth.import/1.
+    std::string report() const;
 
     struct SourceFile
     {
@@ -91,6 +97,7 @@ private:
     std::vector<formats::ImageRecord> images_;
     uint32_t mesh_count_ = 0;
     std::vector<Error> warnings_;
+    uint64_t warnings_left_out_ = 0;
     std::vector<SourceFile> sources_;
 };
 

@@ -15,8 +15,8 @@ namespace hearth::import
 struct ImportLimits
 {
     uint64_t max_file_bytes = uint64_t{8} << 30;
-    uint64_t max_vertices = uint64_t{1} << 28;  ///< of one mesh
-    uint64_t max_triangles = uint64_t{1} << 28; ///< of one mesh
+    uint64_t max_vertices = uint64_t{1} << 28;     ///< of one mesh
+    uint64_t max_triangles = uint64_t{1} << 28;    ///< of one mesh
     uint64_t max_image_texels = uint64_t{1} << 26; ///< 8192 x 8192: what a mobile GPU can use
     uint32_t max_image_size = 16384;
     uint64_t max_instances = uint64_t{1} << 20;

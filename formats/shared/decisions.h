@@ -1,0 +1,189 @@
+// Which clusters are drawn: the frustum, normal-cone and level-of-detail tests, written once. The shaders run them,
+// the CPU twin and the reference culling run the same lines, and on IEEE hardware every bit agrees: only + - * and
+// sqrt, in a fixed order, nothing contracted. Sources: RUNTIME 2.1, 2.4, 2.5 (design notes).
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#ifndef HEARTH_SHARED_DECISIONS_H
+#define HEARTH_SHARED_DECISIONS_H
+
+#include "formats/shared/records.h"
+
+HEARTH_SHARED_BEGIN
+
+/// 2^-20 = eight units in the last place: more than the handful of roundings between a stored bound and the vertex
+/// that it stands for can add up to, so that a test that is right in real numbers stays right in floats.
+HEARTH_CONSTANT float kRoundingSlack = 9.5367431640625e-7f;
+
+/// Rasterisers snap vertices to 1/256 pixel, which can turn a sliver that faces just away; and the checker allows a
+/// cone to miss a tenth of this (formats::kConeSlack). In sines of an angle.
+HEARTH_CONSTANT float kConeMargin = 1e-3f;
+
+/// How far the checker lets an apex stand in front of a plane: formats::kApexSlack.
+HEARTH_CONSTANT float kApexMargin = 1e-4f;
+
+/// Errors above are infinite: the group is a root, nothing coarser exists.
+HEARTH_CONSTANT float kLargestError = 1e38f;
+
+HEARTH_FUNCTION float dot3(Float3 a, Float3 b)
+{
+    HEARTH_PRECISE float sum = (a.x * b.x + a.y * b.y) + a.z * b.z;
+    return sum;
+}
+
+HEARTH_FUNCTION float sum3(Float3 a)
+{
+    HEARTH_PRECISE float sum = (a.x + a.y) + a.z;
+    return sum;
+}
+
+HEARTH_FUNCTION Float3 abs3(Float3 a)
+{
+    return Float3(abs(a.x), abs(a.y), abs(a.z));
+}
+
+HEARTH_FUNCTION Float3 row3(Float4 row)
+{
+    return Float3(row.x, row.y, row.z);
+}
+
+/// A point of the object in world axes, relative to the eye.
+HEARTH_FUNCTION Float3 relativePoint(HEARTH_IN(Instance) instance, Float3 eye, Float3 point)
+{
+    HEARTH_PRECISE float x =
+        dot3(row3(instance.world_from_object_x), point) + (instance.world_from_object_x.w - eye.x);
+    HEARTH_PRECISE float y =
+        dot3(row3(instance.world_from_object_y), point) + (instance.world_from_object_y.w - eye.y);
+    HEARTH_PRECISE float z =
+        dot3(row3(instance.world_from_object_z), point) + (instance.world_from_object_z.w - eye.z);
+    return Float3(x, y, z);
+}
+
+/// Clip-space position of a point relative to the eye.
+HEARTH_FUNCTION Float4 clipPosition(HEARTH_IN(FrameView) view, Float3 relative)
+{
+    HEARTH_PRECISE float x = dot3(row3(view.clip_x), relative);
+    HEARTH_PRECISE float y = dot3(row3(view.clip_y), relative);
+    HEARTH_PRECISE float w = dot3(row3(view.clip_w), relative);
+    return Float4(x, y, view.z_near, w);
+}
+
+/// True where the box, moved by the instance, lies wholly outside one plane of the frustum.
+/// Exact for any affine matrix: the half extents become |A| h.
+HEARTH_FUNCTION bool boxOutsideFrustum(HEARTH_IN(FrameView) view, HEARTH_IN(Instance) instance,
+                                       Float3 box_min, Float3 box_max)
+{
+    HEARTH_PRECISE Float3 center = (box_min + box_max) * 0.5f;
+    HEARTH_PRECISE Float3 half_size = (box_max - box_min) * 0.5f;
+    HEARTH_PRECISE Float3 relative = relativePoint(instance, view.eye, center);
+    Float3 row_x = abs3(row3(instance.world_from_object_x));
+    Float3 row_y = abs3(row3(instance.world_from_object_y));
+    Float3 row_z = abs3(row3(instance.world_from_object_z));
+    HEARTH_PRECISE Float3 extent =
+        Float3(dot3(row_x, half_size), dot3(row_y, half_size), dot3(row_z, half_size));
+    // how large the terms were that rounding errors are relative to
+    HEARTH_PRECISE Float3 reach = abs3(center) + half_size;
+    HEARTH_PRECISE Float3 magnitude =
+        Float3(dot3(row_x, reach) + abs(instance.world_from_object_x.w - view.eye.x),
+               dot3(row_y, reach) + abs(instance.world_from_object_y.w - view.eye.y),
+               dot3(row_z, reach) + abs(instance.world_from_object_z.w - view.eye.z));
+    HEARTH_PRECISE Float3 bound = extent + magnitude * kRoundingSlack;
+    for (int i = 0; i < 5; ++i)
+    {
+        Float3 normal = row3(view.planes[i]);
+        HEARTH_PRECISE float reach_inside =
+            (dot3(normal, relative) + dot3(abs3(normal), bound)) + view.planes[i].w;
+        if (reach_inside < 0.0f)
+            return true;
+    }
+    return false;
+}
+
+/// True where the error of a group, projected to the screen, is above the threshold. Both sides of every seam call
+/// this with the same bits, so a group is replaced as a whole or not at all.
+///     E = scale * error * lod_scale / max(|center - eye| - scale * radius, z_near) > threshold, without the division
+HEARTH_FUNCTION bool errorExceeds(HEARTH_IN(FrameView) view, HEARTH_IN(Instance) instance,
+                                  Float3 sphere_center, float sphere_radius, float error)
+{
+    if (error > kLargestError)
+        return true;
+    HEARTH_PRECISE Float3 relative = relativePoint(instance, view.eye, sphere_center);
+    HEARTH_PRECISE float distance = sqrt(dot3(relative, relative)) - instance.scale_max * sphere_radius;
+    HEARTH_PRECISE float error_pixels_m = (instance.scale_max * error) * view.lod_scale;
+    HEARTH_PRECISE float allowed_pixels_m = view.threshold * max(distance, view.z_near);
+    return error_pixels_m > allowed_pixels_m;
+}
+
+/// The cut rule of formats::GroupRecord. `refined` is not looked at unless `has_refined`.
+HEARTH_FUNCTION bool clusterInCut(HEARTH_IN(FrameView) view, HEARTH_IN(Instance) instance,
+                                  HEARTH_IN(Group) own, bool has_refined, HEARTH_IN(Group) refined)
+{
+    if (has_refined &&
+        errorExceeds(view, instance, refined.sphere_center, refined.sphere_radius, refined.error))
+        return false;
+    return errorExceeds(view, instance, own.sphere_center, own.sphere_radius, own.error);
+}
+
+/// True where every triangle of the cluster faces away from the eye. In object space, where any affine matrix,
+/// mirrored or sheared, leaves the facing as it is. Not for double-sided materials.
+HEARTH_FUNCTION bool coneFacesAway(Float3 eye_object, float eye_slack, HEARTH_IN(Cluster) cluster)
+{
+    if (cluster.cone_cutoff >= 1.0f)
+        return false;
+    HEARTH_PRECISE Float3 to_apex = cluster.cone_apex - eye_object;
+    HEARTH_PRECISE Float3 from_center = cluster.cone_apex - cluster.sphere_center;
+    HEARTH_PRECISE float distance = sqrt(dot3(to_apex, to_apex));
+    HEARTH_PRECISE float reach = cluster.sphere_radius + sqrt(dot3(from_center, from_center));
+    HEARTH_PRECISE float position_slack =
+        (2.0f * eye_slack + sum3(abs3(cluster.cone_apex)) * kRoundingSlack) + reach * kApexMargin;
+    HEARTH_PRECISE float needed = (cluster.cone_cutoff + kConeMargin) * distance + position_slack;
+    return dot3(to_apex, cluster.cone_axis) >= needed;
+}
+
+/// The instance pass: where the eye is in object space, and whether anything of the mesh can be seen.
+HEARTH_FUNCTION InstanceState decideInstance(HEARTH_IN(FrameView) view, HEARTH_IN(Instance) instance,
+                                             HEARTH_IN(InstanceInverse) inverse, HEARTH_IN(MeshBounds) bounds)
+{
+    HEARTH_PRECISE Float3 offset =
+        Float3(view.eye.x - instance.world_from_object_x.w, view.eye.y - instance.world_from_object_y.w,
+               view.eye.z - instance.world_from_object_z.w);
+    Float3 row_x = row3(inverse.object_from_world_x);
+    Float3 row_y = row3(inverse.object_from_world_y);
+    Float3 row_z = row3(inverse.object_from_world_z);
+    Float3 size = abs3(offset);
+    HEARTH_PRECISE float magnitude =
+        sum3(Float3(dot3(abs3(row_x), size), dot3(abs3(row_y), size), dot3(abs3(row_z), size)));
+
+    InstanceState state;
+    state.eye_object = Float3(dot3(row_x, offset), dot3(row_y, offset), dot3(row_z, offset));
+    state.eye_slack = magnitude * kRoundingSlack;
+    state.visible = 1u;
+    if ((view.flags & kCullInstances) != 0u &&
+        boxOutsideFrustum(view, instance, bounds.box_min, bounds.box_max))
+        state.visible = 0u;
+    // an empty mesh has an empty box
+    if (bounds.box_min.x > bounds.box_max.x)
+        state.visible = 0u;
+    state.cone_valid = inverse.object_from_world_x.w != 0.0f ? 1u : 0u;
+    state.reserved1 = 0u;
+    state.reserved2 = 0u;
+    return state;
+}
+
+/// The cluster pass: whether a cluster of a visible instance is drawn.
+HEARTH_FUNCTION bool decideCluster(HEARTH_IN(FrameView) view, HEARTH_IN(Instance) instance,
+                                   HEARTH_IN(InstanceState) state, HEARTH_IN(Cluster) cluster,
+                                   HEARTH_IN(Group) own, HEARTH_IN(Group) refined, bool double_sided)
+{
+    if (state.visible == 0u)
+        return false;
+    if (!clusterInCut(view, instance, own, cluster.refined_group != kNoGroup, refined))
+        return false;
+    if ((view.flags & kCullFrustum) != 0u &&
+        boxOutsideFrustum(view, instance, cluster.box_min, cluster.box_max))
+        return false;
+    bool test_cone = (view.flags & kCullCone) != 0u && !double_sided && state.cone_valid != 0u;
+    return !(test_cone && coneFacesAway(state.eye_object, state.eye_slack, cluster));
+}
+
+HEARTH_SHARED_END
+
+#endif

@@ -1,0 +1,51 @@
+// Lets one header be C++ and GLSL: the types and words in which formats/shared is written.
+// Only what both languages understand may be used there: no swizzles, no references, no library beyond sqrt.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#ifndef HEARTH_SHARED_LANGUAGE_H
+#define HEARTH_SHARED_LANGUAGE_H
+
+#ifdef __cplusplus
+
+#include "formats/math.h"
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+
+#define HEARTH_SHARED_BEGIN                                                                                  \
+    namespace hearth::shared                                                                                 \
+    {
+#define HEARTH_SHARED_END }
+#define HEARTH_FUNCTION inline
+#define HEARTH_IN(type) const type&
+#define HEARTH_CONSTANT inline constexpr
+#define HEARTH_PRECISE
+
+namespace hearth::shared
+{
+using uint = uint32_t;
+using std::abs;
+using std::sqrt;
+inline float max(float a, float b)
+{
+    return a < b ? b : a;
+}
+} // namespace hearth::shared
+
+#else
+
+#define HEARTH_SHARED_BEGIN
+#define HEARTH_SHARED_END
+#define HEARTH_FUNCTION
+#define HEARTH_IN(type) type
+#define HEARTH_CONSTANT const
+// forbids contraction into fused multiply-adds: the C++ side is compiled with -ffp-contract=off
+#define HEARTH_PRECISE precise
+
+#define Float2 vec2
+#define Float3 vec3
+#define Float4 vec4
+
+#endif
+
+#endif

@@ -1,0 +1,204 @@
+// What the GPU reads and writes, written once for C++ and GLSL (std430; std140 for the uniform blocks). The first
+// three are the records of formats/mesh.h and formats/scene.h byte for byte, so that a pack's tables are uploaded as they are.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#ifndef HEARTH_SHARED_RECORDS_H
+#define HEARTH_SHARED_RECORDS_H
+
+#include "formats/shared/language.h"
+
+HEARTH_SHARED_BEGIN
+
+/// formats::InstanceRecord. Rows of the 3x4 matrix: xyz the linear part, w the translation in metres.
+struct Instance
+{
+    Float4 world_from_object_x;
+    Float4 world_from_object_y;
+    Float4 world_from_object_z;
+    uint mesh;
+    uint node;
+    uint flags;
+    float scale_max;
+};
+
+/// formats::GroupRecord.
+struct Group
+{
+    Float3 sphere_center;
+    float sphere_radius;
+    float error;
+    uint level;
+    uint first_cluster;
+    uint cluster_count;
+    uint page;
+    uint reserved0;
+    uint reserved1;
+    uint reserved2;
+};
+
+/// formats::ClusterRecord.
+struct Cluster
+{
+    Float3 box_min;
+    uint material;
+    Float3 box_max;
+    uint page;
+    Float3 sphere_center;
+    float sphere_radius;
+    Float3 cone_axis;
+    float cone_cutoff;
+    Float3 cone_apex;
+    uint page_offset;
+    uint group;
+    uint refined_group;
+    uint vertex_count;
+    uint triangle_count;
+    float error;
+    uint level;
+    uint mesh;
+    uint reserved;
+};
+
+/// Bounds of a mesh over all its levels, in object space.
+struct MeshBounds
+{
+    Float3 box_min;
+    uint reserved0;
+    Float3 box_max;
+    uint reserved1;
+};
+
+/// Inverse of the linear part of an instance's matrix, for the normal-cone test in object space.
+/// The w of the first row is 1, or 0 where the matrix has no inverse: such an instance is never cone-culled.
+struct InstanceInverse
+{
+    Float4 object_from_world_x;
+    Float4 object_from_world_y;
+    Float4 object_from_world_z;
+};
+
+/// What the instance pass finds out for a frame and the cluster pass uses.
+struct InstanceState
+{
+    Float3 eye_object;
+    float eye_slack; ///< how far eye_object may be off through rounding, object space
+    uint visible;
+    uint cone_valid; ///< 0: the instance has no inverse and eye_object means nothing
+    uint reserved1;
+    uint reserved2;
+};
+
+/// Clusters order[first .. first + count) of one instance, all drawn by the same bin; one workgroup.
+struct WorkItem
+{
+    uint instance;
+    uint first;
+    uint count; ///< 1 to kWorkItemClusters
+    uint flags; ///< bits kItem*
+};
+
+/// What the cluster pass found in a work item, and after the scan where its clusters go.
+struct WorkResult
+{
+    uint mask_low;  ///< bit i: cluster order[first + i] is drawn
+    uint mask_high; ///< the same for 32 + i
+    uint offset;    ///< clusters drawn by the items before it in its scan block
+    uint reserved;
+};
+
+/// One slot of the visible list; a slot's number is the upper 25 bits of the visibility buffer.
+struct VisibleCluster
+{
+    uint instance;
+    uint cluster;
+};
+
+/// Items [first_item, first_item + item_count) of the work list are drawn by one indirect draw with one pipeline.
+struct Bin
+{
+    uint first_item;
+    uint item_count;
+};
+
+/// The indirect draw of a bin (VkDrawIndirectCommand), and the first slot of the visible list that it draws:
+/// drawIndirectFirstInstance is not required of the device, so the first instance is always 0.
+struct BinDraw
+{
+    uint vertex_count;
+    uint instance_count;
+    uint first_vertex;
+    uint first_instance;
+    uint first_slot;
+    uint reserved0;
+    uint reserved1;
+    uint reserved2;
+};
+
+/// Counters of a frame, for the caller to read back.
+struct FrameCounters
+{
+    uint drawn_clusters;   ///< clusters that passed all tests
+    uint dropped_clusters; ///< of these, the last ones for which the visible list had no slot
+    uint reserved0;
+    uint reserved1;
+};
+
+/// What drawing needs of a cluster; `address` counts words in the geometry pool.
+struct ClusterDraw
+{
+    uint address;
+    uint counts; ///< vertices | triangles << 9 | level << 17
+    uint attributes;
+    uint material; ///< 1 + row of the material table; 0 is the sky
+};
+
+/// Camera and switches of one frame. All positions that reach the screen are relative to the eye, in world axes,
+/// so that coordinates far from the origin keep their precision: clip = (x . p, y . p, z_near, w . p).
+struct FrameView
+{
+    Float4 clip_x; ///< w unused, here and below
+    Float4 clip_y;
+    Float4 clip_w;
+    Float4 planes[5]; ///< left, right, bottom, top, near: inside where dot(xyz, p) + w >= 0
+    Float3 eye;       ///< world
+    float z_near;     ///< metres; the far plane is infinite, depth = z_near / distance
+    float lod_scale;  ///< pixels that one metre covers at a distance of one metre
+    float threshold;  ///< error in pixels that is not worth refining; negative: refine everything
+    uint flags;       ///< bits kCull*
+    uint instance_count;
+    float width; ///< pixels
+    float height;
+    uint reserved0;
+    uint reserved1;
+};
+
+HEARTH_CONSTANT uint kWorkItemClusters = 64;
+/// Work items that one workgroup of the scan adds up.
+HEARTH_CONSTANT uint kScanBlockItems = 1024;
+/// Workgroups of a dispatch in x; more go to y (65535 is what every device has in each).
+HEARTH_CONSTANT uint kDispatchRow = 32768;
+/// Vertices of one instance of a cluster draw: 128 triangles without indices.
+HEARTH_CONSTANT uint kClusterVertices = 384;
+/// The geometry pool is cut into slices of 128 MiB, the storage buffer range that every device has.
+HEARTH_CONSTANT uint kPoolSliceBits = 25; ///< of a word address
+HEARTH_CONSTANT uint kPoolSlices = 4;
+HEARTH_CONSTANT uint kItemDoubleSided = 1; ///< skip the normal cone
+
+HEARTH_CONSTANT uint kCullInstances = 1;
+HEARTH_CONSTANT uint kCullFrustum = 2;
+HEARTH_CONSTANT uint kCullCone = 4;
+HEARTH_CONSTANT uint kCullEverything = 7;
+
+/// Visibility buffer: slot << kTriangleBits | triangle.
+HEARTH_CONSTANT uint kTriangleBits = 7;
+HEARTH_CONSTANT uint kNothingVisible = 0xFFFFFFFFu;
+HEARTH_CONSTANT uint kMaxSlots = (1u << 25) - 2u;
+
+HEARTH_CONSTANT uint kNoGroup = 0xFFFFFFFFu;
+
+HEARTH_SHARED_END
+
+#ifdef __cplusplus
+#include "formats/shared/records_check.h"
+#endif
+
+#endif

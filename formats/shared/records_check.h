@@ -1,0 +1,58 @@
+// Holds the records of formats/shared/records.h against those of the file format: same offsets, same sizes.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "formats/mesh.h"
+#include "formats/scene.h"
+
+#define HEARTH_SAME_OFFSET(shared_type, shared_member, record_type, record_member)                           \
+    static_assert(offsetof(hearth::shared::shared_type, shared_member) ==                                    \
+                  offsetof(hearth::formats::record_type, record_member))
+
+static_assert(sizeof(hearth::shared::Instance) == sizeof(hearth::formats::InstanceRecord));
+HEARTH_SAME_OFFSET(Instance, world_from_object_x, InstanceRecord, world_from_object);
+HEARTH_SAME_OFFSET(Instance, mesh, InstanceRecord, mesh);
+HEARTH_SAME_OFFSET(Instance, node, InstanceRecord, node);
+HEARTH_SAME_OFFSET(Instance, flags, InstanceRecord, flags);
+HEARTH_SAME_OFFSET(Instance, scale_max, InstanceRecord, scale_max);
+
+static_assert(sizeof(hearth::shared::Group) == sizeof(hearth::formats::GroupRecord));
+HEARTH_SAME_OFFSET(Group, sphere_center, GroupRecord, sphere_center);
+HEARTH_SAME_OFFSET(Group, sphere_radius, GroupRecord, sphere_radius);
+HEARTH_SAME_OFFSET(Group, error, GroupRecord, error);
+HEARTH_SAME_OFFSET(Group, level, GroupRecord, level);
+HEARTH_SAME_OFFSET(Group, first_cluster, GroupRecord, clusters);
+HEARTH_SAME_OFFSET(Group, page, GroupRecord, page);
+
+static_assert(sizeof(hearth::shared::Cluster) == sizeof(hearth::formats::ClusterRecord));
+HEARTH_SAME_OFFSET(Cluster, box_min, ClusterRecord, box_min);
+HEARTH_SAME_OFFSET(Cluster, material, ClusterRecord, material);
+HEARTH_SAME_OFFSET(Cluster, box_max, ClusterRecord, box_max);
+HEARTH_SAME_OFFSET(Cluster, page, ClusterRecord, page);
+HEARTH_SAME_OFFSET(Cluster, sphere_center, ClusterRecord, sphere_center);
+HEARTH_SAME_OFFSET(Cluster, sphere_radius, ClusterRecord, sphere_radius);
+HEARTH_SAME_OFFSET(Cluster, cone_axis, ClusterRecord, cone_axis);
+HEARTH_SAME_OFFSET(Cluster, cone_cutoff, ClusterRecord, cone_cutoff);
+HEARTH_SAME_OFFSET(Cluster, cone_apex, ClusterRecord, cone_apex);
+HEARTH_SAME_OFFSET(Cluster, page_offset, ClusterRecord, page_offset);
+HEARTH_SAME_OFFSET(Cluster, group, ClusterRecord, group);
+HEARTH_SAME_OFFSET(Cluster, refined_group, ClusterRecord, refined_group);
+HEARTH_SAME_OFFSET(Cluster, vertex_count, ClusterRecord, vertex_count);
+HEARTH_SAME_OFFSET(Cluster, triangle_count, ClusterRecord, triangle_count);
+HEARTH_SAME_OFFSET(Cluster, error, ClusterRecord, error);
+HEARTH_SAME_OFFSET(Cluster, level, ClusterRecord, level);
+HEARTH_SAME_OFFSET(Cluster, mesh, ClusterRecord, mesh);
+
+#undef HEARTH_SAME_OFFSET
+
+static_assert(hearth::shared::kNoGroup == hearth::formats::kNone);
+// sizes as std430 and std140 lay them out
+static_assert(sizeof(hearth::shared::MeshBounds) == 32);
+static_assert(sizeof(hearth::shared::InstanceInverse) == 48);
+static_assert(sizeof(hearth::shared::InstanceState) == 32);
+static_assert(sizeof(hearth::shared::FrameView) == 176);
+static_assert(sizeof(hearth::shared::BinDraw) == 32);
+static_assert(sizeof(hearth::shared::WorkItem) == 16);
+static_assert(sizeof(hearth::shared::WorkResult) == 16);
+static_assert(sizeof(hearth::shared::ClusterDraw) == 16);
+static_assert(hearth::shared::kClusterVertices == 3 * hearth::formats::kClusterMaxTriangles);

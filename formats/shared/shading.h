@@ -1,0 +1,80 @@
+// What the shading pass reads: materials and lights as uniform blocks (std140), written once for C++ and GLSL.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#ifndef HEARTH_SHARED_SHADING_H
+#define HEARTH_SHARED_SHADING_H
+
+#include "formats/shared/language.h"
+
+HEARTH_SHARED_BEGIN
+
+HEARTH_CONSTANT uint kTextureBaseColor = 0;
+HEARTH_CONSTANT uint kTextureMetallicRoughness = 1;
+HEARTH_CONSTANT uint kTextureNormal = 2;
+HEARTH_CONSTANT uint kTextureOcclusion = 3;
+HEARTH_CONSTANT uint kTextureEmissive = 4;
+HEARTH_CONSTANT uint kTextureCount = 5;
+
+/// formats::MaterialRecord in the layout of a uniform block.
+struct Material
+{
+    Float4 base_color;
+    Float3 emissive;
+    float alpha_cutoff;
+    float metallic;
+    float roughness;
+    float normal_scale;
+    float occlusion_strength;
+    uint flags;         ///< formats::MaterialFlags
+    uint alpha_mode;    ///< formats::AlphaMode
+    uint textures;      ///< bit i: texture i is there
+    uint uv_sets;       ///< four bits each
+    Float4 uv_rows[10]; ///< two rows for each texture; uv = (row0 . (u, v, 1), row1 . (u, v, 1))
+};
+
+/// formats::LightRecord made ready: direction and cone as the falloff needs them.
+struct Light
+{
+    Float3 position;  ///< world
+    uint type;        ///< formats::LightType
+    Float3 direction; ///< unit, the way the light shines
+    float range;      ///< metres; 0: unlimited
+    Float3 intensity; ///< linear colour times candela or lux, after exposure
+    float reserved;
+    float cone_scale; ///< spot: saturate(dot(direction, from light) * cone_scale + cone_offset)^2
+    float cone_offset;
+    float reserved1;
+    float reserved2;
+};
+
+/// Lights beyond this number are not drawn, and the renderer says so. 8 KiB, half of the smallest uniform block range
+/// that Vulkan allows.
+HEARTH_CONSTANT uint kMaxLights = 128;
+
+struct Lighting
+{
+    Float3 sky_zenith; ///< radiance
+    uint light_count;
+    Float3 sky_horizon;
+    float reserved0;
+    Float3 sky_ground;
+    float reserved1;
+    Light lights[kMaxLights];
+};
+
+HEARTH_CONSTANT uint kViewFinal = 0;
+HEARTH_CONSTANT uint kViewClusters = 1;
+HEARTH_CONSTANT uint kViewLod = 2;
+HEARTH_CONSTANT uint kViewTriangles = 3;
+HEARTH_CONSTANT uint kViewNormals = 4;
+HEARTH_CONSTANT uint kViewDepth = 5;
+
+HEARTH_SHARED_END
+
+#ifdef __cplusplus
+// sizes as std140 lays them out
+static_assert(sizeof(hearth::shared::Material) == 224);
+static_assert(sizeof(hearth::shared::Light) == 64);
+static_assert(sizeof(hearth::shared::Lighting) == 48 + 64 * hearth::shared::kMaxLights);
+#endif
+
+#endif

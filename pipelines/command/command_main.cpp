@@ -1,0 +1,274 @@
+// hearth: the command that users type. Reads the command line; each verb's work is in its own file.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "pipelines/command/cook.h"
+#include "pipelines/command/explain.h"
+#include "pipelines/command/extract.h"
+#include "pipelines/command/inspect.h"
+#include "pipelines/command/open_pack.h"
+#include "pipelines/command/suggest.h"
+#include "pipelines/command/verify.h"
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <cstdio>
+#include <functional>
+#include <map>
+
+namespace
+{
+
+using namespace hearth;
+
+// Every verb fills its options while the command line is read; `run` then holds its work.
+using Work = std::function<int()>;
+
+int fail(const Error& error)
+{
+    std::fprintf(stderr, "%s\n", formatMessage(error).c_str());
+    return exitCode(error);
+}
+
+int usageError(const std::string& what)
+{
+    return fail({Issue::usage, "hearth", "", what});
+}
+
+/// Results go to stdout; a pipe that does not take them is an error like any other.
+int printResult(const std::string& text)
+{
+    if (std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0)
+        return 0;
+    return fail({Issue::read_failed, "stdout", "", "cannot be written"});
+}
+
+int printResult(const Result<std::string>& result)
+{
+    return result.ok() ? printResult(*result) : fail(result.error());
+}
+
+void addFormat(CLI::App& verb, std::string& format)
+{
+    verb.add_option("--format", format, "how the result is written")
+        ->check(CLI::IsMember({"text", "json"}))
+        ->capture_default_str();
+}
+
+// ---- verbs
+
+void addCook(CLI::App& app, Work& run)
+{
+    CLI::App* verb = app.add_subcommand("cook", "Turn sources into a pack");
+    struct Options : command::CookOptions
+    {
+        bool quiet = false;
+        bool verbose = false;
+    };
+    auto options = std::make_shared<Options>();
+    verb->add_option("SOURCE", options->sources, "glTF, GLB, OBJ, PLY, STL, OFF, Draco or image files")
+        ->required();
+    verb->add_option("-o,--output", options->output, "pack to write")->required();
+    verb->add_option("-j,--jobs", options->jobs, "cookers that run at once")
+        ->check(CLI::Range(1, 1024))
+        ->capture_default_str();
+    verb->add_option("--report", options->report_file, "write a report as JSON");
+    auto* quiet = verb->add_flag("-q,--quiet", options->quiet, "print errors only");
+    verb->add_flag("-v,--verbose", options->verbose, "print the command line of every stage")
+        ->excludes(quiet);
+    verb->footer("Example: hearth cook house.glb tree.glb -o village.hearth\n"
+                 "Several sources become one pack, their scenes side by side.");
+    verb->callback(
+        [options, &run]
+        {
+            options->verbosity = options->quiet     ? command::Verbosity::quiet
+                                 : options->verbose ? command::Verbosity::all
+                                                    : command::Verbosity::normal;
+            run = [options] { return command::cook(*options); };
+        });
+}
+
+void addInspect(CLI::App& app, Work& run)
+{
+    CLI::App* verb = app.add_subcommand("inspect", "Say what is in a pack");
+    struct Options
+    {
+        std::string file;
+        std::string format = "text";
+    };
+    auto options = std::make_shared<Options>();
+    verb->add_option("FILE", options->file, "pack or part")->required();
+    addFormat(*verb, options->format);
+    verb->footer("Example: hearth inspect village.hearth --format json");
+    verb->callback(
+        [options, &run]
+        {
+            run = [options]
+            {
+                const auto pack = command::openContainer(options->file);
+                if (!pack.ok())
+                    return fail(pack.error());
+                const command::PackSummary summary = command::summarize(*pack);
+                return printResult(options->format == "json" ? command::inspectJson(*pack, summary)
+                                                             : command::inspectText(*pack, summary));
+            };
+        });
+}
+
+void addVerify(CLI::App& app, Work& run)
+{
+    CLI::App* verb = app.add_subcommand("verify", "Check every byte of a pack, and what it means");
+    struct Options
+    {
+        std::string file;
+        std::string format = "text";
+    };
+    auto options = std::make_shared<Options>();
+    verb->add_option("FILE", options->file, "pack or part")->required();
+    addFormat(*verb, options->format);
+    verb->footer("Example: hearth verify village.hearth");
+    verb->callback(
+        [options, &run]
+        {
+            run = [options]
+            {
+                const Result<std::string> result = command::verifyFile(options->file);
+                if (options->format == "text")
+                    return printResult(result);
+                const int printed = printResult(command::verifyJson(options->file, result));
+                return result.ok() ? printed : fail(result.error());
+            };
+        });
+}
+
+void addExtract(CLI::App& app, Work& run)
+{
+    CLI::App* verb = app.add_subcommand("extract", "Write a level of detail of a mesh as PLY");
+    struct Options
+    {
+        std::string file;
+        uint32_t mesh = 0;
+        float error = 0;
+        std::string output;
+    };
+    auto options = std::make_shared<Options>();
+    verb->add_option("FILE", options->file, "pack")->required();
+    verb->add_option("--mesh", options->mesh, "index of the mesh")->required();
+    verb->add_option("--error", options->error,
+                     "largest error in the mesh's own units; 0: the source's triangles")
+        ->required();
+    verb->add_option("-o,--output", options->output, "PLY file to write")->required();
+    verb->footer("Example: hearth extract village.hearth --mesh 0 --error 0.01 -o cut.ply");
+    verb->callback(
+        [options, &run]
+        {
+            run = [options]
+            {
+                if (!(options->error >= 0) || !std::isfinite(options->error))
+                    return usageError("--error must be a number from 0 on");
+                const Status status =
+                    command::extractCut(options->file, options->mesh, options->error, options->output);
+                return status.ok() ? 0 : fail(status.error());
+            };
+        });
+}
+
+void addExplain(CLI::App& app, Work& run)
+{
+    CLI::App* verb = app.add_subcommand("explain", "Say what the number of a message means");
+    auto code = std::make_shared<std::string>();
+    verb->add_option("CODE", *code, "as messages show it: E1203; none: list all");
+    verb->footer("Example: hearth explain E1203");
+    verb->callback([code, &run] { run = [code] { return printResult(command::explain(*code)); }; });
+}
+
+void addVersion(CLI::App& app, Work& run)
+{
+    CLI::App* verb = app.add_subcommand("version", "Print the version");
+    verb->callback([&run] { run = [] { return printResult(std::string("hearth " HEARTH_VERSION "\n")); }; });
+}
+
+// ---- typing errors
+
+/// The first word that no verb or option is called, with the nearest that is; empty where all are known.
+std::string unknownWord(const CLI::App& app, const std::vector<std::string>& words)
+{
+    const auto describe = [](const std::string& kind, const std::string& word, const std::string& nearest)
+    {
+        return "unknown " + kind + " '" + word + "'" +
+               (nearest.empty() ? std::string() : ": did you mean '" + nearest + "'?");
+    };
+    const CLI::App* verb = &app;
+    for (const std::string& word : words)
+    {
+        const bool is_option = word.size() > 1 && word[0] == '-' && word.find_first_of("0123456789.") != 1;
+        if (word == "--")
+            break;
+        if (is_option)
+        {
+            const std::string name = word.substr(0, word.find('='));
+            // -j4 and -qv are short options with more in the same word
+            const std::string shortened = name[1] == '-' ? name : name.substr(0, 2);
+            if (verb->get_option_no_throw(shortened) != nullptr)
+                continue;
+            std::vector<std::string> names;
+            for (const CLI::Option* option : verb->get_options())
+                for (const std::string& long_name : option->get_lnames())
+                    names.push_back("--" + long_name);
+            return describe("option", name, command::nearestMatch(name, names));
+        }
+        if (verb != &app)
+            continue;
+        std::vector<std::string> names;
+        for (const CLI::App* known : app.get_subcommands(nullptr))
+        {
+            names.push_back(known->get_name());
+            if (known->get_name() == word)
+                verb = known;
+        }
+        if (verb == &app)
+            return describe("verb", word, command::nearestMatch(word, names));
+    }
+    return "";
+}
+
+std::string helpOf(const CLI::App& app)
+{
+    const auto chosen = app.get_subcommands();
+    return chosen.empty() ? app.help() : chosen.front()->help("hearth") + "\n" + command::exitCodeTable();
+}
+
+} // namespace
+
+int main(int argc, char** argv)
+{
+    CLI::App app("Cook assets into packs that a phone can stream and draw.", "hearth");
+    Work run;
+    app.require_subcommand(1);
+    app.footer("Examples:\n"
+               "  hearth cook house.glb -o house.hearth\n"
+               "  hearth inspect house.hearth\n"
+               "  hearth cook --help\n\n" +
+               command::exitCodeTable());
+    addCook(app, run);
+    addInspect(app, run);
+    addVerify(app, run);
+    addExtract(app, run);
+    addExplain(app, run);
+    addVersion(app, run);
+
+    const std::string unknown = unknownWord(app, std::vector<std::string>(argv + 1, argv + argc));
+    if (!unknown.empty())
+        return usageError(unknown);
+    try
+    {
+        app.parse(argc, argv);
+    }
+    catch (const CLI::CallForHelp&)
+    {
+        return printResult(helpOf(app));
+    }
+    catch (const CLI::ParseError& error)
+    {
+        return usageError(error.what());
+    }
+    return run();
+}

@@ -1,0 +1,348 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "pipelines/command/cook.h"
+
+#include "formats/pack_view.h"
+#include "pipelines/command/child_processes.h"
+#include "pipelines/command/private_folder.h"
+#include "pipelines/command/whole_file.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fmt/format.h>
+
+namespace hearth::command
+{
+
+namespace
+{
+
+constexpr int kInterrupted = 130;
+
+/// One cooker to run; the plan is a list of them, each after those that it reads from.
+struct Stage
+{
+    std::string name;
+    size_t source = 0;
+    std::vector<std::string> command;
+    std::string output;
+    std::vector<size_t> after;
+    std::string subject; ///< what messages call its output: the source, or the pack
+    enum class State
+    {
+        waiting,
+        running,
+        done
+    } state = State::waiting;
+};
+
+using Plan = std::vector<Stage>;
+
+// ---- plan
+
+void addSource(Plan& plan, const std::string& programs, const std::string& folder, size_t index,
+               const std::string& source)
+{
+    const auto part = [&](const char* kind) { return fmt::format("{}/{}.{}.part", folder, index, kind); };
+    const size_t import_stage = plan.size();
+    plan.push_back({"import",
+                    index,
+                    {programs + "/hearth-import", source, "-o", part("import")},
+                    part("import"),
+                    {},
+                    source});
+    for (const char* kind : {"textures", "clusters"})
+        plan.push_back({kind,
+                        index,
+                        {programs + "/hearth-" + kind, part("import"), "-o", part(kind)},
+                        part(kind),
+                        {import_stage},
+                        source});
+}
+
+void addLink(Plan& plan, const std::string& programs, const std::string& packed, const CookOptions& options)
+{
+    Stage link{"link", options.sources.size(), {programs + "/hearth-link"}, packed, {}, options.output};
+    // the link reads import, clusters and textures parts, in this order
+    for (size_t first = 0; first < plan.size(); first += 3)
+        for (const size_t part : {first, first + 2, first + 1})
+            link.command.push_back(plan[part].output);
+    link.command.insert(link.command.end(), {"-o", packed});
+    for (size_t i = 0; i < plan.size(); ++i)
+        link.after.push_back(i);
+    plan.push_back(std::move(link));
+}
+
+// ---- messages
+
+/// What a child says names parts in private folders; the user knows the source.
+std::string inUsersWords(std::string text, const Plan& plan)
+{
+    for (const Stage& stage : plan)
+        for (size_t at = text.find(stage.output); at != std::string::npos; at = text.find(stage.output, at))
+        {
+            text.replace(at, stage.output.size(), stage.subject);
+            at += stage.subject.size();
+        }
+    return text;
+}
+
+std::vector<std::string> linesOf(const std::string& text)
+{
+    std::vector<std::string> lines;
+    for (size_t at = 0; at < text.size();)
+    {
+        const size_t end = std::min(text.find('\n', at), text.size());
+        if (end > at)
+            lines.push_back(text.substr(at, end - at));
+        at = end + 1;
+    }
+    return lines;
+}
+
+bool isError(const std::string& line)
+{
+    return line.find("error: ") != std::string::npos && line.find(" [E") != std::string::npos;
+}
+
+bool isWarning(const std::string& line)
+{
+    return line.find("warning: ") != std::string::npos && line.find(" [W") != std::string::npos;
+}
+
+void print(const std::string& line)
+{
+    std::fprintf(stderr, "%s\n", line.c_str());
+}
+
+/// Pass on a child's messages: errors always, the noise of libraries only when everything is asked for.
+void passOn(const std::vector<std::string>& lines, Verbosity verbosity)
+{
+    for (const std::string& line : lines)
+        if (isError(line) || (isWarning(line) && verbosity != Verbosity::quiet) ||
+            verbosity == Verbosity::all)
+            print(line);
+}
+
+std::string joined(const std::vector<std::string>& words)
+{
+    std::string text;
+    for (const std::string& word : words)
+        text += (text.empty() ? "" : " ") + word;
+    return text;
+}
+
+// ---- failures
+
+struct Failure
+{
+    int exit_code = 0;
+    std::string error;
+    size_t source = 0;
+};
+
+/// The exit codes by which a cooker says what is wrong; any other is a defect.
+bool isClearCode(int code)
+{
+    return code == 65 || code == 66 || code == 70 || code == 73 || code == 74;
+}
+
+/// Tell of a child that did not end as cookers do; its last words help to find the defect.
+Failure crashed(const Stage& stage, const ChildEnd& end, const std::vector<std::string>& lines)
+{
+    std::string how = "hearth-" + stage.name;
+    if (end.signal == SIGKILL)
+        how += " was killed: perhaps the memory is full";
+    else if (end.signal != 0)
+        how += fmt::format(" was ended by signal {} ({})", end.signal, ::strsignal(end.signal));
+    else
+        how += fmt::format(" ended with code {} and no error message", end.exit_code);
+    if (!lines.empty())
+        how += ": " + lines.back();
+    const Error error{Issue::child_failed, stage.subject, "", how};
+    const std::string message = formatMessage(error);
+    print(message);
+    return {exitCode(error), message, stage.source};
+}
+
+std::optional<Failure> failureOf(const Stage& stage, const ChildEnd& end,
+                                 const std::vector<std::string>& lines)
+{
+    const auto error = std::find_if(lines.begin(), lines.end(), isError);
+    if (end.signal == 0 && isClearCode(end.exit_code) && error != lines.end())
+        return Failure{end.exit_code, *error, stage.source};
+    if (end.signal != 0 || end.exit_code != 0)
+        return crashed(stage, end, lines);
+    return std::nullopt;
+}
+
+Failure failureOf(const Error& error, size_t source)
+{
+    const std::string message = formatMessage(error);
+    print(message);
+    return {exitCode(error), message, source};
+}
+
+// ---- run
+
+uint64_t sizeOf(const std::string& path)
+{
+    std::error_code error;
+    const uintmax_t size = std::filesystem::file_size(path, error);
+    return error ? 0 : size;
+}
+
+void printStage(const CookOptions& options, const Stage& stage, const StageRecord& record)
+{
+    if (options.verbosity != Verbosity::quiet)
+        print(faint(fmt::format("{:<9}{:>9.2f} s {:>12}  {}", stage.name, record.seconds,
+                                readableSize(record.output_bytes), stage.subject)));
+}
+
+std::optional<Failure> startReadyStages(Plan& plan, std::vector<size_t>& stage_of_child,
+                                        ChildProcesses& children, const CookOptions& options)
+{
+    for (size_t i = 0; i < plan.size() && children.running() < options.jobs; ++i)
+    {
+        Stage& stage = plan[i];
+        const auto isDone = [&](size_t before) { return plan[before].state == Stage::State::done; };
+        if (stage.state != Stage::State::waiting ||
+            !std::all_of(stage.after.begin(), stage.after.end(), isDone))
+            continue;
+        if (options.verbosity == Verbosity::all)
+            print(faint(joined(stage.command)));
+        const Result<size_t> child = children.start(stage.command);
+        if (!child.ok())
+            return failureOf(child.error(), stage.source);
+        stage.state = Stage::State::running;
+        stage_of_child.push_back(i);
+    }
+    return std::nullopt;
+}
+
+/// Run the stages, up to `jobs` at once, in the order of the plan; the first that fails ends the cook.
+std::optional<Failure> runPlan(Plan& plan, ChildProcesses& children, const CookOptions& options,
+                               CookOutcome& outcome)
+{
+    std::vector<StageRecord> records(plan.size());
+    std::vector<size_t> stage_of_child;
+    for (size_t done = 0; done < plan.size(); ++done)
+    {
+        if (auto failure = startReadyStages(plan, stage_of_child, children, options))
+            return failure;
+        const std::optional<ChildEnd> end = children.wait();
+        if (!end)
+            return Failure{kInterrupted, "interrupted", options.sources.size()};
+
+        const size_t index = stage_of_child[end->id];
+        Stage& stage = plan[index];
+        const std::vector<std::string> lines = linesOf(inUsersWords(end->messages, plan));
+        passOn(lines, options.verbosity);
+        if (auto failure = failureOf(stage, *end, lines))
+            return failure;
+        stage.state = Stage::State::done;
+        records[index] = {stage.name,       stage.source,        end->seconds,
+                          end->cpu_seconds, end->peak_rss_bytes, sizeOf(stage.output)};
+        printStage(options, stage, records[index]);
+    }
+    outcome.stages = std::move(records);
+    return std::nullopt;
+}
+
+// ---- before and after
+
+Status checkOutput(const CookOptions& options)
+{
+    std::error_code error;
+    if (std::filesystem::is_directory(options.output, error))
+        return Error{Issue::cannot_write, options.output, "", "is a folder"};
+    for (const std::string& source : options.sources)
+        if (std::filesystem::equivalent(source, options.output, error))
+            return Error{Issue::usage, options.output, "", "the output would overwrite a source"};
+    return success();
+}
+
+/// META of the pack at `path`, for the report.
+std::string metaOf(const std::string& path)
+{
+    const auto reader = formats::ContainerReader::open(path, formats::Check::structure);
+    if (!reader.ok())
+        return "";
+    const auto meta = reader->read(formats::kChunkMeta);
+    if (!meta.ok())
+        return "";
+    return {reinterpret_cast<const char*>(meta->bytes().data()), meta->bytes().size()};
+}
+
+Status writeReport(const CookOptions& options, const CookOutcome& outcome)
+{
+    const std::string meta = outcome.exit_code == 0 ? metaOf(options.output) : "";
+    HEARTH_ASSIGN_OR_RETURN(WholeFile file, WholeFile::create(options.report_file));
+    file.write(reportJson(options, outcome, meta));
+    return file.finish();
+}
+
+/// Cook into private folders and move the pack into place; the folders go when this returns.
+std::optional<Failure> cookInPrivate(const CookOptions& options, CookOutcome& outcome)
+{
+    // first, so that it goes last: signals wait until the folders are gone
+    ChildProcesses children;
+    const auto fail = [&](const Error& error) { return failureOf(error, options.sources.size()); };
+    if (const Status status = checkOutput(options); !status.ok())
+        return fail(status.error());
+
+    // the pack is written beside its place, where a rename can put it; the parts go where the user keeps such things
+    const Result<PrivateFolder> beside = PrivateFolder::create(folderOf(options.output), options.output);
+    if (!beside.ok())
+        return fail(beside.error());
+    const char* temporary = std::getenv("TMPDIR");
+    const bool has_temporary = temporary != nullptr && *temporary != '\0';
+    const Result<PrivateFolder> parts =
+        PrivateFolder::create(has_temporary ? temporary : beside->path(), options.output);
+    if (!parts.ok())
+        return fail(parts.error());
+
+    Plan plan;
+    const std::string programs = programFolder();
+    const std::string packed = beside->path() + "/pack.hearth";
+    for (size_t i = 0; i < options.sources.size(); ++i)
+        addSource(plan, programs, parts->path(), i, options.sources[i]);
+    addLink(plan, programs, packed, options);
+    if (auto failure = runPlan(plan, children, options, outcome))
+        return failure;
+
+    outcome.output_bytes = sizeOf(packed);
+    if (::rename(packed.c_str(), options.output.c_str()) != 0)
+        return fail(
+            {Issue::cannot_write, options.output, "", std::string("cannot write: ") + std::strerror(errno)});
+    return std::nullopt;
+}
+
+} // namespace
+
+int cook(const CookOptions& options)
+{
+    const auto start = std::chrono::steady_clock::now();
+    CookOutcome outcome;
+    if (const std::optional<Failure> failure = cookInPrivate(options, outcome))
+    {
+        outcome.exit_code = failure->exit_code;
+        outcome.error = failure->error;
+        outcome.failed_source = failure->source;
+    }
+    outcome.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    if (outcome.exit_code == 0 && options.verbosity != Verbosity::quiet)
+        print(fmt::format("{:<9}{:>9.2f} s {:>12}  {}", "cooked", outcome.seconds,
+                          readableSize(outcome.output_bytes), options.output));
+
+    if (!options.report_file.empty() && outcome.exit_code != kInterrupted)
+        if (const Status status = writeReport(options, outcome); !status.ok())
+        {
+            print(formatMessage(status.error()));
+            return outcome.exit_code != 0 ? outcome.exit_code : exitCode(status.error());
+        }
+    return outcome.exit_code;
+}
+
+} // namespace hearth::command

@@ -1,0 +1,54 @@
+// hearth cook: runs the cookers over sources and links what they make into one pack.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "pipelines/command/terminal.h"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace hearth::command
+{
+
+struct CookOptions
+{
+    std::vector<std::string> sources;
+    std::string output;
+    /// Cookers at once. They are parallel themselves: two are enough to hide their serial parts, and each more costs
+    /// the memory of another mesh.
+    unsigned jobs = 2;
+    Verbosity verbosity = Verbosity::normal;
+    std::string report_file; ///< empty: none
+};
+
+/// One cooker's run.
+struct StageRecord
+{
+    std::string stage; ///< "import", "clusters", "textures", "link"
+    size_t source = 0; ///< index of the source; their number for the link
+    double seconds = 0;
+    double cpu_seconds = 0;
+    uint64_t peak_rss_bytes = 0;
+    uint64_t output_bytes = 0;
+};
+
+struct CookOutcome
+{
+    int exit_code = 0;
+    std::string error; ///< the error line, empty on success
+    size_t failed_source = 0;
+    std::vector<StageRecord> stages; ///< in the order of the plan, those that ended well
+    double seconds = 0;
+    uint64_t output_bytes = 0;
+};
+
+/// Cook all sources into one pack, their scenes side by side. The output appears whole or not at all; on failure or
+/// interruption an output that was there before is as it was, and nothing else is left behind.
+/// returns    the exit code; every problem has been told on stderr
+int cook(const CookOptions& options);
+
+/// Schema "hearth.report/1". `meta` is the pack's META, empty on failure.
+std::string reportJson(const CookOptions& options, const CookOutcome& outcome, std::string_view meta);
+
+} // namespace hearth::command

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "pipelines/command/cook.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+namespace hearth::command
+{
+
+using Json = nlohmann::ordered_json;
+
+namespace
+{
+
+Json stageJson(const StageRecord& stage)
+{
+    return {{"stage", stage.stage},
+            {"seconds", stage.seconds},
+            {"cpu_seconds", stage.cpu_seconds},
+            {"peak_rss_bytes", stage.peak_rss_bytes},
+            {"bytes", stage.output_bytes}};
+}
+
+Json assetJson(const CookOptions& options, const CookOutcome& outcome, size_t source)
+{
+    const bool failed = outcome.exit_code != 0 &&
+                        (outcome.failed_source == source || outcome.failed_source == options.sources.size());
+    const char* state = outcome.exit_code == 0 ? "cooked" : failed ? "failed" : "not cooked";
+    Json asset{{"source", options.sources[source]}, {"state", state}, {"stages", Json::array()}};
+    for (const StageRecord& stage : outcome.stages)
+        if (stage.source == source)
+            asset["stages"].push_back(stageJson(stage));
+    return asset;
+}
+
+/// A list of the pack's META, or an empty one.
+Json listOf(const Json& meta, const char* key)
+{
+    return meta.is_object() && meta.contains(key) ? meta[key] : Json::array();
+}
+
+Json totalsJson(const CookOptions& options, const CookOutcome& outcome, const Json& sources)
+{
+    uint64_t bytes_in = 0;
+    for (const Json& source : sources)
+        if (source.is_object() && source.contains("bytes") && source["bytes"].is_number_unsigned())
+            bytes_in += source["bytes"].get<uint64_t>();
+    double cpu_seconds = 0;
+    uint64_t peak_rss_bytes = 0;
+    for (const StageRecord& stage : outcome.stages)
+    {
+        cpu_seconds += stage.cpu_seconds;
+        peak_rss_bytes = std::max(peak_rss_bytes, stage.peak_rss_bytes);
+    }
+    return {
+        {"assets", options.sources.size()}, {"wall_s", outcome.seconds}, {"cpu_s", cpu_seconds},
+        {"peak_rss", peak_rss_bytes},       {"bytes_in", bytes_in},      {"bytes_out", outcome.output_bytes}};
+}
+
+} // namespace
+
+std::string reportJson(const CookOptions& options, const CookOutcome& outcome, std::string_view meta_text)
+{
+    const Json meta = Json::parse(meta_text, nullptr, false);
+    const Json sources = listOf(meta, "sources");
+    Json report{{"schema", "hearth.report/1"},
+                {"tool", {{"name", "hearth"}, {"version", HEARTH_VERSION}}},
+                {"status", outcome.exit_code == 0 ? "ok" : "failed"},
+                {"exit", outcome.exit_code},
+                {"output", options.output},
+                {"totals", totalsJson(options, outcome, sources)},
+                {"assets", Json::array()}};
+    for (size_t i = 0; i < options.sources.size(); ++i)
+        report["assets"].push_back(assetJson(options, outcome, i));
+    for (const StageRecord& stage : outcome.stages)
+        if (stage.source == options.sources.size())
+            report[stage.stage] = stageJson(stage);
+    report["sources"] = sources;
+    report["messages"] = listOf(meta, "messages");
+    report["dropped"] = listOf(meta, "dropped");
+    if (!outcome.error.empty())
+        report["error"] = outcome.error;
+    return report.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+} // namespace hearth::command

@@ -1,0 +1,23 @@
+// hearth extract: a cut of a mesh's hierarchy as plain triangles.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "formats/pack_view.h"
+
+#include <string>
+#include <vector>
+
+namespace hearth::command
+{
+
+/// The clusters that are drawn at object-space error `error` (the rule stands beside GroupRecord), by index in the
+/// table. They cover the mesh once.
+std::vector<uint32_t> clustersOfCut(const formats::PackView& pack, const formats::MeshRecord& mesh,
+                                    float error);
+
+/// Write the cut of mesh `mesh` as binary little-endian PLY: x y z, then nx ny nz and s t where the mesh has them;
+/// vertices are shared inside a cluster, not between clusters. One page is in memory at a time.
+/// errors: usage where the mesh does not exist; those of openPack; cannot_write.
+Status extractCut(const std::string& path, uint32_t mesh, float error, const std::string& output);
+
+} // namespace hearth::command

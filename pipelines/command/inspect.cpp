@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "pipelines/command/inspect.h"
+
+#include <nlohmann/json.hpp>
+#include <set>
+
+namespace hearth::command
+{
+
+using namespace formats;
+using Json = nlohmann::json;
+
+namespace
+{
+
+void addClusters(MeshSummary& summary, std::span<const ClusterRecord> clusters)
+{
+    for (const ClusterRecord& cluster : clusters)
+    {
+        const uint64_t vertex_bytes = uint64_t{cluster.vertex_count} * vertexWords(summary.attributes) * 4;
+        summary.triangles += cluster.triangle_count;
+        summary.vertices += cluster.vertex_count;
+        summary.vertex_bytes += vertex_bytes;
+        summary.index_bytes +=
+            clusterBytes(summary.attributes, cluster.vertex_count, cluster.triangle_count) - vertex_bytes;
+    }
+}
+
+void addPages(MeshSummary& summary, std::span<const PageRecord> pages)
+{
+    for (const PageRecord& page : pages)
+    {
+        summary.page_bytes += page.size;
+        summary.stored_page_bytes += page.stored_size;
+        summary.record_bytes += sizeof(PageRecord) + page.parents.count * sizeof(uint32_t);
+    }
+}
+
+MeshSummary summarizeMesh(const PackView& pack, uint32_t index)
+{
+    const MeshRecord& mesh = pack.meshes()[index];
+    MeshSummary summary;
+    summary.name = pack.text(mesh.name);
+    summary.attributes = mesh.attributes;
+    summary.source_triangles = mesh.source_triangles;
+    summary.source_vertices = mesh.source_vertices;
+    summary.source_faces = mesh.source_faces;
+    summary.degenerate_triangles = mesh.degenerate_triangles;
+    summary.morph_targets = mesh.morph_target_count;
+    summary.skinned = mesh.skinned != 0;
+    summary.box_min = mesh.box_min;
+    summary.box_max = mesh.box_max;
+    summary.groups = mesh.groups.count;
+    summary.clusters = mesh.clusters.count;
+    summary.pages = mesh.pages.count;
+    for (const LevelRecord& level : recordsOf(pack.levels(), mesh.levels))
+        summary.levels.push_back({level.clusters.count, level.triangle_count, level.max_error});
+    summary.record_bytes = sizeof(MeshRecord) + mesh.levels.count * sizeof(LevelRecord) +
+                           mesh.groups.count * sizeof(GroupRecord) +
+                           mesh.clusters.count * sizeof(ClusterRecord);
+    addClusters(summary, recordsOf(pack.clusters(), mesh.clusters));
+    addPages(summary, recordsOf(pack.pages(), mesh.pages));
+    if (const ChunkEntry* deformation = pack.container().find(kChunkDeformation, index))
+        summary.deformation_bytes = deformation->stored_size;
+    return summary;
+}
+
+uint32_t countJointNodes(const PackView& pack)
+{
+    std::set<uint32_t> nodes;
+    for (const JointRecord& joint : pack.joints())
+        nodes.insert(joint.node);
+    return static_cast<uint32_t>(nodes.size());
+}
+
+uint64_t countInstancedTriangles(const PackView& pack, std::span<const MeshSummary> meshes)
+{
+    uint64_t triangles = 0;
+    for (const InstanceRecord& instance : pack.instances())
+        if (instance.mesh < meshes.size() && !meshes[instance.mesh].levels.empty())
+            triangles += meshes[instance.mesh].levels.front().triangles;
+    return triangles;
+}
+
+std::string stringOf(const Json& object, const char* key)
+{
+    const auto found = object.find(key);
+    return found != object.end() && found->is_string() ? found->get<std::string>() : std::string();
+}
+
+/// The members of an array that are objects.
+std::vector<Json> objectsOf(const Json& object, const char* key)
+{
+    std::vector<Json> objects;
+    const auto found = object.find(key);
+    if (found != object.end() && found->is_array())
+        for (const Json& item : *found)
+            if (item.is_object())
+                objects.push_back(item);
+    return objects;
+}
+
+} // namespace
+
+MetaSummary readMeta(std::string_view json)
+{
+    MetaSummary meta;
+    const Json root = Json::parse(json, nullptr, false);
+    if (!root.is_object())
+        return meta;
+    if (const auto tool = root.find("tool"); tool != root.end() && tool->is_object())
+        meta.tool_version = stringOf(*tool, "version");
+    for (const Json& source : objectsOf(root, "sources"))
+    {
+        const auto bytes = source.find("bytes");
+        const bool has_bytes = bytes != source.end() && bytes->is_number_unsigned();
+        meta.sources.push_back(
+            {stringOf(source, "name"), has_bytes ? bytes->get<uint64_t>() : 0, stringOf(source, "xxh3")});
+    }
+    if (const auto counts = root.find("counts"); counts != root.end() && counts->is_object())
+        for (const auto& [key, value] : counts->items())
+            if (value.is_number_unsigned())
+                meta.counts[key] = value.get<uint64_t>();
+    for (const Json& message : objectsOf(root, "messages"))
+        meta.messages.push_back({stringOf(message, "source"), stringOf(message, "code"),
+                                 stringOf(message, "pointer"), stringOf(message, "text")});
+    if (const auto dropped = root.find("dropped"); dropped != root.end() && dropped->is_array())
+        for (const Json& item : *dropped)
+            if (item.is_string())
+                meta.dropped.push_back(item.get<std::string>());
+    return meta;
+}
+
+PackSummary summarize(const PackView& pack)
+{
+    PackSummary summary;
+    summary.meta = readMeta(pack.meta());
+    for (uint32_t i = 0; i < pack.meshes().size(); ++i)
+        summary.meshes.push_back(summarizeMesh(pack, i));
+    for (const MeshSummary& mesh : summary.meshes)
+        summary.morph_targets += mesh.morph_targets;
+    summary.joint_nodes = countJointNodes(pack);
+    summary.instanced_triangles = countInstancedTriangles(pack, summary.meshes);
+    return summary;
+}
+
+std::string attributeNames(uint32_t attributes)
+{
+    const struct
+    {
+        uint32_t bit;
+        const char* name;
+    } kNames[] = {{kVertexNormal, "normal"}, {kVertexTangent, "tangent"}, {kVertexUv0, "uv0"},
+                  {kVertexUv1, "uv1"},       {kVertexUv2, "uv2"},         {kVertexUv3, "uv3"},
+                  {kVertexColor, "color"}};
+    std::string names = "position";
+    for (const auto& attribute : kNames)
+        if ((attributes & attribute.bit) != 0)
+            names += std::string(" ") + attribute.name;
+    return names;
+}
+
+const char* texelFormatName(uint32_t format)
+{
+    switch (static_cast<TexelFormat>(format))
+    {
+    case TexelFormat::rgba8_srgb:
+        return "rgba8-srgb";
+    case TexelFormat::rgba8_unorm:
+        return "rgba8-unorm";
+    case TexelFormat::rgba16_float:
+        return "rgba16-float";
+    }
+    return "unknown";
+}
+
+const char* alphaModeName(uint32_t mode)
+{
+    switch (static_cast<AlphaMode>(mode))
+    {
+    case AlphaMode::opaque:
+        return "opaque";
+    case AlphaMode::mask:
+        return "mask";
+    case AlphaMode::blend:
+        return "blend";
+    }
+    return "unknown";
+}
+
+const char* lightTypeName(uint32_t type)
+{
+    switch (static_cast<LightType>(type))
+    {
+    case LightType::directional:
+        return "directional";
+    case LightType::point:
+        return "point";
+    case LightType::spot:
+        return "spot";
+    }
+    return "unknown";
+}
+
+const char* codecName(uint32_t codec)
+{
+    switch (static_cast<Codec>(codec))
+    {
+    case Codec::none:
+        return "none";
+    case Codec::zstd:
+        return "zstd";
+    }
+    return "unknown";
+}
+
+} // namespace hearth::command

@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "pipelines/command/inspect.h"
+
+#include <nlohmann/json.hpp>
+
+namespace hearth::command
+{
+
+using namespace formats;
+using Json = nlohmann::ordered_json;
+
+namespace
+{
+
+Json pointJson(Float3 p)
+{
+    return {p.x, p.y, p.z};
+}
+
+double ratio(uint64_t part, uint64_t whole)
+{
+    return whole == 0 ? 0.0 : static_cast<double>(part) / static_cast<double>(whole);
+}
+
+Json levelJson(const LevelSummary& level)
+{
+    return {{"clusters", level.clusters}, {"triangles", level.triangles}, {"max_error", level.max_error}};
+}
+
+Json meshJson(const MeshSummary& mesh, uint32_t index)
+{
+    Json json{{"index", index},
+              {"name", mesh.name},
+              {"attributes", attributeNames(mesh.attributes)},
+              {"source",
+               {{"triangles", mesh.source_triangles},
+                {"vertices", mesh.source_vertices},
+                {"faces", mesh.source_faces}}},
+              {"degenerate_triangles", mesh.degenerate_triangles},
+              {"skinned", mesh.skinned},
+              {"morph_targets", mesh.morph_targets},
+              {"box", {pointJson(mesh.box_min), pointJson(mesh.box_max)}},
+              {"levels", Json::array()},
+              {"groups", mesh.groups},
+              {"clusters", mesh.clusters},
+              {"pages", mesh.pages}};
+    for (const LevelSummary& level : mesh.levels)
+        json["levels"].push_back(levelJson(level));
+    json["fill"] = {{"triangles_per_cluster", ratio(mesh.triangles, mesh.clusters)},
+                    {"vertices_per_cluster", ratio(mesh.vertices, mesh.clusters)},
+                    {"triangles", ratio(mesh.triangles, uint64_t{mesh.clusters} * kClusterMaxTriangles)}};
+    json["bytes"] = {{"vertices", mesh.vertex_bytes}, {"indices", mesh.index_bytes},
+                     {"pages", mesh.page_bytes},      {"pages_stored", mesh.stored_page_bytes},
+                     {"records", mesh.record_bytes},  {"deformation", mesh.deformation_bytes}};
+    return json;
+}
+
+Json imageJson(const PackView& pack, uint32_t index)
+{
+    const ImageRecord& image = pack.images()[index];
+    const ChunkEntry* data = pack.container().find(kChunkImageData, index);
+    return {{"index", index},
+            {"name", pack.text(image.name)},
+            {"width", image.width},
+            {"height", image.height},
+            {"mips", image.mip_count},
+            {"format", texelFormatName(image.format)},
+            {"placeholder", (image.flags & kImagePlaceholder) != 0},
+            {"bytes", data == nullptr ? 0 : data->size},
+            {"bytes_stored", data == nullptr ? 0 : data->stored_size}};
+}
+
+Json materialJson(const PackView& pack, uint32_t index)
+{
+    const MaterialRecord& material = pack.materials()[index];
+    return {{"index", index},
+            {"name", pack.text(material.name)},
+            {"alpha_mode", alphaModeName(material.alpha_mode)},
+            {"double_sided", (material.flags & kMaterialDoubleSided) != 0},
+            {"unlit", (material.flags & kMaterialUnlit) != 0}};
+}
+
+/// One object for each record of a table.
+template <typename MakeJson>
+Json listJson(size_t count, MakeJson makeJson)
+{
+    Json list = Json::array();
+    for (uint32_t i = 0; i < count; ++i)
+        list.push_back(makeJson(i));
+    return list;
+}
+
+Json sceneJson(const PackView& pack, const PackSummary& summary)
+{
+    const auto camera = [&](uint32_t i) -> Json
+    {
+        const bool perspective = pack.cameras()[i].type == static_cast<uint32_t>(CameraType::perspective);
+        return {{"index", i},
+                {"name", pack.text(pack.cameras()[i].name)},
+                {"type", perspective ? "perspective" : "orthographic"}};
+    };
+    const auto light = [&](uint32_t i) -> Json
+    {
+        const LightRecord& record = pack.lights()[i];
+        return {{"index", i},
+                {"name", pack.text(record.name)},
+                {"type", lightTypeName(record.type)},
+                {"intensity", record.intensity}};
+    };
+    const auto skin = [&](uint32_t i) -> Json
+    {
+        const SkinRecord& record = pack.skins()[i];
+        return {{"index", i}, {"name", pack.text(record.name)}, {"joints", record.joints.count}};
+    };
+    const auto animation = [&](uint32_t i) -> Json
+    {
+        const AnimationRecord& record = pack.animations()[i];
+        return {{"index", i},
+                {"name", pack.text(record.name)},
+                {"channels", record.channels.count},
+                {"seconds", record.duration}};
+    };
+    return {
+        {"nodes", pack.nodes().size()},
+        {"instances", pack.instances().size()},
+        {"instanced_triangles", summary.instanced_triangles},
+        {"joints", summary.joint_nodes},
+        {"morph_targets", summary.morph_targets},
+        {"cameras", listJson(pack.cameras().size(), camera)},
+        {"lights", listJson(pack.lights().size(), light)},
+        {"materials", listJson(pack.materials().size(), [&](uint32_t i) { return materialJson(pack, i); })},
+        {"images", listJson(pack.images().size(), [&](uint32_t i) { return imageJson(pack, i); })},
+        {"skins", listJson(pack.skins().size(), skin)},
+        {"animations", listJson(pack.animations().size(), animation)}};
+}
+
+Json chunksJson(const PackView& pack)
+{
+    Json list = Json::array();
+    for (const ChunkEntry& entry : pack.container().chunks())
+        list.push_back({{"kind", chunkName(entry.type, entry.index).substr(6, 4)},
+                        {"index", entry.index},
+                        {"size", entry.size},
+                        {"stored", entry.stored_size},
+                        {"codec", codecName(entry.codec)}});
+    return list;
+}
+
+Json totalsJson(const PackView& pack, const PackSummary& summary)
+{
+    MeshSummary total;
+    uint64_t levels = 0;
+    uint64_t degenerate = 0;
+    for (const MeshSummary& mesh : summary.meshes)
+    {
+        levels += mesh.levels.size();
+        degenerate += mesh.degenerate_triangles;
+        total.vertex_bytes += mesh.vertex_bytes;
+        total.index_bytes += mesh.index_bytes;
+        total.page_bytes += mesh.page_bytes;
+        total.stored_page_bytes += mesh.stored_page_bytes;
+        total.record_bytes += mesh.record_bytes;
+        total.deformation_bytes += mesh.deformation_bytes;
+    }
+    uint64_t image_bytes = 0;
+    for (const ChunkEntry& entry : pack.container().chunks())
+        image_bytes += entry.type == kChunkImageData ? entry.stored_size : 0;
+    return {{"source", summary.meta.counts},
+            {"meshes", pack.meshes().size()},
+            {"levels", levels},
+            {"groups", pack.groups().size()},
+            {"clusters", pack.clusters().size()},
+            {"pages", pack.pages().size()},
+            {"degenerate_triangles", degenerate},
+            {"bytes",
+             {{"file", pack.container().header().file_size},
+              {"vertices", total.vertex_bytes},
+              {"indices", total.index_bytes},
+              {"pages", total.page_bytes},
+              {"pages_stored", total.stored_page_bytes},
+              {"records", total.record_bytes},
+              {"deformation", total.deformation_bytes},
+              {"images_stored", image_bytes}}}};
+}
+
+} // namespace
+
+std::string inspectJson(const PackView& pack, const PackSummary& summary)
+{
+    const FileHeader& header = pack.container().header();
+    Json json{{"schema", "hearth.inspect/1"},
+              {"file", pack.name()},
+              {"kind", pack.container().kind() == ContainerKind::pack ? "pack" : "part"},
+              {"format", {{"major", header.version_major}, {"minor", header.version_minor}}},
+              {"tool_version", summary.meta.tool_version},
+              {"sources", Json::array()},
+              {"totals", totalsJson(pack, summary)},
+              {"meshes", Json::array()}};
+    for (const SourceSummary& source : summary.meta.sources)
+        json["sources"].push_back({{"name", source.name}, {"bytes", source.bytes}, {"xxh3", source.hash}});
+    for (uint32_t i = 0; i < summary.meshes.size(); ++i)
+        json["meshes"].push_back(meshJson(summary.meshes[i], i));
+    json["scene"] = sceneJson(pack, summary);
+    json["chunks"] = chunksJson(pack);
+    json["messages"] = Json::array();
+    for (const MessageSummary& message : summary.meta.messages)
+        json["messages"].push_back({{"source", message.source},
+                                    {"code", message.code},
+                                    {"pointer", message.where},
+                                    {"text", message.text}});
+    json["dropped"] = summary.meta.dropped;
+    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+} // namespace hearth::command

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "pipelines/command/inspect.h"
+#include "pipelines/command/terminal.h"
+
+#include <fmt/format.h>
+
+namespace hearth::command
+{
+
+using namespace formats;
+
+namespace
+{
+
+std::string headText(const PackView& pack, const PackSummary& summary)
+{
+    const FileHeader& header = pack.container().header();
+    std::string text = fmt::format("{}: {} {}.{}, {}, {} meshes, {} instances\n", pack.name(),
+                                   pack.container().kind() == ContainerKind::pack ? "pack" : "part",
+                                   header.version_major, header.version_minor, readableSize(header.file_size),
+                                   pack.meshes().size(), pack.instances().size());
+    for (const SourceSummary& source : summary.meta.sources)
+        text += fmt::format("source     {} ({})\n", source.name, readableSize(source.bytes));
+    text += "counts    ";
+    for (const auto& [name, count] : summary.meta.counts)
+        text += fmt::format(" {} {}", count, name);
+    return text + "\n";
+}
+
+std::string sceneText(const PackView& pack, const PackSummary& summary)
+{
+    return fmt::format(
+        "scene      {} nodes, {} instances ({} triangles), {} cameras, {} lights, {} materials, "
+        "{} images, {} skins, {} joints, {} animations, {} morph targets\n",
+        pack.nodes().size(), pack.instances().size(), summary.instanced_triangles, pack.cameras().size(),
+        pack.lights().size(), pack.materials().size(), pack.images().size(), pack.skins().size(),
+        summary.joint_nodes, pack.animations().size(), summary.morph_targets);
+}
+
+std::string meshText(const MeshSummary& mesh, size_t index)
+{
+    std::string text = fmt::format("\nmesh {} \"{}\": {} triangles, {} vertices, {} faces; {}\n", index,
+                                   mesh.name, mesh.source_triangles, mesh.source_vertices, mesh.source_faces,
+                                   attributeNames(mesh.attributes));
+    if (mesh.degenerate_triangles > 0)
+        text += fmt::format("  {} triangles without area are left out\n", mesh.degenerate_triangles);
+    if (mesh.skinned || mesh.morph_targets > 0)
+        text += fmt::format("  {}{} morph targets, {}\n", mesh.skinned ? "skinned, " : "", mesh.morph_targets,
+                            readableSize(mesh.deformation_bytes));
+    if (mesh.levels.empty())
+        return text + "  no triangles\n";
+    text += "  level  clusters   triangles  largest error\n";
+    for (size_t i = 0; i < mesh.levels.size(); ++i)
+        text += fmt::format("  {:>5}  {:>8}  {:>10}  {:>13.6g}\n", i, mesh.levels[i].clusters,
+                            mesh.levels[i].triangles, mesh.levels[i].max_error);
+    const double clusters = mesh.clusters == 0 ? 1 : mesh.clusters;
+    text += fmt::format("  {} groups, {} clusters of {:.1f} triangles and {:.1f} vertices ({:.0f} % full)\n",
+                        mesh.groups, mesh.clusters, static_cast<double>(mesh.triangles) / clusters,
+                        static_cast<double>(mesh.vertices) / clusters,
+                        100.0 * static_cast<double>(mesh.triangles) / (clusters * kClusterMaxTriangles));
+    return text + fmt::format("  {} pages: {} stored of {} (vertices {}, indices {}); records {}\n",
+                              mesh.pages, readableSize(mesh.stored_page_bytes), readableSize(mesh.page_bytes),
+                              readableSize(mesh.vertex_bytes), readableSize(mesh.index_bytes),
+                              readableSize(mesh.record_bytes));
+}
+
+std::string imagesText(const PackView& pack)
+{
+    std::string text;
+    for (uint32_t i = 0; i < pack.images().size(); ++i)
+    {
+        const ImageRecord& image = pack.images()[i];
+        const ChunkEntry* data = pack.container().find(kChunkImageData, i);
+        text += fmt::format("image {} \"{}\": {} x {}, {} mips, {}, {}{}\n", i, pack.text(image.name),
+                            image.width, image.height, image.mip_count, texelFormatName(image.format),
+                            readableSize(data == nullptr ? 0 : data->stored_size),
+                            (image.flags & kImagePlaceholder) != 0 ? ", placeholder" : "");
+    }
+    return text.empty() ? text : "\n" + text;
+}
+
+std::string messagesText(const MetaSummary& meta)
+{
+    std::string text;
+    for (const MessageSummary& message : meta.messages)
+        text += fmt::format("{} {}{}{}: {}\n", message.code, message.source, message.where.empty() ? "" : "|",
+                            message.where, message.text);
+    return text.empty() ? text : "\n" + text;
+}
+
+/// Every kind of chunk with its share of the file.
+std::string chunksText(const PackView& pack)
+{
+    struct Kind
+    {
+        uint64_t count = 0;
+        uint64_t size = 0;
+        uint64_t stored = 0;
+    };
+    std::map<std::string, Kind> kinds;
+    for (const ChunkEntry& entry : pack.container().chunks())
+    {
+        Kind& kind = kinds[chunkName(entry.type, entry.index).substr(6, 4)];
+        ++kind.count;
+        kind.size += entry.size;
+        kind.stored += entry.stored_size;
+    }
+    std::string text = "\nchunk  count        stored       decoded\n";
+    for (const auto& [name, kind] : kinds)
+        text += fmt::format("{:<5}  {:>5}  {:>12}  {:>12}\n", name, kind.count, readableSize(kind.stored),
+                            readableSize(kind.size));
+    return text;
+}
+
+} // namespace
+
+std::string inspectText(const PackView& pack, const PackSummary& summary)
+{
+    std::string text = headText(pack, summary) + sceneText(pack, summary);
+    for (size_t i = 0; i < summary.meshes.size(); ++i)
+        text += meshText(summary.meshes[i], i);
+    return text + imagesText(pack) + messagesText(summary.meta) + chunksText(pack);
+}
+
+} // namespace hearth::command

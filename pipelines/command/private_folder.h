@@ -1,0 +1,33 @@
+// A folder of this process alone, gone when it goes.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "formats/result.h"
+
+#include <string>
+
+namespace hearth::command
+{
+
+class PrivateFolder
+{
+public:
+    /// A new folder in `parent`, which must exist. errors: cannot_write, naming `for_output`.
+    static Result<PrivateFolder> create(const std::string& parent, const std::string& for_output);
+
+    PrivateFolder(PrivateFolder&& other) noexcept : path_(std::move(other.path_)) { other.path_.clear(); }
+    PrivateFolder& operator=(PrivateFolder&&) = delete;
+    /// Removes the folder with all that is in it.
+    ~PrivateFolder();
+
+    const std::string& path() const { return path_; }
+
+private:
+    explicit PrivateFolder(std::string path) : path_(std::move(path)) {}
+    std::string path_;
+};
+
+/// The folder that a file lies in: "." for a bare name.
+std::string folderOf(const std::string& path);
+
+} // namespace hearth::command

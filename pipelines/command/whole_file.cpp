@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "pipelines/command/whole_file.h"
+
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace hearth::command
+{
+
+namespace
+{
+
+Error cannotWrite(const std::string& path)
+{
+    return {Issue::cannot_write, path, "", std::string("cannot write: ") + std::strerror(errno)};
+}
+
+} // namespace
+
+WholeFile::WholeFile(std::string path, std::string temporary_path, std::FILE* file)
+    : path_(std::move(path)), temporary_path_(std::move(temporary_path)), file_(file)
+{
+}
+
+Result<WholeFile> WholeFile::create(const std::string& path)
+{
+    std::string temporary_path = path + ".tmp-XXXXXX";
+    const int descriptor = ::mkstemp(temporary_path.data());
+    if (descriptor < 0)
+        return cannotWrite(path);
+    return WholeFile(path, temporary_path, ::fdopen(descriptor, "wb"));
+}
+
+WholeFile::~WholeFile()
+{
+    if (file_)
+        ::unlink(temporary_path_.c_str());
+}
+
+void WholeFile::write(std::span<const std::byte> bytes)
+{
+    failed_ = failed_ || std::fwrite(bytes.data(), 1, bytes.size(), file_.get()) != bytes.size();
+}
+
+Status WholeFile::finish()
+{
+    // mkstemp makes a private file; an output has the rights that the user's umask gives
+    const mode_t mask = ::umask(0);
+    ::umask(mask);
+    const int descriptor = ::fileno(file_.get());
+    if (failed_ || std::fflush(file_.get()) != 0 || ::fchmod(descriptor, 0666 & ~mask) != 0 ||
+        ::fsync(descriptor) != 0 || ::rename(temporary_path_.c_str(), path_.c_str()) != 0)
+        return cannotWrite(path_);
+    file_.reset();
+    return success();
+}
+
+} // namespace hearth::command

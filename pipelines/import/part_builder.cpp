@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "pipelines/import/part_builder.h"
+
+#include "formats/container_reader.h"
+#include "pipelines/import/json_document.h"
+
+#include <fmt/format.h>
+
+namespace hearth::import
+{
+
+using namespace formats;
+
+namespace
+{
+
+// A hostile file can provoke a message for every element; a person reads the first few.
+constexpr size_t kMaxWarnings = 100;
+
+/// The text with every byte that is not part of valid UTF-8 replaced by '?': names go into the string table as UTF-8.
+std::string validUtf8(std::string_view text)
+{
+    const auto continues = [&](size_t i)
+    { return i < text.size() && (static_cast<unsigned char>(text[i]) & 0xC0u) == 0x80u; };
+    std::string valid;
+    valid.reserve(text.size());
+    for (size_t i = 0; i < text.size();)
+    {
+        const auto first = static_cast<unsigned char>(text[i]);
+        const size_t length = first < 0x80                    ? 1
+                              : first >= 0xC2 && first < 0xE0 ? 2
+                              : first >= 0xE0 && first < 0xF0 ? 3
+                              : first >= 0xF0 && first < 0xF5 ? 4
+                                                              : 0;
+        bool whole = length > 0;
+        for (size_t k = 1; k < length; ++k)
+            whole = whole && continues(i + k);
+        // overlong forms, surrogates and numbers above U+10FFFF
+        const auto second = whole && length > 1 ? static_cast<unsigned char>(text[i + 1]) : 0u;
+        whole = whole && !(first == 0xE0 && second < 0xA0) && !(first == 0xED && second > 0x9F) &&
+                !(first == 0xF0 && second < 0x90) && !(first == 0xF4 && second > 0x8F);
+        valid += whole ? text.substr(i, length) : std::string_view("?");
+        i += whole ? length : 1;
+    }
+    return valid;
+}
+
+std::string messageJson(const Error& warning)
+{
+    const IssueInfo& info = issueInfo(warning.issue);
+    return fmt::format(R"({{"code":"W{}","severity":"warning","pointer":{},"text":{},"hint":{}}})",
+                       static_cast<unsigned>(warning.issue), quoteJson(warning.where),
+                       quoteJson(warning.detail.empty() ? info.summary : std::string_view(warning.detail)),
+                       quoteJson(info.hint));
+}
+
+std::string joined(const std::vector<std::string>& items)
+{
+    std::string text;
+    for (const std::string& item : items)
+        text += (text.empty() ? "" : ",") + item;
+    return "[" + text + "]";
+}
+
+std::string countsJson(const SourceCounts& counts, size_t meshes, size_t images, size_t instances)
+{
+    return fmt::format(R"({{"meshes":{},"instances":{},"images":{},"triangles":{},"faces":{},"vertices":{},)"
+                       R"("materials":{},"joints":{},"animations":{},"morph_targets":{}}})",
+                       meshes, instances, images, counts.triangles, counts.faces, counts.vertices,
+                       counts.materials, counts.joints, counts.animations, counts.morph_targets);
+}
+
+} // namespace
+
+PartBuilder::PartBuilder(ContainerWriter writer, std::string source_name)
+    : writer_(std::move(writer)), source_name_(std::move(source_name))
+{
+}
+
+Result<PartBuilder> PartBuilder::create(const std::string& path, std::string source_name)
+{
+    HEARTH_ASSIGN_OR_RETURN(ContainerWriter writer, ContainerWriter::create(path, ContainerKind::part));
+    return PartBuilder(std::move(writer), std::move(source_name));
+}
+
+StringRef PartBuilder::intern(std::string_view text)
+{
+    if (text.empty())
+        return {};
+    const auto found = string_refs_.find(text);
+    if (found != string_refs_.end())
+        return found->second;
+    const std::string valid = validUtf8(text);
+    const StringRef ref{static_cast<uint32_t>(strings_.size()), static_cast<uint32_t>(valid.size())};
+    strings_ += valid;
+    string_refs_.emplace(text, ref);
+    return ref;
+}
+
+Status PartBuilder::addMesh(const mesh::SourceMesh& mesh)
+{
+    return mesh::writeSourceMesh(writer_, mesh_count_++, mesh);
+}
+
+Result<uint32_t> PartBuilder::addImage(ImageRecord record, const DecodedImage& image)
+{
+    const size_t texel_bytes = image.is_float ? 8 : 4;
+    HEARTH_ASSERT(image.texels.size() == size_t{image.width} * image.height * texel_bytes);
+    const auto index = static_cast<uint32_t>(images_.size());
+    record.width = image.width;
+    record.height = image.height;
+    record.mip_count = 1;
+    if (image.is_float)
+        record.format = static_cast<uint32_t>(TexelFormat::rgba16_float);
+    images_.push_back(record);
+    HEARTH_TRY(writer_.addChunk({.type = kChunkImageData, .index = index}, image.texels,
+                                static_cast<uint32_t>(texel_bytes), Codec::none));
+    return index;
+}
+
+void PartBuilder::warn(Issue issue, std::string where, std::string detail)
+{
+    HEARTH_ASSERT(issueInfo(issue).kind == IssueClass::warning);
+    if (warnings_.size() < kMaxWarnings)
+        warnings_.push_back({issue, source_name_, std::move(where), std::move(detail)});
+    else
+        ++warnings_left_out_;
+}
+
+void PartBuilder::addSource(std::string name, std::span<const std::byte> content)
+{
+    sources_.push_back({std::move(name), content.size(), hashBytes(content)});
+}
+
+std::string PartBuilder::report() const
+{
+    std::vector<std::string> sources;
+    for (const SourceFile& source : sources_)
+        sources.push_back(fmt::format(R"({{"name":{},"bytes":{},"xxh3":"{:016x}"}})", quoteJson(source.name),
+                                      source.size, source.hash));
+    std::vector<std::string> messages;
+    std::vector<std::string> dropped;
+    for (const Error& warning : warnings_)
+    {
+        messages.push_back(messageJson(warning));
+        if (warning.issue == Issue::dropped)
+            dropped.push_back(quoteJson(warning.detail));
+    }
+    return fmt::format(
+        R"({{"schema":"hearth.import/1","tool":{{"name":"hearth-import","version":{}}},"source":{},)"
+        R"("sources":{},"counts":{},"messages":{},"messages_left_out":{},"dropped":{}}})",
+        quoteJson(HEARTH_VERSION), quoteJson(source_name_.substr(source_name_.rfind('/') + 1)),
+        joined(sources), countsJson(counts, mesh_count_, images_.size(), instances.size()), joined(messages),
+        warnings_left_out_, joined(dropped));
+}
+
+Status PartBuilder::finish()
+{
+    HEARTH_TRY(writer_.addText(kChunkMeta, report()));
+    HEARTH_TRY(writer_.addText(kChunkStrings, strings_));
+    HEARTH_TRY(writer_.addRecords<NodeRecord>(kChunkNodes, nodes));
+    HEARTH_TRY(writer_.addRecords<InstanceRecord>(kChunkInstances, instances));
+    HEARTH_TRY(writer_.addRecords<CameraRecord>(kChunkCameras, cameras));
+    HEARTH_TRY(writer_.addRecords<LightRecord>(kChunkLights, lights));
+    HEARTH_TRY(writer_.addRecords<MaterialRecord>(kChunkMaterials, materials));
+    HEARTH_TRY(writer_.addRecords<ImageRecord>(kChunkImages, images_));
+    HEARTH_TRY(writer_.addRecords<SkinRecord>(kChunkSkins, skins));
+    HEARTH_TRY(writer_.addRecords<JointRecord>(kChunkJoints, joints));
+    HEARTH_TRY(writer_.addRecords<AnimationRecord>(kChunkAnimations, animations));
+    HEARTH_TRY(writer_.addRecords<AnimationChannelRecord>(kChunkChannels, channels));
+    HEARTH_TRY(writer_.addRecords<float>(kChunkKeys, keys));
+    HEARTH_TRY(writer_.addRecords<float>(kChunkMorphWeights, morph_weights));
+    return writer_.finish();
+}
+
+} // namespace hearth::import

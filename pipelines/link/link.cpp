@@ -1,0 +1,266 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "pipelines/link/link.h"
+
+#include "formats/container_writer.h"
+#include "formats/pack_check.h"
+#include "pipelines/link/merged_meta.h"
+#include "pipelines/link/rebase.h"
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <unistd.h>
+#include <vector>
+
+namespace hearth::link
+{
+
+using namespace formats;
+
+namespace
+{
+
+// Pages of a part are copied in pieces of this size, so that a large part does not have to fit into memory.
+constexpr size_t kCopyBytes = size_t{1} << 20;
+
+struct Source
+{
+    PackView import_part;
+    PackView clusters_part;
+    PackView textures_part;
+    Offsets offsets;
+};
+
+Result<PackView> openPart(const std::string& path)
+{
+    // every chunk is hashed when it is read or copied: no need to read the file once more before that
+    HEARTH_ASSIGN_OR_RETURN(ContainerReader reader, ContainerReader::open(path, Check::structure));
+    if (reader.kind() != ContainerKind::part)
+        return Error{Issue::meaning_value, path, "", "is a pack, not a part"};
+    return PackView::read(std::move(reader));
+}
+
+uint64_t countChunks(const ContainerReader& reader, uint32_t type)
+{
+    uint64_t count = 0;
+    for (const ChunkEntry& entry : reader.chunks())
+        count += entry.type == type ? 1 : 0;
+    return count;
+}
+
+/// The cookers keep the numbers of meshes and images: where they differ, a part is of another source.
+Status checkTogether(const Source& source)
+{
+    const auto differ = [](const PackView& part, const char* what, uint64_t has, uint64_t expected)
+    {
+        return Error{Issue::meaning_reference, part.name(), "",
+                     "has " + std::to_string(has) + " " + what + " where the import part has " +
+                         std::to_string(expected)};
+    };
+    const uint64_t meshes = countChunks(source.import_part.container(), kChunkSourceMesh);
+    if (source.clusters_part.meshes().size() != meshes)
+        return differ(source.clusters_part, "meshes", source.clusters_part.meshes().size(), meshes);
+    const uint64_t images = source.import_part.images().size();
+    if (source.textures_part.images().size() != images)
+        return differ(source.textures_part, "images", source.textures_part.images().size(), images);
+    return success();
+}
+
+Result<Source> openSource(const SourceParts& parts)
+{
+    HEARTH_ASSIGN_OR_RETURN(PackView import_part, openPart(parts.import_part));
+    HEARTH_ASSIGN_OR_RETURN(PackView clusters_part, openPart(parts.clusters_part));
+    HEARTH_ASSIGN_OR_RETURN(PackView textures_part, openPart(parts.textures_part));
+    Source source{std::move(import_part), std::move(clusters_part), std::move(textures_part), {}};
+    HEARTH_TRY(checkTogether(source));
+    return source;
+}
+
+/// The next table start after `count` more records; false where 32-bit indices end.
+bool advance(uint32_t& offset, uint64_t count)
+{
+    if (count >= kNone - uint64_t{offset})
+        return false;
+    offset += static_cast<uint32_t>(count);
+    return true;
+}
+
+uint64_t alignedPageBytes(const PackView& clusters_part)
+{
+    return (clusters_part.pageBytes().size() + kChunkAlignment - 1) / kChunkAlignment * kChunkAlignment;
+}
+
+/// Where the source after `source` begins.
+bool advancePast(const Source& source, Offsets& next)
+{
+    const PackView& scene = source.import_part;
+    const PackView& meshes = source.clusters_part;
+    next = source.offsets;
+    next.strings = source.offsets.mesh_strings;
+    next.page_bytes += alignedPageBytes(meshes);
+    return advance(next.strings, meshes.strings().size()) && advance(next.nodes, scene.nodes().size()) &&
+           advance(next.materials, scene.materials().size()) && advance(next.images, scene.images().size()) &&
+           advance(next.skins, scene.skins().size()) && advance(next.joints, scene.joints().size()) &&
+           advance(next.channels, scene.channels().size()) && advance(next.keys, scene.keys().size()) &&
+           advance(next.morph_weights, scene.morphWeights().size()) &&
+           advance(next.meshes, meshes.meshes().size()) && advance(next.levels, meshes.levels().size()) &&
+           advance(next.groups, meshes.groups().size()) && advance(next.clusters, meshes.clusters().size()) &&
+           advance(next.pages, meshes.pages().size()) &&
+           advance(next.page_parents, meshes.pageParents().size());
+}
+
+/// Give every source its place in the merged tables.
+Status placeSources(std::vector<Source>& sources, const std::string& output)
+{
+    Offsets next;
+    for (Source& source : sources)
+    {
+        source.offsets = next;
+        source.offsets.mesh_strings = next.strings;
+        if (!advance(source.offsets.mesh_strings, source.import_part.strings().size()) ||
+            !advancePast(source, next))
+            return Error{Issue::input_too_large, output, "",
+                         "the sources together are too large for one pack"};
+    }
+    return success();
+}
+
+Status writeMeta(ContainerWriter& writer, std::span<const Source> sources, const std::string& output)
+{
+    std::vector<PartMetas> metas;
+    for (const Source& source : sources)
+        metas.push_back(
+            {source.import_part.meta(), source.clusters_part.meta(), source.textures_part.meta()});
+    HEARTH_ASSIGN_OR_RETURN(const std::string text, mergedMeta(metas, output));
+    return writer.addText(kChunkMeta, text);
+}
+
+Status writeStrings(ContainerWriter& writer, std::span<const Source> sources)
+{
+    std::string strings;
+    for (const Source& source : sources)
+    {
+        strings += source.import_part.strings();
+        strings += source.clusters_part.strings();
+    }
+    return writer.addText(kChunkStrings, strings);
+}
+
+/// One table of all sources.
+template <typename T>
+Status writeTable(ContainerWriter& writer, std::span<const Source> sources, uint32_t type,
+                  PackView Source::*part, std::span<const T> (PackView::*table)() const)
+{
+    std::vector<T> merged;
+    for (const Source& source : sources)
+        for (T record : ((source.*part).*table)())
+        {
+            rebase(record, source.offsets);
+            merged.push_back(record);
+        }
+    return writer.addRecords<T>(type, merged);
+}
+
+Status writeScene(ContainerWriter& writer, std::span<const Source> sources)
+{
+    const auto write = [&]<typename T>(uint32_t type, std::span<const T> (PackView::*table)() const)
+    { return writeTable(writer, sources, type, &Source::import_part, table); };
+    HEARTH_TRY(write(kChunkNodes, &PackView::nodes));
+    HEARTH_TRY(write(kChunkInstances, &PackView::instances));
+    HEARTH_TRY(write(kChunkCameras, &PackView::cameras));
+    HEARTH_TRY(write(kChunkLights, &PackView::lights));
+    HEARTH_TRY(write(kChunkMaterials, &PackView::materials));
+    HEARTH_TRY(writeTable(writer, sources, kChunkImages, &Source::textures_part, &PackView::images));
+    HEARTH_TRY(write(kChunkSkins, &PackView::skins));
+    HEARTH_TRY(write(kChunkJoints, &PackView::joints));
+    HEARTH_TRY(write(kChunkAnimations, &PackView::animations));
+    HEARTH_TRY(write(kChunkChannels, &PackView::channels));
+    HEARTH_TRY(write(kChunkKeys, &PackView::keys));
+    return write(kChunkMorphWeights, &PackView::morphWeights);
+}
+
+Status writeMeshes(ContainerWriter& writer, std::span<const Source> sources)
+{
+    const auto write = [&]<typename T>(uint32_t type, std::span<const T> (PackView::*table)() const)
+    { return writeTable(writer, sources, type, &Source::clusters_part, table); };
+    HEARTH_TRY(write(kChunkMeshes, &PackView::meshes));
+    HEARTH_TRY(write(kChunkLevels, &PackView::levels));
+    HEARTH_TRY(write(kChunkGroups, &PackView::groups));
+    HEARTH_TRY(write(kChunkClusters, &PackView::clusters));
+    HEARTH_TRY(write(kChunkPageTable, &PackView::pages));
+    return write(kChunkPageParents, &PackView::pageParents);
+}
+
+Status writePages(ContainerWriter& writer, std::span<const Source> sources)
+{
+    constexpr std::byte kZeros[kChunkAlignment] = {};
+    HEARTH_TRY(writer.beginChunk({.type = kChunkPages}, 1));
+    for (const Source& source : sources)
+    {
+        const std::span<const std::byte> pages = source.clusters_part.pageBytes();
+        for (size_t at = 0; at < pages.size(); at += kCopyBytes)
+            HEARTH_TRY(writer.append(pages.subspan(at, std::min(kCopyBytes, pages.size() - at))));
+        HEARTH_TRY(
+            writer.append(std::span(kZeros).first(alignedPageBytes(source.clusters_part) - pages.size())));
+    }
+    return writer.endChunk();
+}
+
+/// Copy the chunks of a type as they are stored, their index moved by `offset`.
+Status copyChunks(ContainerWriter& writer, const PackView& part, uint32_t type, uint32_t offset)
+{
+    for (const ChunkEntry& entry : part.container().chunks())
+        if (entry.type == type)
+            HEARTH_TRY(
+                writer.addStored({.type = type, .index = entry.index + offset, .version = entry.version},
+                                 entry, part.container().stored(entry)));
+    return success();
+}
+
+Status writePack(const std::string& path, std::span<const Source> sources)
+{
+    HEARTH_ASSIGN_OR_RETURN(ContainerWriter writer, ContainerWriter::create(path, ContainerKind::pack));
+    HEARTH_TRY(writeMeta(writer, sources, path));
+    HEARTH_TRY(writeStrings(writer, sources));
+    HEARTH_TRY(writeScene(writer, sources));
+    HEARTH_TRY(writeMeshes(writer, sources));
+    HEARTH_TRY(writePages(writer, sources));
+    for (const Source& source : sources)
+        HEARTH_TRY(copyChunks(writer, source.clusters_part, kChunkDeformation, source.offsets.meshes));
+    for (const Source& source : sources)
+        HEARTH_TRY(copyChunks(writer, source.textures_part, kChunkImageData, source.offsets.images));
+    return writer.finish();
+}
+
+/// The pack as the runtime will see it, before anyone else does.
+Status checkWritten(const std::string& path)
+{
+    HEARTH_ASSIGN_OR_RETURN(ContainerReader reader, ContainerReader::open(path));
+    HEARTH_ASSIGN_OR_RETURN(const PackView pack, PackView::read(std::move(reader)));
+    return checkPack(pack);
+}
+
+} // namespace
+
+Status linkPack(std::span<const SourceParts> sources, const std::string& output)
+{
+    std::vector<Source> opened;
+    for (const SourceParts& parts : sources)
+    {
+        HEARTH_ASSIGN_OR_RETURN(Source source, openSource(parts));
+        opened.push_back(std::move(source));
+    }
+    HEARTH_TRY(placeSources(opened, output));
+
+    const std::string unchecked = output + ".unchecked-" + std::to_string(::getpid());
+    HEARTH_TRY(writePack(unchecked, opened));
+    Status status = checkWritten(unchecked);
+    if (status.ok() && ::rename(unchecked.c_str(), output.c_str()) != 0)
+        status =
+            Error{Issue::cannot_write, output, "", std::string("cannot rename: ") + std::strerror(errno)};
+    if (!status.ok())
+        ::unlink(unchecked.c_str());
+    return status;
+}
+
+} // namespace hearth::link

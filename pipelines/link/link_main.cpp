@@ -1,0 +1,42 @@
+// hearth-link: merges import, clusters and textures parts into a pack.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "pipelines/link/link.h"
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <vector>
+
+int main(int argc, char** argv)
+{
+    CLI::App app("Merge the parts of one or more sources into a pack.", "hearth-link");
+    std::vector<std::string> parts;
+    std::string output;
+    app.add_option("PARTS", parts, "import part, clusters part and textures part of each source")->required();
+    app.add_option("-o,--output", output, "pack to write")->required();
+    try
+    {
+        app.parse(argc, argv);
+        if (parts.size() % 3 != 0)
+            throw CLI::ValidationError("PARTS", "three parts are needed for each source");
+    }
+    catch (const CLI::CallForHelp&)
+    {
+        std::printf("%s", app.help().c_str());
+        return 0;
+    }
+    catch (const CLI::ParseError& error)
+    {
+        std::fprintf(stderr, "%s\n",
+                     hearth::formatMessage({hearth::Issue::usage, "hearth-link", "", error.what()}).c_str());
+        return 2;
+    }
+
+    std::vector<hearth::link::SourceParts> sources;
+    for (size_t i = 0; i < parts.size(); i += 3)
+        sources.push_back({parts[i], parts[i + 1], parts[i + 2]});
+    const hearth::Status status = hearth::link::linkPack(sources, output);
+    if (status.ok())
+        return 0;
+    std::fprintf(stderr, "%s\n", formatMessage(status.error()).c_str());
+    return exitCode(status.error());
+}

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "pipelines/link/merged_meta.h"
+
+#include <nlohmann/json.hpp>
+
+namespace hearth::link
+{
+
+using Json = nlohmann::ordered_json;
+
+namespace
+{
+
+const Json& memberOf(const Json& object, const char* key)
+{
+    static const Json nothing;
+    const auto found = object.find(key);
+    return found == object.end() ? nothing : *found;
+}
+
+/// The name of the asset itself: import lists it first.
+Json assetName(const Json& import_meta)
+{
+    const Json& sources = memberOf(import_meta, "sources");
+    if (!sources.is_array() || sources.empty() || !sources[0].is_object())
+        return "";
+    return memberOf(sources[0], "name");
+}
+
+void appendAll(Json& list, const Json& items)
+{
+    if (items.is_array())
+        list.insert(list.end(), items.begin(), items.end());
+}
+
+void appendMessages(Json& list, const Json& messages, const Json& asset)
+{
+    if (!messages.is_array())
+        return;
+    for (const Json& message : messages)
+    {
+        if (!message.is_object())
+            continue;
+        Json named{{"source", asset}};
+        named.update(message);
+        list.push_back(std::move(named));
+    }
+}
+
+void addCounts(Json& sums, const Json& counts)
+{
+    if (!counts.is_object())
+        return;
+    for (const auto& [key, value] : counts.items())
+    {
+        if (!value.is_number_unsigned())
+            continue;
+        const uint64_t before = sums.contains(key) ? sums[key].get<uint64_t>() : 0;
+        sums[key] = before + value.get<uint64_t>();
+    }
+}
+
+uint64_t leftOut(const Json& meta)
+{
+    const Json& count = memberOf(meta, "messages_left_out");
+    return count.is_number_unsigned() ? count.get<uint64_t>() : 0;
+}
+
+void addPart(Json& merged, const Json& meta, const Json& asset)
+{
+    const Json& settings = memberOf(meta, "settings");
+    if (settings.is_object())
+        merged["settings"].update(settings);
+    appendMessages(merged["messages"], memberOf(meta, "messages"), asset);
+    merged["messages_left_out"] = merged["messages_left_out"].get<uint64_t>() + leftOut(meta);
+    appendAll(merged["dropped"], memberOf(meta, "dropped"));
+}
+
+} // namespace
+
+Result<std::string> mergedMeta(std::span<const PartMetas> sources, const std::string& name)
+{
+    Json merged{
+        {"schema", "hearth.meta/1"},        {"tool", {{"name", "hearth"}, {"version", HEARTH_VERSION}}},
+        {"sources", Json::array()},         {"settings", Json::object()},
+        {"counts", Json::object()},         {"messages", Json::array()},
+        {"messages_left_out", uint64_t{0}}, {"dropped", Json::array()}};
+    for (const PartMetas& source : sources)
+    {
+        Json asset = "";
+        for (const std::string_view text : {source.import_meta, source.clusters_meta, source.textures_meta})
+        {
+            if (text.empty())
+                continue;
+            const Json meta = Json::parse(text, nullptr, false);
+            if (!meta.is_object())
+                return Error{Issue::meaning_value, name, "chunk META 0", "is not a JSON object"};
+            if (text.data() == source.import_meta.data())
+            {
+                asset = assetName(meta);
+                appendAll(merged["sources"], memberOf(meta, "sources"));
+                addCounts(merged["counts"], memberOf(meta, "counts"));
+            }
+            addPart(merged, meta, asset);
+        }
+    }
+    return merged.dump(1, '\t', false, Json::error_handler_t::replace);
+}
+
+} // namespace hearth::link

@@ -1,0 +1,51 @@
+// Moves the indices of a part's records to where the part's tables begin in the merged pack.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "formats/mesh.h"
+#include "formats/scene.h"
+
+namespace hearth::link
+{
+
+/// Where the records of one source begin in the merged tables.
+struct Offsets
+{
+    uint32_t strings = 0;      ///< bytes; of the import part, which the textures part refers to as well
+    uint32_t mesh_strings = 0; ///< bytes; of the clusters part
+    uint32_t nodes = 0;
+    uint32_t materials = 0;
+    uint32_t images = 0;
+    uint32_t skins = 0;
+    uint32_t joints = 0;
+    uint32_t channels = 0;
+    uint32_t keys = 0;
+    uint32_t morph_weights = 0;
+    uint32_t meshes = 0;
+    uint32_t levels = 0;
+    uint32_t groups = 0;
+    uint32_t clusters = 0;
+    uint32_t pages = 0;
+    uint32_t page_parents = 0;
+    uint64_t page_bytes = 0; ///< in chunk PAGE
+};
+
+void rebase(formats::NodeRecord& node, const Offsets& offsets);
+void rebase(formats::InstanceRecord& instance, const Offsets& offsets);
+void rebase(formats::CameraRecord& camera, const Offsets& offsets);
+void rebase(formats::LightRecord& light, const Offsets& offsets);
+void rebase(formats::MaterialRecord& material, const Offsets& offsets);
+void rebase(formats::ImageRecord& image, const Offsets& offsets);
+void rebase(formats::SkinRecord& skin, const Offsets& offsets);
+void rebase(formats::JointRecord& joint, const Offsets& offsets);
+void rebase(formats::AnimationRecord& animation, const Offsets& offsets);
+void rebase(formats::AnimationChannelRecord& channel, const Offsets& offsets);
+void rebase(formats::MeshRecord& mesh, const Offsets& offsets);
+void rebase(formats::LevelRecord& level, const Offsets& offsets);
+void rebase(formats::GroupRecord& group, const Offsets& offsets);
+void rebase(formats::ClusterRecord& cluster, const Offsets& offsets);
+void rebase(formats::PageRecord& page, const Offsets& offsets);
+void rebase(uint32_t& page_parent, const Offsets& offsets);
+inline void rebase(float&, const Offsets&) {} ///< keys and morph weights refer to nothing
+
+} // namespace hearth::link

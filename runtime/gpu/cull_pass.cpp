@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "runtime/gpu/cull_pass.h"
+
+#include "runtime/shaders/shaders.h"
+
+#include <algorithm>
+
+namespace hearth::gpu
+{
+
+namespace
+{
+
+constexpr VkDescriptorType kUniform = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
+constexpr VkDescriptorType kStorage = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+
+struct EmitPush
+{
+    uint32_t item_count;
+    uint32_t slot_capacity;
+};
+
+struct ScanTotalsPush
+{
+    uint32_t block_count;
+    uint32_t slot_capacity;
+};
+
+struct EmitDrawsPush
+{
+    uint32_t bin_count;
+    uint32_t item_count;
+    uint32_t block_count;
+    uint32_t slot_capacity;
+};
+
+uint32_t groupsOf(uint32_t count, uint32_t group_size)
+{
+    return (count + group_size - 1) / group_size;
+}
+
+template <typename Push>
+void dispatch(const Device& device, VkCommandBuffer commands, const ComputePipeline& pipeline,
+              VkDescriptorSet set, uint32_t groups, const Push* push)
+{
+    if (groups == 0)
+        return;
+    device.vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.pipeline.get());
+    device.vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.layout.get(), 0, 1,
+                                      &set, 0, nullptr);
+    if (push != nullptr)
+        device.vk.vkCmdPushConstants(commands, pipeline.layout.get(), VK_SHADER_STAGE_COMPUTE_BIT, 0,
+                                     sizeof(Push), push);
+    device.vk.vkCmdDispatch(commands, std::min(groups, shared::kDispatchRow),
+                            groupsOf(groups, shared::kDispatchRow), 1);
+}
+
+void computeBarrier(const Device& device, VkCommandBuffer commands)
+{
+    barrier(device, commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
+            VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT);
+}
+
+/// The frame's constants and cleared counters, behind everything that still reads those of the frame before.
+void recordPrologue(const Device& device, VkCommandBuffer commands, const Scene& scene,
+                    const shared::FrameView& view)
+{
+    barrier(device, commands,
+            VK_PIPELINE_STAGE_TRANSFER_BIT | VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT |
+                VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT | VK_PIPELINE_STAGE_VERTEX_SHADER_BIT |
+                VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT,
+            VK_ACCESS_SHADER_WRITE_BIT, VK_PIPELINE_STAGE_TRANSFER_BIT | VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
+            VK_ACCESS_TRANSFER_WRITE_BIT | VK_ACCESS_SHADER_WRITE_BIT);
+    device.vk.vkCmdUpdateBuffer(commands, scene.buffers.frame.handle.get(), 0, sizeof(view), &view);
+    device.vk.vkCmdFillBuffer(commands, scene.buffers.material_draws.handle.get(), 0, VK_WHOLE_SIZE, 0);
+    barrier(device, commands, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT,
+            VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_VERTEX_SHADER_BIT |
+                VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT,
+            VK_ACCESS_UNIFORM_READ_BIT | VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT);
+}
+
+} // namespace
+
+Result<CullPass> CullPass::create(const Device& device)
+{
+    CullPass pass;
+    HEARTH_ASSIGN_OR_RETURN(pass.instances_,
+                            createComputePipeline(device, shaders::cull_instances_comp,
+                                                  {kUniform, kStorage, kStorage, kStorage, kStorage}, 0));
+    HEARTH_ASSIGN_OR_RETURN(pass.clusters_, createComputePipeline(device, shaders::cull_clusters_comp,
+                                                                  {kUniform, kStorage, kStorage, kStorage,
+                                                                   kStorage, kStorage, kStorage, kStorage},
+                                                                  sizeof(uint32_t)));
+    HEARTH_ASSIGN_OR_RETURN(pass.scan_blocks_, createComputePipeline(device, shaders::scan_blocks_comp,
+                                                                     {kStorage, kStorage}, sizeof(uint32_t)));
+    HEARTH_ASSIGN_OR_RETURN(pass.scan_totals_,
+                            createComputePipeline(device, shaders::scan_totals_comp, {kStorage, kStorage},
+                                                  sizeof(ScanTotalsPush)));
+    HEARTH_ASSIGN_OR_RETURN(pass.emit_visible_, createComputePipeline(device, shaders::emit_visible_comp,
+                                                                      {kStorage, kStorage, kStorage, kStorage,
+                                                                       kStorage, kStorage, kStorage},
+                                                                      sizeof(EmitPush)));
+    HEARTH_ASSIGN_OR_RETURN(pass.emit_draws_, createComputePipeline(device, shaders::emit_draws_comp,
+                                                                    {kStorage, kStorage, kStorage, kStorage},
+                                                                    sizeof(EmitDrawsPush)));
+    return pass;
+}
+
+Status CullPass::createSets(const Device& device, Scene& scene) const
+{
+    const SceneBuffers& b = scene.buffers;
+    const auto create = [&](VkDescriptorSet& set, const ComputePipeline& pipeline, const Buffer* uniform,
+                            std::initializer_list<const Buffer*> storages) -> Status
+    {
+        HEARTH_ASSIGN_OR_RETURN(set, allocateSet(device, scene.pool.get(), pipeline.set_layout.get()));
+        DescriptorWriter writer(set);
+        uint32_t binding = 0;
+        if (uniform != nullptr)
+            writer.uniform(binding++, *uniform);
+        for (const Buffer* storage : storages)
+            writer.storage(binding++, *storage);
+        writer.write(device);
+        return success();
+    };
+    CullSets& sets = scene.cull_sets;
+    HEARTH_TRY(
+        create(sets.instances, instances_, &b.frame, {&b.instances, &b.inverses, &b.bounds, &b.states}));
+    HEARTH_TRY(create(sets.clusters, clusters_, &b.frame,
+                      {&b.instances, &b.states, &b.items, &b.order, &b.clusters, &b.groups, &b.results}));
+    HEARTH_TRY(create(sets.scan_blocks, scan_blocks_, nullptr, {&b.results, &b.totals}));
+    HEARTH_TRY(create(sets.scan_totals, scan_totals_, nullptr, {&b.totals, &b.counters}));
+    HEARTH_TRY(
+        create(sets.emit_visible, emit_visible_, nullptr,
+               {&b.items, &b.order, &b.results, &b.totals, &b.cluster_draws, &b.visible, &b.material_draws}));
+    HEARTH_TRY(create(sets.emit_draws, emit_draws_, nullptr, {&b.bins, &b.results, &b.totals, &b.bin_draws}));
+    return success();
+}
+
+void CullPass::record(const Device& device, VkCommandBuffer commands, const Scene& scene,
+                      const shared::FrameView& view) const
+{
+    const CullSets& sets = scene.cull_sets;
+    const uint32_t items = scene.item_count;
+    const uint32_t blocks = blockCount(scene);
+    const auto bins = static_cast<uint32_t>(scene.bins.size());
+
+    recordPrologue(device, commands, scene, view);
+    dispatch<void*>(device, commands, instances_, sets.instances, groupsOf(scene.instance_count, 64),
+                    nullptr);
+    computeBarrier(device, commands);
+    dispatch(device, commands, clusters_, sets.clusters, items, &items);
+    computeBarrier(device, commands);
+    dispatch(device, commands, scan_blocks_, sets.scan_blocks, blocks, &items);
+    computeBarrier(device, commands);
+    const ScanTotalsPush totals{blocks, scene.slot_capacity};
+    dispatch(device, commands, scan_totals_, sets.scan_totals, 1, &totals);
+    computeBarrier(device, commands);
+    const EmitPush emit{items, scene.slot_capacity};
+    dispatch(device, commands, emit_visible_, sets.emit_visible, items, &emit);
+    const EmitDrawsPush draws{bins, items, blocks, scene.slot_capacity};
+    dispatch(device, commands, emit_draws_, sets.emit_draws, groupsOf(bins, 64), &draws);
+    barrier(device, commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
+            VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT | VK_PIPELINE_STAGE_VERTEX_SHADER_BIT |
+                VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,
+            VK_ACCESS_INDIRECT_COMMAND_READ_BIT | VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_TRANSFER_READ_BIT);
+}
+
+} // namespace hearth::gpu

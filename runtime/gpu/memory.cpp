@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "runtime/gpu/memory.h"
+
+#include <algorithm>
+#include <optional>
+
+namespace hearth::gpu
+{
+
+namespace
+{
+
+// few enough allocations for the smallest maxMemoryAllocationCount (4096), small enough not to waste a phone's memory
+constexpr VkDeviceSize kBlockBytes = VkDeviceSize{16} << 20;
+
+constexpr VkMemoryPropertyFlags kMapped =
+    VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
+
+std::optional<uint32_t> findType(const VkPhysicalDeviceMemoryProperties& memory, uint32_t allowed,
+                                 VkMemoryPropertyFlags wanted)
+{
+    for (uint32_t type = 0; type < memory.memoryTypeCount; ++type)
+        if ((allowed >> type & 1) != 0 && (memory.memoryTypes[type].propertyFlags & wanted) == wanted)
+            return type;
+    return std::nullopt;
+}
+
+/// The best type there is: each kind can do with less than it would like.
+std::optional<uint32_t> chooseType(const VkPhysicalDeviceMemoryProperties& memory, uint32_t allowed,
+                                   MemoryKind kind)
+{
+    VkMemoryPropertyFlags best = VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT;
+    VkMemoryPropertyFlags enough = 0;
+    if (kind == MemoryKind::staging)
+        best = enough = kMapped;
+    if (kind == MemoryKind::readback)
+    {
+        best = kMapped | VK_MEMORY_PROPERTY_HOST_CACHED_BIT;
+        enough = kMapped;
+    }
+    const auto type = findType(memory, allowed, best);
+    return type ? type : findType(memory, allowed, enough);
+}
+
+VkDeviceSize alignUp(VkDeviceSize value, VkDeviceSize alignment)
+{
+    return (value + alignment - 1) / alignment * alignment;
+}
+
+} // namespace
+
+Result<MemoryArena::Piece> MemoryArena::allocate(const VkMemoryRequirements& needs, MemoryKind kind,
+                                                 bool image)
+{
+    const auto type = chooseType(device_->memory, needs.memoryTypeBits, kind);
+    if (!type)
+        return vulkanError(VK_ERROR_OUT_OF_DEVICE_MEMORY, "find a fitting memory type");
+
+    Block* block = nullptr;
+    for (Block& b : blocks_)
+        if (b.type == *type && b.images == image && (b.mapped != nullptr) == (kind != MemoryKind::device) &&
+            alignUp(b.used, needs.alignment) + needs.size <= b.size)
+            block = &b;
+    if (block == nullptr)
+    {
+        Block fresh;
+        fresh.type = *type;
+        fresh.images = image;
+        fresh.size = std::max(kBlockBytes, needs.size);
+        const VkMemoryAllocateInfo info{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, nullptr, fresh.size, *type};
+        VkDeviceMemory memory;
+        HEARTH_TRY_VK(device_->vk.vkAllocateMemory(device_->handle, &info, device_->allocator, &memory),
+                      "allocate device memory");
+        fresh.memory = UniqueMemory(*device_, memory);
+        if (kind != MemoryKind::device)
+        {
+            void* mapped = nullptr;
+            HEARTH_TRY_VK(device_->vk.vkMapMemory(device_->handle, memory, 0, VK_WHOLE_SIZE, 0, &mapped),
+                          "map device memory");
+            fresh.mapped = static_cast<std::byte*>(mapped);
+        }
+        blocks_.push_back(std::move(fresh));
+        block = &blocks_.back();
+    }
+    const VkDeviceSize offset = alignUp(block->used, needs.alignment);
+    block->used = offset + needs.size;
+    return Piece{block->memory.get(), offset, block->mapped == nullptr ? nullptr : block->mapped + offset};
+}
+
+Result<Buffer> MemoryArena::createBuffer(VkDeviceSize size, VkBufferUsageFlags usage, MemoryKind kind)
+{
+    Buffer buffer;
+    buffer.size = std::max<VkDeviceSize>(alignUp(size, 16), 16);
+    VkBufferCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO;
+    info.size = buffer.size;
+    info.usage = usage;
+    info.sharingMode = VK_SHARING_MODE_EXCLUSIVE;
+    VkBuffer handle;
+    HEARTH_TRY_VK(device_->vk.vkCreateBuffer(device_->handle, &info, device_->allocator, &handle),
+                  "create a buffer");
+    buffer.handle = UniqueBuffer(*device_, handle);
+
+    VkMemoryRequirements needs;
+    device_->vk.vkGetBufferMemoryRequirements(device_->handle, handle, &needs);
+    HEARTH_ASSIGN_OR_RETURN(const Piece piece, allocate(needs, kind, false));
+    HEARTH_TRY_VK(device_->vk.vkBindBufferMemory(device_->handle, handle, piece.memory, piece.offset),
+                  "bind a buffer's memory");
+    buffer.mapped = piece.mapped;
+    return buffer;
+}
+
+Result<Image> MemoryArena::createImage(const ImageDescription& description)
+{
+    VkImageCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO;
+    info.imageType = VK_IMAGE_TYPE_2D;
+    info.format = description.format;
+    info.extent = {description.extent.width, description.extent.height, 1};
+    info.mipLevels = description.mip_count;
+    info.arrayLayers = 1;
+    info.samples = VK_SAMPLE_COUNT_1_BIT;
+    info.tiling = VK_IMAGE_TILING_OPTIMAL;
+    info.usage = description.usage;
+    info.sharingMode = VK_SHARING_MODE_EXCLUSIVE;
+    info.initialLayout = VK_IMAGE_LAYOUT_UNDEFINED;
+    VkImage handle;
+    HEARTH_TRY_VK(device_->vk.vkCreateImage(device_->handle, &info, device_->allocator, &handle),
+                  "create an image");
+    Image image;
+    image.handle = UniqueImage(*device_, handle);
+    image.format = description.format;
+    image.extent = description.extent;
+    image.mip_count = description.mip_count;
+
+    VkMemoryRequirements needs;
+    device_->vk.vkGetImageMemoryRequirements(device_->handle, handle, &needs);
+    HEARTH_ASSIGN_OR_RETURN(const Piece piece, allocate(needs, MemoryKind::device, true));
+    HEARTH_TRY_VK(device_->vk.vkBindImageMemory(device_->handle, handle, piece.memory, piece.offset),
+                  "bind an image's memory");
+
+    VkImageViewCreateInfo view_info{};
+    view_info.sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO;
+    view_info.image = handle;
+    view_info.viewType = VK_IMAGE_VIEW_TYPE_2D;
+    view_info.format = description.format;
+    view_info.subresourceRange = {description.aspect, 0, description.mip_count, 0, 1};
+    VkImageView view;
+    HEARTH_TRY_VK(device_->vk.vkCreateImageView(device_->handle, &view_info, device_->allocator, &view),
+                  "create an image view");
+    image.view = UniqueImageView(*device_, view);
+    return image;
+}
+
+VkDeviceSize MemoryArena::allocatedBytes() const
+{
+    VkDeviceSize bytes = 0;
+    for (const Block& block : blocks_)
+        bytes += block.size;
+    return bytes;
+}
+
+} // namespace hearth::gpu

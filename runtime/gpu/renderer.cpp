@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "runtime/gpu/renderer.h"
+
+namespace hearth::gpu
+{
+
+namespace
+{
+
+void writeTimestamp(const Device& device, VkCommandBuffer commands, VkQueryPool pool, FrameTimestamp which)
+{
+    if (pool != VK_NULL_HANDLE)
+        device.vk.vkCmdWriteTimestamp(commands, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, pool, which);
+}
+
+} // namespace
+
+Result<std::unique_ptr<Renderer>> Renderer::create(const DeviceDescription& description)
+{
+    std::unique_ptr<Renderer> renderer(new Renderer);
+    Renderer& r = *renderer;
+    HEARTH_ASSIGN_OR_RETURN(r.device_, makeDevice(description));
+    HEARTH_ASSIGN_OR_RETURN(r.layouts_, DrawLayouts::create(r.device_));
+    HEARTH_ASSIGN_OR_RETURN(r.render_pass_, createFrameRenderPass(r.device_));
+    HEARTH_ASSIGN_OR_RETURN(r.cull_, CullPass::create(r.device_));
+    HEARTH_ASSIGN_OR_RETURN(r.visibility_,
+                            VisibilityPass::create(r.device_, r.layouts_, r.render_pass_.get()));
+    HEARTH_ASSIGN_OR_RETURN(r.material_depth_,
+                            MaterialDepthPass::create(r.device_, r.layouts_, r.render_pass_.get()));
+    HEARTH_ASSIGN_OR_RETURN(r.shading_, ShadingPass::create(r.device_, r.layouts_, r.render_pass_.get()));
+    return renderer;
+}
+
+Result<FrameTargets> Renderer::createTargets(VkExtent2D extent) const
+{
+    return FrameTargets::create(device_, render_pass_.get(), layouts_, extent);
+}
+
+Result<std::unique_ptr<Scene>> Renderer::upload(const formats::PackView& pack, VkCommandBuffer commands,
+                                                const SceneOptions& options) const
+{
+    HEARTH_ASSIGN_OR_RETURN(std::unique_ptr<Scene> scene,
+                            uploadScene(device_, layouts_, pack, commands, options));
+    HEARTH_TRY(cull_.createSets(device_, *scene));
+    return scene;
+}
+
+void Renderer::record(VkCommandBuffer commands, const Scene& scene, const FrameTargets& targets,
+                      const FrameInput& input) const
+{
+    HEARTH_ASSERT(input.view.instance_count == scene.instance_count);
+    if (input.timestamps != VK_NULL_HANDLE)
+        device_.vk.vkCmdResetQueryPool(commands, input.timestamps, 0, kTimestampCount);
+    writeTimestamp(device_, commands, input.timestamps, kTimestampBegin);
+    cull_.record(device_, commands, scene, input.view);
+    writeTimestamp(device_, commands, input.timestamps, kTimestampCull);
+    recordDrawing(commands, scene, targets, input);
+}
+
+void Renderer::recordDrawing(VkCommandBuffer commands, const Scene& scene, const FrameTargets& targets,
+                             const FrameInput& input) const
+{
+    const VkRect2D area{{0, 0}, targets.extent()};
+    VkClearValue clear[2] = {};
+    clear[0].color.uint32[0] = shared::kNothingVisible;
+    clear[1].depthStencil.depth = 0; // infinitely far away
+    VkRenderPassBeginInfo begin{};
+    begin.sType = VK_STRUCTURE_TYPE_RENDER_PASS_BEGIN_INFO;
+    begin.renderPass = render_pass_.get();
+    begin.framebuffer = targets.framebuffer();
+    begin.renderArea = area;
+    begin.clearValueCount = 2;
+    begin.pClearValues = clear;
+    device_.vk.vkCmdBeginRenderPass(commands, &begin, VK_SUBPASS_CONTENTS_INLINE);
+    const VkViewport viewport{
+        0, 0, static_cast<float>(area.extent.width), static_cast<float>(area.extent.height), 0, 1};
+    device_.vk.vkCmdSetViewport(commands, 0, 1, &viewport);
+    device_.vk.vkCmdSetScissor(commands, 0, 1, &area);
+
+    visibility_.record(device_, commands, layouts_, scene);
+    writeTimestamp(device_, commands, input.timestamps, kTimestampVisibility);
+    device_.vk.vkCmdNextSubpass(commands, VK_SUBPASS_CONTENTS_INLINE);
+    material_depth_.record(device_, commands, layouts_, scene, targets);
+    writeTimestamp(device_, commands, input.timestamps, kTimestampMaterialDepth);
+    device_.vk.vkCmdNextSubpass(commands, VK_SUBPASS_CONTENTS_INLINE);
+    shading_.record(device_, commands, layouts_, scene, targets, input.shading);
+    device_.vk.vkCmdEndRenderPass(commands);
+    writeTimestamp(device_, commands, input.timestamps, kTimestampShading);
+}
+
+} // namespace hearth::gpu

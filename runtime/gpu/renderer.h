@@ -1,0 +1,69 @@
+// The renderer: pipelines made once, scenes uploaded, frames recorded into the caller's command buffer.
+// It never submits, waits, or allocates while recording a frame; it has no globals. README.md says what it requires.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "runtime/gpu/cull_pass.h"
+#include "runtime/gpu/material_depth_pass.h"
+#include "runtime/gpu/shading_pass.h"
+#include "runtime/gpu/visibility_pass.h"
+
+#include <memory>
+
+namespace hearth::gpu
+{
+
+/// Where the time of a frame goes: a timestamp is written at the begin and after each pass.
+enum FrameTimestamp : uint32_t
+{
+    kTimestampBegin,
+    kTimestampCull,
+    kTimestampVisibility,
+    kTimestampMaterialDepth,
+    kTimestampShading,
+    kTimestampCount,
+};
+
+struct FrameInput
+{
+    shared::FrameView view; ///< from shared::makeFrameView, with the size of the targets
+    ShadingView shading;
+    VkQueryPool timestamps = VK_NULL_HANDLE; ///< kTimestampCount queries, reset by the frame; or none
+};
+
+class Renderer
+{
+public:
+    /// The described objects outlive the renderer, which outlives its scenes and targets.
+    /// errors: device, device_failed.
+    static Result<std::unique_ptr<Renderer>> create(const DeviceDescription& description);
+
+    const Device& device() const { return device_; }
+
+    /// errors: device_limit, device_failed.
+    Result<FrameTargets> createTargets(VkExtent2D extent) const;
+
+    /// See uploadScene.
+    Result<std::unique_ptr<Scene>> upload(const formats::PackView& pack, VkCommandBuffer commands,
+                                          const SceneOptions& options = {}) const;
+
+    /// Record culling and drawing of one frame, outside a render pass. Clobbers compute and graphics state.
+    /// Afterwards targets.visibility() and targets.color() can be copied from.
+    void record(VkCommandBuffer commands, const Scene& scene, const FrameTargets& targets,
+                const FrameInput& input) const;
+
+private:
+    Renderer() = default;
+    void recordDrawing(VkCommandBuffer commands, const Scene& scene, const FrameTargets& targets,
+                       const FrameInput& input) const;
+
+    Device device_;
+    DrawLayouts layouts_;
+    UniqueRenderPass render_pass_;
+    CullPass cull_;
+    VisibilityPass visibility_;
+    MaterialDepthPass material_depth_;
+    ShadingPass shading_;
+};
+
+} // namespace hearth::gpu

@@ -1,0 +1,82 @@
+// A scene on the device: everything that drawing a pack needs and that does not change from frame to frame, and the
+// work buffers of one frame.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "runtime/gpu/draw_layouts.h"
+#include "runtime/gpu/scene_layout.h"
+#include "runtime/gpu/uploader.h"
+
+#include <array>
+#include <memory>
+#include <vector>
+
+namespace hearth::gpu
+{
+
+struct SceneOptions
+{
+    /// Slots of the visible list, 8 bytes each. A frame that finds more clusters leaves out the last ones and counts
+    /// them in FrameCounters::dropped_clusters. 4 Mi slots are half a gigatriangle, far above one for every pixel.
+    uint32_t max_visible_clusters = 1u << 22;
+};
+
+/// The types of the elements are those of formats/shared.
+struct SceneBuffers
+{
+    // constant
+    Buffer lighting, materials, instances, inverses, bounds, items, order, clusters, groups, cluster_draws,
+        bins;
+    std::array<Buffer, shared::kPoolSlices> pool;
+    // rewritten by every frame
+    Buffer frame, states, results, totals, counters, visible, bin_draws, material_draws;
+};
+
+/// One descriptor set for each pipeline of the culling pass.
+struct CullSets
+{
+    VkDescriptorSet instances, clusters, scan_blocks, scan_totals, emit_visible, emit_draws;
+};
+
+/// Frames of one scene must not overlap on the GPU: submit them to one queue.
+struct Scene
+{
+    explicit Scene(const Device& device) : arena(device) {}
+
+    MemoryArena arena;
+    std::unique_ptr<Uploader> staging; ///< reset() once the commands that loaded the scene have run
+    SceneBuffers buffers;
+    std::vector<Image>
+        images; ///< for each image of the pack, empty where no material uses it; then one white texel
+    std::vector<UniqueSampler> samplers;
+    UniqueDescriptorPool pool;
+    VkDescriptorSet draw_set = VK_NULL_HANDLE;
+    std::vector<VkDescriptorSet> material_sets; ///< for each row of the material table
+    CullSets cull_sets{};
+
+    std::vector<SceneBin> bins;
+    uint32_t instance_count = 0;
+    uint32_t item_count = 0;
+    uint32_t slot_capacity = 0;
+    uint32_t dropped_lights = 0; ///< lights of the pack beyond shared::kMaxLights
+    Box3 bounds;                 ///< world space, empty where there is nothing to draw
+};
+
+/// Work items that the scan takes together.
+inline uint32_t blockCount(const Scene& scene)
+{
+    return (scene.item_count + shared::kScanBlockItems - 1) / shared::kScanBlockItems;
+}
+
+/// Create and fill everything but the descriptor sets of the culling pass; records copies into `commands`, which the
+/// caller submits and waits for before it resets `staging`. The pack has been checked (pack::Pack).
+/// errors: device_limit, device_failed, those of reading pages and images.
+Result<std::unique_ptr<Scene>> uploadScene(const Device& device, const DrawLayouts& layouts,
+                                           const formats::PackView& pack, VkCommandBuffer commands,
+                                           const SceneOptions& options);
+
+/// The images of the materials, and one descriptor set for each row of the material table. Needs scene.pool.
+Status uploadMaterials(const Device& device, const DrawLayouts& layouts, const formats::PackView& pack,
+                       Uploader& uploader, Scene& scene);
+
+} // namespace hearth::gpu

@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "runtime/gpu/scene_layout.h"
+
+#include <algorithm>
+#include <map>
+#include <string>
+#include <tuple>
+
+namespace hearth::gpu
+{
+
+namespace
+{
+
+// material numbers are told apart by a 16-bit depth buffer, and 0 is the sky
+constexpr uint32_t kMaxMaterialRows = 65535;
+
+/// What of a bin follows from the material alone.
+struct BinKey
+{
+    bool alpha_tested;
+    uint32_t material_row;
+    Facing facing;
+    friend auto operator<=>(const BinKey&, const BinKey&) = default;
+};
+
+/// The clusters of a mesh that share a key: order[first .. first + count).
+struct ClusterRun
+{
+    BinKey key;
+    uint32_t first;
+    uint32_t count;
+};
+
+Error limitError(const formats::PackView& pack, const std::string& detail)
+{
+    return {Issue::device_limit, pack.name(), "", detail};
+}
+
+BinKey keyOfMaterial(const formats::PackView& pack, uint32_t material)
+{
+    if (material == formats::kNone)
+        return {false, 0, Facing::culled};
+    const formats::MaterialRecord& record = pack.materials()[material];
+    const bool tested = record.alpha_mode != static_cast<uint32_t>(formats::AlphaMode::opaque);
+    const bool two_sided = (record.flags & formats::kMaterialDoubleSided) != 0;
+    return {tested, tested ? materialRow(pack, material) : 0,
+            two_sided ? Facing::doubleSided : Facing::culled};
+}
+
+/// Place the pages one after the other; a page never crosses the border of a slice.
+Status placePages(const formats::PackView& pack, SceneLayout& layout)
+{
+    constexpr uint64_t kSliceWords = uint64_t{1} << shared::kPoolSliceBits;
+    uint64_t at = 0;
+    layout.page_addresses.reserve(pack.pages().size());
+    for (const formats::PageRecord& page : pack.pages())
+    {
+        const uint64_t words = (page.size + 3) / 4;
+        if (at % kSliceWords + words > kSliceWords)
+            at = (at / kSliceWords + 1) * kSliceWords;
+        const uint64_t slice = at / kSliceWords;
+        if (slice >= shared::kPoolSlices)
+            return limitError(pack, "the geometry is larger than the " +
+                                        std::to_string(shared::kPoolSlices * (kSliceWords * 4 >> 20)) +
+                                        " MiB that are drawn without streaming");
+        layout.page_addresses.push_back(static_cast<uint32_t>(at));
+        at += words;
+        layout.slice_words[slice] = static_cast<uint32_t>(at - slice * kSliceWords);
+    }
+    return success();
+}
+
+void makeDraws(const formats::PackView& pack, SceneLayout& layout)
+{
+    layout.draws.reserve(pack.clusters().size());
+    for (const formats::ClusterRecord& cluster : pack.clusters())
+        layout.draws.push_back({.address = layout.page_addresses[cluster.page] + cluster.page_offset / 4,
+                                .counts = cluster.vertex_count | cluster.triangle_count << 9 |
+                                          std::min(cluster.level, 0x7FFFu) << 17,
+                                .attributes = pack.meshes()[cluster.mesh].attributes,
+                                .material = 1 + materialRow(pack, cluster.material)});
+}
+
+/// Append the clusters of a mesh to the order, sorted by key and otherwise as they are.
+std::vector<ClusterRun> orderMesh(const formats::PackView& pack, const formats::MeshRecord& mesh,
+                                  std::vector<uint32_t>& order)
+{
+    std::vector<std::pair<BinKey, uint32_t>> clusters;
+    clusters.reserve(mesh.clusters.count);
+    for (uint32_t c = mesh.clusters.first; c < mesh.clusters.first + mesh.clusters.count; ++c)
+        clusters.emplace_back(keyOfMaterial(pack, pack.clusters()[c].material), c);
+    std::stable_sort(clusters.begin(), clusters.end(),
+                     [](const auto& a, const auto& b) { return a.first < b.first; });
+
+    std::vector<ClusterRun> runs;
+    for (const auto& [key, cluster] : clusters)
+    {
+        if (runs.empty() || runs.back().key != key)
+            runs.push_back({key, static_cast<uint32_t>(order.size()), 0});
+        runs.back().count += 1;
+        order.push_back(cluster);
+    }
+    return runs;
+}
+
+void appendItems(uint32_t instance, const ClusterRun& run, std::vector<shared::WorkItem>& items)
+{
+    const uint32_t flags = run.key.facing == Facing::doubleSided ? shared::kItemDoubleSided : 0;
+    for (uint32_t done = 0; done < run.count; done += shared::kWorkItemClusters)
+        items.push_back({.instance = instance,
+                         .first = run.first + done,
+                         .count = std::min(run.count - done, shared::kWorkItemClusters),
+                         .flags = flags});
+}
+
+/// Cut the clusters of every instance into work items and gather the items bin by bin.
+Status makeWorkList(const formats::PackView& pack, SceneLayout& layout)
+{
+    std::vector<std::vector<ClusterRun>> runs_of_mesh;
+    runs_of_mesh.reserve(pack.meshes().size());
+    for (const formats::MeshRecord& mesh : pack.meshes())
+        runs_of_mesh.push_back(orderMesh(pack, mesh, layout.order));
+
+    // a slot of the work list is 16 bytes, and every device can bind 128 MiB
+    constexpr uint64_t kMaxItems = uint64_t{8} << 20;
+    uint64_t item_count = 0;
+    std::map<BinKey, std::vector<shared::WorkItem>> items_of_bin;
+    for (uint32_t i = 0; i < pack.instances().size(); ++i)
+    {
+        const formats::InstanceRecord& instance = pack.instances()[i];
+        for (const ClusterRun& run : runs_of_mesh[instance.mesh])
+        {
+            item_count += (run.count + shared::kWorkItemClusters - 1) / shared::kWorkItemClusters;
+            if (item_count > kMaxItems)
+                return limitError(pack,
+                                  "the instances have too many clusters to cull one by one: more than " +
+                                      std::to_string(kMaxItems) + " work items");
+            BinKey key = run.key;
+            if (key.facing == Facing::culled && (instance.flags & formats::kInstanceMirrored) != 0)
+                key.facing = Facing::mirrored;
+            appendItems(i, run, items_of_bin[key]);
+            layout.instanced_clusters += run.count;
+        }
+    }
+    layout.items.reserve(static_cast<size_t>(item_count));
+    for (const auto& [key, items] : items_of_bin)
+    {
+        layout.bins.push_back(
+            {key.alpha_tested,
+             key.material_row,
+             key.facing,
+             {static_cast<uint32_t>(layout.items.size()), static_cast<uint32_t>(items.size())}});
+        layout.items.insert(layout.items.end(), items.begin(), items.end());
+    }
+    return success();
+}
+
+} // namespace
+
+uint32_t materialRow(const formats::PackView& pack, uint32_t material)
+{
+    return material == formats::kNone ? static_cast<uint32_t>(pack.materials().size()) : material;
+}
+
+Result<SceneLayout> makeSceneLayout(const formats::PackView& pack)
+{
+    SceneLayout layout;
+    layout.material_rows = static_cast<uint32_t>(pack.materials().size()) + 1;
+    if (layout.material_rows > kMaxMaterialRows)
+        return limitError(pack, std::to_string(pack.materials().size()) + " materials are more than 65534");
+    HEARTH_TRY(placePages(pack, layout));
+    makeDraws(pack, layout);
+    HEARTH_TRY(makeWorkList(pack, layout));
+    layout.bounds = shared::makeMeshBounds(pack.meshes(), pack.clusters());
+    layout.inverses.reserve(pack.instances().size());
+    for (const formats::InstanceRecord& instance : pack.instances())
+        layout.inverses.push_back(shared::makeInstanceInverse(instance));
+    return layout;
+}
+
+} // namespace hearth::gpu

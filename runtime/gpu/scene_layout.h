@@ -1,0 +1,52 @@
+// How a pack is arranged for drawing: the work list, the bins, addresses in the geometry pool. Plain data, no Vulkan.
+// Computed once when a scene is loaded; see README.md, "Bins".
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "formats/pack_view.h"
+#include "formats/shared/frame.h"
+
+#include <array>
+#include <vector>
+
+namespace hearth::gpu
+{
+
+enum class Facing : uint8_t
+{
+    culled,      ///< back faces are not drawn
+    mirrored,    ///< the same for instances that turn the triangles round
+    doubleSided, ///< both faces are drawn
+};
+
+/// What is drawn by one indirect draw: same pipeline, same descriptor sets.
+struct SceneBin
+{
+    bool alpha_tested = false; ///< the material decides which pixels are there
+    uint32_t material_row = 0; ///< of the alpha-tested material; 0 where it does not matter
+    Facing facing = Facing::culled;
+    shared::Bin items{};
+};
+
+struct SceneLayout
+{
+    std::vector<shared::WorkItem> items; ///< sorted by bin, then instance, then cluster
+    std::vector<uint32_t> order;         ///< cluster numbers; of each mesh, those of one bin together
+    std::vector<SceneBin> bins;
+    std::vector<shared::ClusterDraw> draws;        ///< for each cluster
+    std::vector<shared::MeshBounds> bounds;        ///< for each mesh
+    std::vector<shared::InstanceInverse> inverses; ///< for each instance
+    std::vector<uint32_t> page_addresses;          ///< for each page, its first word in the geometry pool
+    std::array<uint32_t, shared::kPoolSlices> slice_words{};
+    uint64_t instanced_clusters =
+        0;                      ///< over all instances, all clusters of the mesh: what a frame draws at most
+    uint32_t material_rows = 0; ///< materials of the pack, and the default material behind them
+};
+
+/// Row of the material table for a material index of the pack, which may be formats::kNone.
+uint32_t materialRow(const formats::PackView& pack, uint32_t material);
+
+/// errors: device_limit, where the scene is larger than any device of Vulkan 1.1 must be able to take.
+Result<SceneLayout> makeSceneLayout(const formats::PackView& pack);
+
+} // namespace hearth::gpu

@@ -1,0 +1,34 @@
+// Materials and lights of a pack as the shading pass reads them, and the exposure rule. Plain data, no Vulkan.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "formats/pack_view.h"
+#include "formats/shared/shading.h"
+
+#include <array>
+#include <vector>
+
+namespace hearth::gpu
+{
+
+/// The textures of a material in the order of shared::kTexture*.
+std::array<formats::TextureRef, shared::kTextureCount> texturesOf(const formats::MaterialRecord& material);
+
+/// glTF's default material: white, fully metallic and rough, as its specification says.
+formats::MaterialRecord defaultMaterial();
+
+shared::Material makeMaterial(const formats::MaterialRecord& record);
+
+/// World-space box of all instances that have triangles; empty where nothing is drawn.
+Box3 sceneBounds(const formats::PackView& pack);
+
+/// Lights and sky. A scene without lights gets one sun. The exposure rule: the light that the scene's lights send
+/// together to a point in the middle of the scene is estimated; where it is more than kKeyIlluminance, all lights are
+/// scaled down to it, so that lamps in candela and suns in lux are shown by the same camera. Never scaled up: a dim
+/// light stays dim beside the sky. Emissive factors are display-referred (1 = white) and not scaled.
+shared::Lighting makeLighting(const formats::PackView& pack);
+
+/// Illuminance that makes a white diffuse surface as bright as display white: pi, then radiance is 1.
+inline constexpr float kKeyIlluminance = 3.14159265f;
+
+} // namespace hearth::gpu

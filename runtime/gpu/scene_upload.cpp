@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "runtime/gpu/scene.h"
+#include "runtime/gpu/scene_shading.h"
+
+#include <algorithm>
+#include <string>
+
+namespace hearth::gpu
+{
+
+namespace
+{
+
+/// Creates the buffers of a scene and remembers the first error, so that the list below reads as a list.
+class BufferFactory
+{
+public:
+    BufferFactory(const Device& device, const formats::PackView& pack, Scene& scene)
+        : device_(device), pack_(pack), scene_(scene)
+    {
+    }
+
+    void make(Buffer& target, const char* what, uint64_t count, uint64_t element_size,
+              VkBufferUsageFlags usage)
+    {
+        if (!status_.ok())
+            return;
+        const bool uniform = (usage & VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT) != 0;
+        const uint64_t limit = uniform ? ~uint64_t{0} : device_.limits.maxStorageBufferRange;
+        if (count * element_size > limit)
+        {
+            status_ = Error{Issue::device_limit, pack_.name(), "",
+                            std::string("the ") + what + " take " + std::to_string(count * element_size) +
+                                " bytes, the device binds " + std::to_string(limit)};
+            return;
+        }
+        auto buffer = scene_.arena.createBuffer(count * element_size, usage, MemoryKind::device);
+        if (buffer.ok())
+            target = std::move(*buffer);
+        else
+            status_ = buffer.error();
+    }
+
+    Status take() { return std::move(status_); }
+
+private:
+    const Device& device_;
+    const formats::PackView& pack_;
+    Scene& scene_;
+    Status status_ = success();
+};
+
+Status createBuffers(const Device& device, const formats::PackView& pack, const SceneLayout& layout,
+                     Scene& scene)
+{
+    constexpr VkBufferUsageFlags kUniform =
+        VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
+    constexpr VkBufferUsageFlags kTable =
+        VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
+    // what a frame computes can be copied out: tests and tools look at it
+    constexpr VkBufferUsageFlags kWork =
+        VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT;
+    constexpr VkBufferUsageFlags kIndirect =
+        kWork | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
+
+    SceneBuffers& b = scene.buffers;
+    BufferFactory f(device, pack, scene);
+    f.make(b.frame, "frame constants", 1, sizeof(shared::FrameView), kUniform);
+    f.make(b.lighting, "lights", 1, sizeof(shared::Lighting), kUniform);
+    f.make(b.instances, "instances", pack.instances().size(), sizeof(shared::Instance), kTable);
+    f.make(b.inverses, "instances", pack.instances().size(), sizeof(shared::InstanceInverse), kTable);
+    f.make(b.bounds, "mesh bounds", pack.meshes().size(), sizeof(shared::MeshBounds), kTable);
+    f.make(b.items, "work items", layout.items.size(), sizeof(shared::WorkItem), kTable);
+    f.make(b.order, "cluster numbers", layout.order.size(), sizeof(uint32_t), kTable);
+    f.make(b.clusters, "clusters", pack.clusters().size(), sizeof(shared::Cluster), kTable);
+    f.make(b.groups, "groups", pack.groups().size(), sizeof(shared::Group), kTable);
+    f.make(b.cluster_draws, "clusters", pack.clusters().size(), sizeof(shared::ClusterDraw), kTable);
+    f.make(b.bins, "bins", layout.bins.size(), sizeof(shared::Bin), kTable);
+    for (uint32_t slice = 0; slice < shared::kPoolSlices; ++slice)
+        f.make(b.pool[slice], "geometry", layout.slice_words[slice], sizeof(uint32_t), kTable);
+    f.make(b.states, "instance states", pack.instances().size(), sizeof(shared::InstanceState), kWork);
+    f.make(b.results, "work results", layout.items.size(), sizeof(shared::WorkResult), kWork);
+    f.make(b.totals, "scan totals", uint64_t{blockCount(scene)} + 1, sizeof(uint32_t), kWork);
+    f.make(b.counters, "counters", 1, sizeof(shared::FrameCounters), kWork);
+    f.make(b.visible, "visible clusters", scene.slot_capacity, sizeof(shared::VisibleCluster), kWork);
+    f.make(b.bin_draws, "bin draws", layout.bins.size(), sizeof(shared::BinDraw), kIndirect);
+    f.make(b.material_draws, "material draws", uint64_t{layout.material_rows} + 1,
+           sizeof(VkDrawIndirectCommand), kIndirect);
+    return f.take();
+}
+
+Status uploadTables(const formats::PackView& pack, const SceneLayout& layout, Uploader& uploader,
+                    Scene& scene)
+{
+    const SceneBuffers& b = scene.buffers;
+    HEARTH_TRY(uploader.uploadRecords(b.instances, pack.instances()));
+    HEARTH_TRY(uploader.uploadRecords(b.inverses, std::span(layout.inverses)));
+    HEARTH_TRY(uploader.uploadRecords(b.bounds, std::span(layout.bounds)));
+    HEARTH_TRY(uploader.uploadRecords(b.items, std::span(layout.items)));
+    HEARTH_TRY(uploader.uploadRecords(b.order, std::span(layout.order)));
+    HEARTH_TRY(uploader.uploadRecords(b.clusters, pack.clusters()));
+    HEARTH_TRY(uploader.uploadRecords(b.groups, pack.groups()));
+    HEARTH_TRY(uploader.uploadRecords(b.cluster_draws, std::span(layout.draws)));
+    std::vector<shared::Bin> bins;
+    for (const SceneBin& bin : layout.bins)
+        bins.push_back(bin.items);
+    HEARTH_TRY(uploader.uploadRecords(b.bins, std::span(bins)));
+
+    const shared::Lighting lighting = makeLighting(pack);
+    scene.dropped_lights = static_cast<uint32_t>(pack.lights().size() -
+                                                 std::min<size_t>(pack.lights().size(), shared::kMaxLights));
+    return uploader.upload(b.lighting, std::as_bytes(std::span(&lighting, 1)));
+}
+
+/// Decode every page straight into staging memory.
+Status uploadGeometry(const formats::PackView& pack, const SceneLayout& layout, Uploader& uploader,
+                      Scene& scene)
+{
+    std::array<std::span<std::byte>, shared::kPoolSlices> slices;
+    for (uint32_t slice = 0; slice < shared::kPoolSlices; ++slice)
+        if (layout.slice_words[slice] > 0)
+        {
+            HEARTH_ASSIGN_OR_RETURN(
+                slices[slice],
+                uploader.stage(scene.buffers.pool[slice], VkDeviceSize{layout.slice_words[slice]} * 4));
+        }
+    for (uint32_t page = 0; page < pack.pages().size(); ++page)
+    {
+        const uint32_t address = layout.page_addresses[page];
+        const size_t offset = size_t{address & ((1u << shared::kPoolSliceBits) - 1)} * 4;
+        HEARTH_TRY(pack.decodePage(
+            page, slices[address >> shared::kPoolSliceBits].subspan(offset, pack.pages()[page].size)));
+    }
+    return success();
+}
+
+Status createSets(const Device& device, const DrawLayouts& layouts, Scene& scene, uint32_t material_rows)
+{
+    // the draw set and the six sets of the culling pass, with room for what each binds
+    const DescriptorPoolSizes sizes{
+        .uniforms = 16 + material_rows, .storages = 64, .textures = material_rows * shared::kTextureCount};
+    HEARTH_ASSIGN_OR_RETURN(scene.pool, createDescriptorPool(device, 8 + material_rows, sizes));
+    HEARTH_ASSIGN_OR_RETURN(scene.draw_set, allocateSet(device, scene.pool.get(), layouts.scene.get()));
+    const SceneBuffers& b = scene.buffers;
+    DescriptorWriter writer(scene.draw_set);
+    writer.uniform(kSceneFrame, b.frame)
+        .storage(kSceneInstances, b.instances)
+        .storage(kSceneVisible, b.visible)
+        .storage(kSceneDraws, b.cluster_draws)
+        .storage(kSceneBinDraws, b.bin_draws)
+        .uniform(kSceneLighting, b.lighting);
+    for (uint32_t slice = 0; slice < shared::kPoolSlices; ++slice)
+        writer.storage(kScenePool + slice, b.pool[slice]);
+    writer.write(device);
+    return success();
+}
+
+} // namespace
+
+Result<std::unique_ptr<Scene>> uploadScene(const Device& device, const DrawLayouts& layouts,
+                                           const formats::PackView& pack, VkCommandBuffer commands,
+                                           const SceneOptions& options)
+{
+    HEARTH_ASSIGN_OR_RETURN(SceneLayout layout, makeSceneLayout(pack));
+    auto scene = std::make_unique<Scene>(device);
+    scene->staging = std::make_unique<Uploader>(device, commands);
+    scene->instance_count = static_cast<uint32_t>(pack.instances().size());
+    scene->item_count = static_cast<uint32_t>(layout.items.size());
+    scene->slot_capacity = static_cast<uint32_t>(std::min<uint64_t>(
+        layout.instanced_clusters, std::min(options.max_visible_clusters, shared::kMaxSlots)));
+    scene->bounds = sceneBounds(pack);
+
+    HEARTH_TRY(createBuffers(device, pack, layout, *scene));
+    HEARTH_TRY(createSets(device, layouts, *scene, layout.material_rows));
+    HEARTH_TRY(uploadTables(pack, layout, *scene->staging, *scene));
+    HEARTH_TRY(uploadGeometry(pack, layout, *scene->staging, *scene));
+    HEARTH_TRY(uploadMaterials(device, layouts, pack, *scene->staging, *scene));
+    scene->staging->finish();
+    scene->bins = std::move(layout.bins);
+    return scene;
+}
+
+} // namespace hearth::gpu

@@ -1,0 +1,34 @@
+// Shades the picture: the sky, then each material that is seen, where the material depth is its own. Third subpass.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "formats/shared/shading.h"
+#include "runtime/gpu/frame_targets.h"
+#include "runtime/gpu/scene.h"
+
+namespace hearth::gpu
+{
+
+/// What the picture shows.
+struct ShadingView
+{
+    uint32_t shown = shared::kViewFinal; ///< one of shared::kView*
+    float depth_scale = 1;               ///< metres that the depth view shows as middle grey
+};
+
+class ShadingPass
+{
+public:
+    static Result<ShadingPass> create(const Device& device, const DrawLayouts& layouts,
+                                      VkRenderPass render_pass);
+
+    /// Inside subpass kSubpassShading, with viewport and scissor set. Clobbers the graphics state.
+    void record(const Device& device, VkCommandBuffer commands, const DrawLayouts& layouts,
+                const Scene& scene, const FrameTargets& targets, const ShadingView& view) const;
+
+private:
+    UniquePipeline sky_;
+    UniquePipeline material_;
+};
+
+} // namespace hearth::gpu

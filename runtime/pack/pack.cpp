@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "runtime/pack/pack.h"
+
+#include "formats/pack_check.h"
+
+namespace hearth::pack
+{
+
+Result<Pack> Pack::open(const std::string& path)
+{
+    HEARTH_ASSIGN_OR_RETURN(formats::ContainerReader reader, formats::ContainerReader::open(path));
+    return check(std::move(reader));
+}
+
+Result<Pack> Pack::fromBytes(std::span<const std::byte> bytes, std::string name)
+{
+    HEARTH_ASSIGN_OR_RETURN(formats::ContainerReader reader,
+                            formats::ContainerReader::fromBytes(bytes, std::move(name)));
+    return check(std::move(reader));
+}
+
+Result<Pack> Pack::check(formats::ContainerReader reader)
+{
+    HEARTH_ASSIGN_OR_RETURN(formats::PackView view, formats::PackView::read(std::move(reader)));
+    HEARTH_TRY(formats::checkPack(view));
+    return Pack(std::move(view));
+}
+
+Result<std::span<const std::byte>> Pack::readPage(uint32_t page, std::span<std::byte> out) const
+{
+    HEARTH_ASSERT(page < view_.pages().size() && out.size() >= pageSize(page));
+    const std::span<std::byte> target = out.first(pageSize(page));
+    HEARTH_TRY(view_.decodePage(page, target));
+    return std::span<const std::byte>(target);
+}
+
+} // namespace hearth::pack

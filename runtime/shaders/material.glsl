@@ -1,0 +1,31 @@
+// The material of a draw: set 1 of the pipelines that look at materials.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+
+layout(set = 1, binding = 0, std140) uniform MaterialBlock { Material material; };
+layout(set = 1, binding = 1) uniform sampler2D base_color_texture;
+layout(set = 1, binding = 2) uniform sampler2D metallic_roughness_texture;
+layout(set = 1, binding = 3) uniform sampler2D normal_texture;
+layout(set = 1, binding = 4) uniform sampler2D occlusion_texture;
+layout(set = 1, binding = 5) uniform sampler2D emissive_texture;
+
+// formats::MaterialFlags and formats::AlphaMode
+const uint kMaterialDoubleSided = 1u;
+const uint kMaterialUnlit = 2u;
+const uint kAlphaMask = 1u;
+const uint kAlphaBlend = 2u;
+
+bool hasTexture(uint slot) { return (material.textures >> slot & 1u) != 0u; }
+
+uint uvSetOf(uint slot) { return material.uv_sets >> (slot * 4u) & 15u; }
+
+vec2 transformUv(uint slot, vec2 uv)
+{
+    vec3 point = vec3(uv, 1.0);
+    return vec2(dot(material.uv_rows[2u * slot].xyz, point), dot(material.uv_rows[2u * slot + 1u].xyz, point));
+}
+
+// The same for a direction in UV space: a derivative.
+vec2 transformUvVector(uint slot, vec2 d)
+{
+    return vec2(dot(material.uv_rows[2u * slot].xy, d), dot(material.uv_rows[2u * slot + 1u].xy, d));
+}

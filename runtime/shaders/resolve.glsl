@@ -1,0 +1,167 @@
+// Rebuilds the point of a triangle that a pixel sees, from the visibility buffer: barycentrics and their derivatives
+// by homogeneous edge functions, without a division by w, so that triangles may cross the near plane.
+// M. Olano, T. Greer, "Triangle scan conversion using 2D homogeneous coordinates", 1997.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+
+struct Surface
+{
+    VisibleCluster slot;
+    Instance instance;
+    ClusterDraw draw;
+    uint triangle;
+    uint vertices[3];  // addresses
+    vec3 corners[3];   // relative to the eye
+    vec3 position;     // relative to the eye
+    vec3 weights;
+    vec3 weights_dx;   // per pixel
+    vec3 weights_dy;
+    bool front;
+    bool mirrored;
+    float distance_w;  // along the view direction
+};
+
+Surface resolveSurface(uint id, vec2 pixel)
+{
+    Surface s;
+    s.slot = visible[id >> kTriangleBits];
+    s.triangle = id & ((1u << kTriangleBits) - 1u);
+    s.instance = instances[s.slot.instance];
+    s.draw = cluster_draws[s.slot.cluster];
+
+    vec2 ndc = pixel * 2.0 / vec2(view.width, view.height) - 1.0;
+    vec2 p[3]; // clip positions with the pixel moved to the origin: small numbers, little cancellation
+    float w[3];
+    for (uint i = 0u; i < 3u; ++i)
+    {
+        s.vertices[i] = cornerAddress(s.draw, s.triangle, i);
+        s.corners[i] = relativePoint(s.instance, view.eye, poolFloat3(s.vertices[i]));
+        vec4 clip = clipPosition(view, s.corners[i]);
+        p[i] = clip.xy - ndc * clip.w;
+        w[i] = clip.w;
+    }
+    vec3 edges = vec3(p[1].x * p[2].y - p[2].x * p[1].y, p[2].x * p[0].y - p[0].x * p[2].y,
+                      p[0].x * p[1].y - p[1].x * p[0].y);
+    // derivatives of the edge functions by the pixel's ndc
+    vec3 edges_dx = vec3(p[1].y * w[2] - p[2].y * w[1], p[2].y * w[0] - p[0].y * w[2], p[0].y * w[1] - p[1].y * w[0]);
+    vec3 edges_dy = vec3(p[2].x * w[1] - p[1].x * w[2], p[0].x * w[2] - p[2].x * w[0], p[1].x * w[0] - p[0].x * w[1]);
+    float sum = edges.x + edges.y + edges.z;
+    float inverse = sum != 0.0 ? 1.0 / sum : 0.0;
+    vec3 weights = sum != 0.0 ? edges * inverse : vec3(1.0 / 3.0);
+    s.weights_dx = (edges_dx - weights * (edges_dx.x + edges_dx.y + edges_dx.z)) * inverse * (2.0 / view.width);
+    s.weights_dy = (edges_dy - weights * (edges_dy.x + edges_dy.y + edges_dy.z)) * inverse * (2.0 / view.height);
+    // a vertex is snapped to 1/256 pixel: the sample may lie just outside the exact triangle, far outside a sliver
+    weights = max(weights, vec3(0.0));
+    s.weights = weights / (weights.x + weights.y + weights.z);
+    s.position = s.corners[0] * s.weights.x + s.corners[1] * s.weights.y + s.corners[2] * s.weights.z;
+    s.distance_w = w[0] * s.weights.x + w[1] * s.weights.y + w[2] * s.weights.z;
+    s.mirrored = (s.instance.flags & 1u) != 0u;
+    // y points down: a counter-clockwise triangle has a negative area
+    s.front = (sum < 0.0) != s.mirrored;
+    return s;
+}
+
+struct SurfaceUv
+{
+    vec2 uv;
+    vec2 dx;
+    vec2 dy;
+};
+
+SurfaceUv surfaceUv(Surface s, uint set)
+{
+    vec2 a = vertexUv(s.draw, s.vertices[0], set);
+    vec2 b = vertexUv(s.draw, s.vertices[1], set);
+    vec2 c = vertexUv(s.draw, s.vertices[2], set);
+    SurfaceUv r;
+    r.uv = a * s.weights.x + b * s.weights.y + c * s.weights.z;
+    // differences, so that large coordinates cancel exactly
+    r.dx = (b - a) * s.weights_dx.y + (c - a) * s.weights_dx.z;
+    r.dy = (b - a) * s.weights_dy.y + (c - a) * s.weights_dy.z;
+    return r;
+}
+
+vec4 surfaceColor(Surface s)
+{
+    return vertexColor(s.draw, s.vertices[0]) * s.weights.x + vertexColor(s.draw, s.vertices[1]) * s.weights.y +
+           vertexColor(s.draw, s.vertices[2]) * s.weights.z;
+}
+
+// formats/vertex_codec.h
+vec3 decodeOctahedral(uint word)
+{
+    vec2 p = unpackSnorm2x16(word);
+    vec3 d = vec3(p, 1.0 - abs(p.x) - abs(p.y));
+    if (d.z < 0.0)
+        d.xy = (1.0 - abs(p.yx)) * vec2(p.x < 0.0 ? -1.0 : 1.0, p.y < 0.0 ? -1.0 : 1.0);
+    return normalize(d);
+}
+
+vec3 worldVector(Instance instance, vec3 v)
+{
+    return vec3(dot(instance.world_from_object_x.xyz, v), dot(instance.world_from_object_y.xyz, v),
+                dot(instance.world_from_object_z.xyz, v));
+}
+
+// Normals move with the cofactor matrix: the inverse transpose up to a positive factor once the mirror is taken out.
+vec3 worldNormal(Surface s, vec3 n)
+{
+    vec3 x = s.instance.world_from_object_x.xyz;
+    vec3 y = s.instance.world_from_object_y.xyz;
+    vec3 z = s.instance.world_from_object_z.xyz;
+    vec3 r = vec3(dot(cross(y, z), n), dot(cross(z, x), n), dot(cross(x, y), n));
+    return s.mirrored ? -r : r;
+}
+
+// `v`, or `fallback` where v is too short to have a direction.
+vec3 normalizeOr(vec3 v, vec3 fallback)
+{
+    float len2 = dot(v, v);
+    return len2 > 1e-30 ? v * inversesqrt(len2) : fallback;
+}
+
+vec3 geometricNormal(Surface s)
+{
+    vec3 n = cross(s.corners[1] - s.corners[0], s.corners[2] - s.corners[0]);
+    return normalizeOr(s.mirrored ? -n : n, vec3(0.0, 1.0, 0.0));
+}
+
+// The interpolated vertex normal in world axes, on the front side.
+vec3 smoothNormal(Surface s)
+{
+    vec3 flat_normal = geometricNormal(s);
+    if ((s.draw.attributes & kVertexNormal) == 0u)
+        return flat_normal;
+    uint word = attributeWord(s.draw.attributes, kVertexNormal);
+    vec3 n = vec3(0.0);
+    for (uint i = 0u; i < 3u; ++i)
+        n += decodeOctahedral(poolWord(s.vertices[i] + word)) * s.weights[i];
+    return normalizeOr(worldNormal(s, n), flat_normal);
+}
+
+// Tangent and bitangent (unit, world), from the vertices or else from the gradients of the UVs that the normal map uses.
+void tangentFrame(Surface s, vec3 normal, uint uv_set, out vec3 tangent, out vec3 bitangent)
+{
+    vec3 t = vec3(0.0);
+    float side = s.mirrored ? -1.0 : 1.0;
+    if ((s.draw.attributes & kVertexTangent) != 0u)
+    {
+        uint word = attributeWord(s.draw.attributes, kVertexTangent);
+        for (uint i = 0u; i < 3u; ++i)
+            t += decodeOctahedral(poolWord(s.vertices[i] + word)) * s.weights[i];
+        t = worldVector(s.instance, t);
+        if ((poolWord(s.vertices[0] + word) & 0x10000u) != 0u)
+            side = -side;
+    }
+    else
+    {
+        vec2 a = vertexUv(s.draw, s.vertices[0], uv_set);
+        vec2 u1 = vertexUv(s.draw, s.vertices[1], uv_set) - a;
+        vec2 u2 = vertexUv(s.draw, s.vertices[2], uv_set) - a;
+        float area = u1.x * u2.y - u2.x * u1.y;
+        t = ((s.corners[1] - s.corners[0]) * u2.y - (s.corners[2] - s.corners[0]) * u1.y) * sign(area);
+        side *= area < 0.0 ? -1.0 : 1.0;
+    }
+    vec3 across = abs(normal.x) < 0.5 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0);
+    tangent = normalizeOr(t, normalize(cross(normal, across)));
+    bitangent = normalizeOr(cross(normal, tangent), across) * side;
+}

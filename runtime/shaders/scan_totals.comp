@@ -1,0 +1,36 @@
+// Exclusive prefix sum over the totals of all blocks, in one workgroup; the grand total stands behind the last.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#include "formats/shared/records.h"
+#include "scan.glsl"
+
+layout(local_size_x = 256) in;
+
+layout(set = 0, binding = 0, std430) buffer Totals { uint totals[]; };
+layout(set = 0, binding = 1, std430) writeonly buffer Counters { FrameCounters counters; };
+layout(push_constant) uniform Push
+{
+    uint block_count;
+    uint slot_capacity;
+};
+
+void main()
+{
+    uint sum = 0u;
+    for (uint first = 0u; first < block_count; first += 256u)
+    {
+        uint i = first + gl_LocalInvocationIndex;
+        uint value = i < block_count ? totals[i] : 0u;
+        uint total;
+        uint offset = exclusiveScan256(value, total);
+        if (i < block_count)
+            totals[i] = sum + offset;
+        sum += total;
+    }
+    if (gl_LocalInvocationIndex == 0u)
+    {
+        totals[block_count] = sum;
+        counters = FrameCounters(sum, sum > slot_capacity ? sum - slot_capacity : 0u, 0u, 0u);
+    }
+}

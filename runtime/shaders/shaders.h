@@ -1,0 +1,26 @@
+// The compiled shaders, SPIR-V 1.3; each is named after its file.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+namespace hearth::shaders
+{
+
+extern const std::span<const uint32_t> cull_instances_comp;
+extern const std::span<const uint32_t> cull_clusters_comp;
+extern const std::span<const uint32_t> scan_blocks_comp;
+extern const std::span<const uint32_t> scan_totals_comp;
+extern const std::span<const uint32_t> emit_visible_comp;
+extern const std::span<const uint32_t> emit_draws_comp;
+extern const std::span<const uint32_t> visibility_vert;
+extern const std::span<const uint32_t> visibility_frag;
+extern const std::span<const uint32_t> visibility_masked_vert;
+extern const std::span<const uint32_t> visibility_masked_frag;
+extern const std::span<const uint32_t> fullscreen_vert;
+extern const std::span<const uint32_t> material_depth_frag;
+extern const std::span<const uint32_t> shading_frag;
+extern const std::span<const uint32_t> sky_frag;
+
+} // namespace hearth::shaders

@@ -1,0 +1,31 @@
+// What the two vertex shaders of the visibility pass share.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+
+layout(set = 0, binding = 8, std430) readonly buffer BinDraws { BinDraw bin_draws[]; };
+layout(push_constant) uniform Push { uint bin_index; };
+
+struct CornerOfSlot
+{
+    ClusterDraw draw;
+    uint vertex; // address, or kNothingVisible for the unused rest of the 128 triangles
+    uint id;
+    vec4 position;
+};
+
+CornerOfSlot cornerOfSlot()
+{
+    uint slot = bin_draws[bin_index].first_slot + gl_InstanceIndex;
+    uint triangle = gl_VertexIndex / 3u;
+    CornerOfSlot corner;
+    corner.draw = cluster_draws[visible[slot].cluster];
+    corner.id = slot << kTriangleBits | triangle;
+    corner.vertex = kNothingVisible;
+    corner.position = vec4(0.0, 0.0, 0.0, 1.0); // three of these are a triangle without area
+    if (triangle < triangleCount(corner.draw))
+    {
+        Instance instance = instances[visible[slot].instance];
+        corner.vertex = cornerAddress(corner.draw, triangle, gl_VertexIndex % 3u);
+        corner.position = clipPosition(view, relativePoint(instance, view.eye, poolFloat3(corner.vertex)));
+    }
+    return corner;
+}

@@ -1,0 +1,61 @@
+// A mannequin: a skeleton of seventeen joints, a skin grown over tapered capsules, and two clips.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "sample_assets/document.h"
+
+namespace hearth::samples
+{
+
+enum Joint : uint32_t
+{
+    kHips,
+    kSpine,
+    kChest,
+    kNeck,
+    kHead,
+    kLeftUpperArm,
+    kLeftForearm,
+    kLeftHand,
+    kRightUpperArm,
+    kRightForearm,
+    kRightHand,
+    kLeftThigh,
+    kLeftShin,
+    kLeftFoot,
+    kRightThigh,
+    kRightShin,
+    kRightFoot,
+    kJointCount,
+};
+
+/// Local rotations of all joints and the place of the hips. With no rotation the arms point along +-X and the
+/// character looks along +Z; left is +X.
+struct Pose
+{
+    Float3 hips{0, 0.93f, 0};
+    std::array<Float4, kJointCount> rotations;
+
+    Pose() { rotations.fill({0, 0, 0, 1}); }
+};
+
+Pose standingPose();
+/// On a seat 0.42 m high, hands held towards something warm in front.
+Pose sittingPose();
+
+struct CharacterNodes
+{
+    int root;                            ///< give it a placement
+    std::array<int, kJointCount> joints; ///< joint nodes
+};
+
+/// Adds nodes, skin, mesh and material; the skin is grown in `pose`, which is also the rest pose.
+/// `cell` is the size in metres of the grid that the skin is taken from: about 1.6 / cell^2 triangles.
+CharacterNodes addCharacter(Document& document, const Pose& pose, float cell);
+
+/// One second of walking on the spot; linear rotations, the hips' way is a cubic spline.
+void addWalkClip(Document& document, const CharacterNodes& nodes, const Pose& pose);
+/// Two seconds of waving with the right arm; cubic-spline rotations.
+void addWaveClip(Document& document, const CharacterNodes& nodes, const Pose& pose);
+
+} // namespace hearth::samples

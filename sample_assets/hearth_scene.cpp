@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "sample_assets/hearth_scene.h"
+
+#include "sample_assets/character.h"
+#include "sample_assets/fire.h"
+#include "sample_assets/grass.h"
+#include "sample_assets/noise.h"
+#include "sample_assets/rock.h"
+#include "sample_assets/sample_math.h"
+#include "sample_assets/terrain.h"
+
+namespace hearth::samples
+{
+
+namespace
+{
+
+constexpr float kClearingRadius = 3.2f;
+
+int addMesh(Document& document, const char* name, TriangleMesh mesh, int material)
+{
+    return add(document.meshes, Mesh{name, {{std::move(mesh), material}}});
+}
+
+void addNode(Document& document, const char* name, int mesh, const Placement& placement)
+{
+    Node node;
+    node.name = name;
+    node.mesh = mesh;
+    node.placement = placement;
+    addRoot(document, node);
+}
+
+void addInstances(Document& document, const char* name, int mesh, std::vector<Placement> instances)
+{
+    Node node;
+    node.name = name;
+    node.mesh = mesh;
+    node.instances = std::move(instances);
+    addRoot(document, node);
+}
+
+Float4 anyRotation(uint32_t index, uint32_t seed)
+{
+    const Float4 about_y = rotationAbout({0, 1, 0}, randomUnit(index * 4, seed) * 2 * kPi);
+    const Float4 tilt = rotationAbout({1, 0, 0}, (randomUnit(index * 4 + 1, seed) - 0.5f) * 1.4f);
+    return multiply(about_y, tilt);
+}
+
+void addGround(Document& document, const HeightGrid& grid, uint32_t texture_size)
+{
+    addNode(document, "ground",
+            addMesh(document, "ground", makeTerrain(grid), addTerrainMaterial(document, grid, texture_size)),
+            {});
+    Material hills;
+    hills.name = "hills";
+    hills.base_color = {0.075f, 0.075f, 0.060f, 1};
+    addNode(document, "hills",
+            addMesh(document, "hills", makeHills(14.0f, 180.0f, 384, 77), add(document.materials, hills)),
+            {});
+    addInstances(document, "grass",
+                 addMesh(document, "grass_tuft", makeGrassTuft(), addGrassMaterial(document)),
+                 scatterGrass(grid, 22000, kClearingRadius - 1.2f, 601));
+}
+
+struct Boulder
+{
+    float x, z, scale;
+};
+
+void addRocks(Document& document, const HeightGrid& grid, uint64_t hero_triangles)
+{
+    const int material = addRockMaterial(document, 1024);
+    const auto sunk = [&](float x, float z, float depth) { return Float3{x, grid.at({x, z}) - depth, z}; };
+    addNode(document, "hero_rock",
+            addMesh(document, "hero_rock", makeRock(hero_triangles, 1, 4.0f), material),
+            {sunk(-1.5f, -4.7f, -1.05f),
+             multiply(rotationAbout({0, 1, 0}, 0.6f), rotationAbout({0, 0, 1}, 0.12f)),
+             {2.5f, 1.9f, 1.9f}});
+
+    constexpr std::array kBoulders{Boulder{3.4f, -3.2f, 0.85f}, Boulder{4.6f, -4.4f, 1.3f},
+                                   Boulder{-4.8f, -1.8f, 0.8f}, Boulder{-6.2f, -4.8f, 1.5f},
+                                   Boulder{2.0f, -6.6f, 1.1f},  Boulder{6.9f, -1.4f, 0.9f},
+                                   Boulder{-3.9f, 2.6f, 0.45f}, Boulder{8.2f, -7.6f, 1.9f},
+                                   Boulder{1.2f, -3.6f, 0.32f}, Boulder{5.4f, 2.0f, 0.5f}};
+    std::vector<Placement> of_shape[2];
+    for (size_t i = 0; i < kBoulders.size(); ++i)
+    {
+        const Boulder& boulder = kBoulders[i];
+        const auto index = static_cast<uint32_t>(i);
+        const float flat = 0.7f + 0.25f * randomUnit(index, 611);
+        of_shape[i % 2].push_back({sunk(boulder.x, boulder.z, -0.45f * boulder.scale * flat),
+                                   anyRotation(index, 612),
+                                   {boulder.scale, boulder.scale * flat, boulder.scale * 0.95f}});
+    }
+    addInstances(document, "boulders_a", addMesh(document, "boulder_a", makeRock(50000, 2, 2.0f), material),
+                 of_shape[0]);
+    addInstances(document, "boulders_b", addMesh(document, "boulder_b", makeRock(50000, 3, 2.0f), material),
+                 of_shape[1]);
+
+    std::vector<Placement> ring;
+    constexpr uint32_t kRingStones = 14;
+    for (uint32_t i = 0; i < kRingStones; ++i)
+    {
+        const float angle = (static_cast<float>(i) + 0.35f * randomUnit(i, 621)) * 2 * kPi / kRingStones;
+        const float radius = 0.72f + 0.07f * randomUnit(i, 622), scale = 0.145f + 0.055f * randomUnit(i, 623);
+        ring.push_back({{radius * cosine(angle), 0.35f * scale, radius * sine(angle)},
+                        anyRotation(i, 624),
+                        {scale * 1.15f, scale * 0.9f, scale}});
+    }
+    addInstances(document, "hearth_stones",
+                 addMesh(document, "hearth_stone", makeRock(6000, 4, 1.0f), material), ring);
+}
+
+void addFire(Document& document)
+{
+    addNode(document, "embers", addMesh(document, "embers", makeEmberBed(), addEmberMaterial(document)),
+            {.scale = {1.25f, 1.0f, 1.25f}});
+    addNode(document, "flames", addMesh(document, "flames", makeFlames(), addFlameMaterial(document)),
+            {.translation = {0, 0.06f, 0}});
+    std::vector<Placement> logs;
+    constexpr uint32_t kLogs = 6;
+    for (uint32_t i = 0; i < kLogs; ++i)
+    {
+        const float angle = (static_cast<float>(i) + 0.5f * randomUnit(i, 631)) * 2 * kPi / kLogs;
+        const float length = 0.62f + 0.2f * randomUnit(i, 632);
+        const Float3 outwards = normalize({cosine(angle), 0.62f + 0.25f * randomUnit(i, 633), sine(angle)});
+        // the burning ends meet low over the embers, the cold ends stick out and up
+        const Float3 foot{-0.10f * outwards.x, 0.06f, -0.10f * outwards.z};
+        logs.push_back({foot, rotationBetween({0, 1, 0}, outwards), {length, length, length}});
+    }
+    addInstances(document, "logs",
+                 addMesh(document, "burning_log", makeLog(0.075f, 5), addLogMaterial(document, true)), logs);
+}
+
+void addSeatAndGuest(Document& document)
+{
+    const int log = addMesh(document, "seat_log", makeLog(0.13f, 6), addLogMaterial(document, false));
+    const Float3 seat{-1.55f, 0.24f, 0.35f};
+    const Float3 to_fire = normalize(Float3{0, 0, 0} - Float3{seat.x, 0, seat.z});
+    const Float3 along = cross({0, 1, 0}, to_fire);
+    const float half = 0.85f;
+    addNode(document, "seat", log,
+            {seat - along * half, rotationBetween({0, 1, 0}, along), {1.6f, 2 * half, 1.6f}});
+    const Pose pose = sittingPose();
+    const CharacterNodes guest = addCharacter(document, pose, 0.012f);
+    document.nodes[static_cast<size_t>(guest.root)].placement = {
+        Float3{seat.x, 0.01f, seat.z}, rotationBetween({0, 0, 1}, to_fire), {1, 1, 1}};
+    addWaveClip(document, guest, pose);
+}
+
+void addLight(Document& document, Light light, const Placement& placement)
+{
+    Node node;
+    node.name = light.name;
+    node.light = add(document.lights, std::move(light));
+    node.placement = placement;
+    addRoot(document, node);
+}
+
+void addLights(Document& document)
+{
+    // The sun stands just over the hills to the right behind, the fire is the brightest thing nearby.
+    addLight(
+        document,
+        {.name = "low_sun", .kind = LightKind::directional, .color = {1.0f, 0.56f, 0.32f}, .intensity = 1.1f},
+        {.rotation = rotationLookingAt({0.75f, 0.26f, -0.55f}, {0, 0, 0})});
+    addLight(document,
+             {.name = "fire",
+              .kind = LightKind::point,
+              .color = {1.0f, 0.43f, 0.13f},
+              .intensity = 14,
+              .range = 14},
+             {.translation = {0, 0.55f, 0}});
+}
+
+void addHearthCamera(Document& document)
+{
+    const Float3 eye{2.9f, 1.45f, 4.4f};
+    Node node;
+    node.name = "hearth";
+    node.camera = add(document.cameras, Camera{.name = "hearth", .y_fov_rad = 0.72f, .z_near = 0.05f});
+    node.placement = {eye, rotationLookingAt(eye, {-0.45f, 0.80f, -0.4f}), {1, 1, 1}};
+    addRoot(document, node);
+}
+
+} // namespace
+
+Document makeHearthScene(uint64_t hero_triangles, uint32_t texture_size)
+{
+    Document document;
+    const HeightGrid grid =
+        makeHeights({.size = 32, .cells = 256, .clearing_radius = kClearingRadius, .seed = 8});
+    addGround(document, grid, texture_size);
+    addRocks(document, grid, hero_triangles);
+    addFire(document);
+    addSeatAndGuest(document);
+    addLights(document);
+    addHearthCamera(document);
+    return document;
+}
+
+} // namespace hearth::samples

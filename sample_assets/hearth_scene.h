@@ -1,0 +1,13 @@
+// The scene of ./dev demo: a campfire at dusk in front of a great boulder.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "sample_assets/document.h"
+
+namespace hearth::samples
+{
+
+/// `hero_triangles`: of the great boulder. One camera "hearth", a low sun, the fire's point light.
+Document makeHearthScene(uint64_t hero_triangles, uint32_t texture_size);
+
+} // namespace hearth::samples

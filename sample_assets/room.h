@@ -1,0 +1,13 @@
+// A furnished room: many materials, two point lights, a spot light and surfaces that shine.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "sample_assets/document.h"
+
+namespace hearth::samples
+{
+
+/// 6 m x 5 m x 2.8 m around the origin, floor at height 0, one camera "room" inside.
+Document makeRoom();
+
+} // namespace hearth::samples

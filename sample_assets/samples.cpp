@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "sample_assets/samples.h"
+
+#include "sample_assets/character.h"
+#include "sample_assets/grass.h"
+#include "sample_assets/hearth_scene.h"
+#include "sample_assets/rock.h"
+#include "sample_assets/room.h"
+#include "sample_assets/terrain.h"
+
+#include <array>
+#include <cmath>
+
+namespace hearth::samples
+{
+
+namespace
+{
+
+uint64_t trianglesOr(const SampleOptions& options, uint64_t otherwise)
+{
+    return options.triangles ? options.triangles : otherwise;
+}
+
+uint32_t textureSizeOr(const SampleOptions& options, uint32_t otherwise)
+{
+    return options.texture_size ? options.texture_size : otherwise;
+}
+
+void addObject(Document& document, const char* name, TriangleMesh mesh, int material)
+{
+    Node node;
+    node.name = name;
+    node.mesh = add(document.meshes, Mesh{name, {{std::move(mesh), material}}});
+    addRoot(document, node);
+}
+
+Document generateRock(const SampleOptions& options)
+{
+    Document document;
+    const int material = addRockMaterial(document, textureSizeOr(options, 1024));
+    addObject(document, "rock", makeRock(trianglesOr(options, 50000), 1, 2.0f), material);
+    return document;
+}
+
+HeightGrid sampleHeights(uint64_t triangles)
+{
+    const auto cells = static_cast<uint32_t>(std::sqrt(static_cast<double>(triangles) / 2) + 0.5);
+    return makeHeights({.size = 32, .cells = std::max(1u, cells), .seed = 3});
+}
+
+Document generateTerrain(const SampleOptions& options)
+{
+    Document document;
+    const HeightGrid grid = sampleHeights(trianglesOr(options, 131072));
+    const int material = addTerrainMaterial(document, grid, textureSizeOr(options, 1024));
+    addObject(document, "terrain", makeTerrain(grid), material);
+    return document;
+}
+
+Document generateGrass(const SampleOptions& options)
+{
+    Document document;
+    const HeightGrid grid = makeHeights({.size = 8, .cells = 32, .seed = 5});
+    const int ground = addTerrainMaterial(document, grid, textureSizeOr(options, 512));
+    addObject(document, "ground", makeTerrain(grid), ground);
+    const TriangleMesh tuft = makeGrassTuft();
+    const uint64_t tufts = trianglesOr(options, 100000) / (tuft.indices.size() / 3);
+    Node node;
+    node.name = "grass";
+    node.instances = scatterGrass(grid, static_cast<uint32_t>(tufts), 0, 7);
+    node.mesh = add(document.meshes, Mesh{"grass_tuft", {{tuft, addGrassMaterial(document)}}});
+    addRoot(document, node);
+    return document;
+}
+
+Document generateRoom(const SampleOptions&)
+{
+    return makeRoom();
+}
+
+Document generateCharacter(const SampleOptions& options)
+{
+    Document document;
+    const auto wanted = static_cast<double>(trianglesOr(options, 30000));
+    const Pose pose = standingPose();
+    const CharacterNodes nodes = addCharacter(document, pose, static_cast<float>(std::sqrt(4.4 / wanted)));
+    addWalkClip(document, nodes, pose);
+    addWaveClip(document, nodes, pose);
+    return document;
+}
+
+Document generateScene(const SampleOptions& options)
+{
+    return makeHearthScene(trianglesOr(options, 2000000), textureSizeOr(options, 2048));
+}
+
+constexpr std::array kKinds{
+    SampleKind{"rock", "a boulder of 50k triangles with colour, roughness and normal textures", generateRock},
+    SampleKind{"terrain", "a tile of eroded ground, 131k triangles, coloured by slope", generateTerrain},
+    SampleKind{"grass", "thousands of alpha-masked grass tufts, instanced, on a patch of ground",
+               generateGrass},
+    SampleKind{"room", "a furnished room: many materials, three lights, emissive surfaces, a camera",
+               generateRoom},
+    SampleKind{"character", "a skinned mannequin of seventeen joints with a walk and a wave",
+               generateCharacter},
+    SampleKind{"scene", "the demo: a campfire at dusk before a boulder of 2 million triangles",
+               generateScene},
+};
+
+} // namespace
+
+std::span<const SampleKind> sampleKinds()
+{
+    return kKinds;
+}
+
+Result<Document> generateSample(std::string_view kind, const SampleOptions& options)
+{
+    std::string names;
+    for (const SampleKind& known : kKinds)
+    {
+        if (known.name == kind)
+            return known.generate(options);
+        names += (names.empty() ? "" : ", ") + std::string(known.name);
+    }
+    return Error{Issue::usage, "", "", "there is no sample '" + std::string(kind) + "'; there are " + names};
+}
+
+} // namespace hearth::samples

@@ -1,0 +1,32 @@
+// The kinds of sample that the generator knows.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "formats/result.h"
+#include "sample_assets/document.h"
+
+#include <span>
+#include <string_view>
+
+namespace hearth::samples
+{
+
+struct SampleOptions
+{
+    uint64_t triangles = 0;    ///< wanted in the main mesh; 0: the kind's own default
+    uint32_t texture_size = 0; ///< of the rock's images; 0: the kind's own default
+};
+
+struct SampleKind
+{
+    std::string_view name;
+    std::string_view summary;
+    Document (*generate)(const SampleOptions& options);
+};
+
+std::span<const SampleKind> sampleKinds();
+
+/// Make the sample of that name. errors: usage, naming the kinds there are.
+Result<Document> generateSample(std::string_view kind, const SampleOptions& options);
+
+} // namespace hearth::samples

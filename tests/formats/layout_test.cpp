@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "formats/chunk_list.h"
+#include "formats/result.h"
+
+#include <gtest/gtest.h>
+
+#include <map>
+
+namespace hearth::test
+{
+
+using namespace formats;
+
+// Records without gaps are asserted by HEARTH_RECORD itself; this pins what it would refuse.
+static_assert(gapless(std::array{Field{"a", "u32", 0, 4, ""}, Field{"b", "u64", 4, 8, ""}}, 12));
+static_assert(!gapless(std::array{Field{"a", "u32", 0, 4, ""}, Field{"b", "u64", 8, 8, ""}}, 16), "a hole");
+static_assert(!gapless(std::array{Field{"a", "u64", 0, 8, ""}, Field{"b", "u32", 8, 4, ""}}, 16),
+              "padding behind");
+static_assert(!gapless(std::array{Field{"b", "u32", 4, 4, ""}, Field{"a", "u32", 0, 4, ""}}, 8),
+              "out of order");
+
+TEST(Issues, haveEachANumberOfTheirOwn)
+{
+    std::map<uint32_t, std::string_view> name_of_number;
+    for (const IssueInfo& info : allIssues())
+    {
+        const auto [other, fresh] = name_of_number.try_emplace(static_cast<uint32_t>(info.issue), info.name);
+        EXPECT_TRUE(fresh) << info.name << " and " << other->second << " are both " << other->first;
+    }
+    EXPECT_GT(name_of_number.size(), 40u);
+}
+
+TEST(Issues, sayWhatIsWrongAndWhatToDo)
+{
+    for (const IssueInfo& info : allIssues())
+    {
+        EXPECT_FALSE(info.summary.empty()) << info.name;
+        EXPECT_TRUE(info.kind == IssueClass::warning || !info.hint.empty()) << info.name;
+        EXPECT_EQ(&issueInfo(info.issue), &info);
+    }
+}
+
+TEST(FormatMessage, isOneLineWithNumberAndHint)
+{
+    const Error error{Issue::meaning_value, "a.hearth", "node 3", "line\nbreak"};
+    EXPECT_EQ(formatMessage(error), "a.hearth|node 3: error: line break [E3002] hint: cook the asset again");
+    const Error warning{Issue::dropped, "a.gltf", "", "extras"};
+    EXPECT_EQ(formatMessage(warning), "a.gltf: warning: extras [W1400]");
+    EXPECT_EQ(exitCode(error), 65);
+    EXPECT_EQ(exitCode(warning), 0);
+}
+
+TEST(ChunkList, hasEachFourCCOnce)
+{
+    std::map<uint32_t, std::string_view> content_of_type;
+    for (const ChunkInfo& chunk : kChunkList)
+    {
+        EXPECT_TRUE(content_of_type.try_emplace(chunk.type, chunk.content).second) << chunk.meaning;
+        EXPECT_EQ(chunkInfo(chunk.type), &chunk);
+    }
+    EXPECT_EQ(chunkInfo(fourCC("NEW!")), nullptr);
+}
+
+TEST(VertexWords, areTheOffsetBehindTheLastAttribute)
+{
+    EXPECT_EQ(vertexWords(0), 3u);
+    EXPECT_EQ(vertexWords(127), 15u);
+}
+
+} // namespace hearth::test

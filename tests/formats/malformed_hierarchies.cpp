@@ -1,0 +1,273 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "formats/container_reader.h"
+#include "tests/formats/malformed_packs.h"
+
+#include <cstring>
+#include <limits>
+
+namespace hearth::test
+{
+
+using namespace formats;
+
+namespace
+{
+
+constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+constexpr uint32_t kHuge = 0xFFFFFFF0u; ///< first + count overflows 32 bits
+
+// a vertex of the strip: position, normal, tangent, uv (2), colour (2)
+constexpr size_t kStripVertexBytes = 9 * 4;
+constexpr size_t kStripIndices = 4 * kStripVertexBytes; ///< of the first cluster of a page
+
+/// Overwrite a word of the first cluster of a page.
+template <typename T>
+void poke(PackModel& pack, size_t page, size_t byte, T value)
+{
+    std::memcpy(pack.decoded_pages[page].data() + byte, &value, sizeof(T));
+}
+
+std::vector<MalformedPack> malformedTables()
+{
+    return {
+        {"meshLevelsOutside", Issue::meaning_range, "mesh 0",
+         [](PackModel& p) { p.meshes[0].levels.count = kHuge; }},
+        {"meshGroupsOrder", Issue::meaning_order, "mesh 2",
+         [](PackModel& p) { p.meshes[2].groups.first = 2; }},
+        {"meshClustersOutside", Issue::meaning_range, "mesh 2",
+         [](PackModel& p) { p.meshes[2].clusters.count = 2; }},
+        {"meshPagesOverlap", Issue::meaning_order, "mesh 2",
+         [](PackModel& p) {
+             p.meshes[2].pages = {2, 2};
+         }},
+        {"meshAttributes", Issue::meaning_value, "mesh 1",
+         [](PackModel& p) { p.meshes[1].attributes = 128; }},
+        {"meshSkinned", Issue::meaning_value, "mesh 2", [](PackModel& p) { p.meshes[2].skinned = 2; }},
+        {"meshBoxInfinite", Issue::meaning_value, "mesh 1",
+         [](PackModel& p) { p.meshes[1].box_min.x = kInfinity; }},
+        {"meshBoxEmpty", Issue::meaning_value, "mesh 1", [](PackModel& p) { p.meshes[1].box_min.x = 1; }},
+        {"meshLodCount", Issue::meaning_value, "mesh 0", [](PackModel& p) { p.meshes[0].lod_count = 3; }},
+        {"meshTriangles", Issue::meaning_value, "mesh 0",
+         [](PackModel& p) { p.meshes[0].source_triangles = 9; }},
+        {"meshDegenerate", Issue::meaning_value, "mesh 1",
+         [](PackModel& p) { p.meshes[1].degenerate_triangles = 1; }},
+        {"levelLeft", Issue::meaning_range, "level 3", [](PackModel& p) { p.levels.push_back(p.levels[0]); }},
+        {"groupLeft", Issue::meaning_range, "group 4", [](PackModel& p) { p.groups.push_back(p.groups[0]); }},
+        {"clusterLeft", Issue::meaning_range, "cluster 7",
+         [](PackModel& p) { p.clusters.push_back(p.clusters[0]); }},
+        {"pageLeft", Issue::meaning_range, "page 4", [](PackModel& p) { p.pages.push_back(p.pages[0]); }},
+
+        {"levelOutside", Issue::meaning_range, "level 1",
+         [](PackModel& p) { p.levels[1].clusters.count = kHuge; }},
+        {"levelEmpty", Issue::meaning_range, "level 1", [](PackModel& p) { p.levels[1].clusters.count = 0; }},
+        {"levelsCoarsestFirst", Issue::meaning_order, "level 1",
+         [](PackModel& p)
+         {
+             std::swap(p.levels[0], p.levels[1]);
+             p.meshes[0].source_triangles = 4;
+         }},
+        {"levelOfCluster", Issue::meaning_order, "level 0", [](PackModel& p) { p.clusters[4].level = 1; }},
+        {"levelTriangles", Issue::meaning_value, "level 1",
+         [](PackModel& p) { p.levels[1].triangle_count = 5; }},
+        {"levelError", Issue::meaning_value, "level 1", [](PackModel& p) { p.levels[1].max_error = 0.2f; }},
+        {"levelMissesClusters", Issue::meaning_range, "cluster 4",
+         [](PackModel& p)
+         {
+             p.levels[0] = {{2, 2}, 4, 0};
+             p.meshes[0].source_triangles = 4;
+         }},
+
+        {"groupOutside", Issue::meaning_range, "group 1",
+         [](PackModel& p) { p.groups[1].clusters.count = kHuge; }},
+        {"groupOrder", Issue::meaning_order, "group 1", [](PackModel& p) { p.groups[1].clusters.first = 3; }},
+        {"groupMissesClusters", Issue::meaning_range, "mesh 0",
+         [](PackModel& p) { p.groups[2].clusters.count = 1; }},
+        {"groupTakesOtherMesh", Issue::meaning_reference, "group 2",
+         [](PackModel& p)
+         {
+             p.groups[2].clusters.count = 3;
+             p.clusters[6].group = 2;
+             p.clusters[6].page = 2;
+         }},
+        {"groupEmpty", Issue::meaning_value, "group 3", [](PackModel& p) { p.groups[3].clusters.count = 0; }},
+        {"groupSphereNaN", Issue::meaning_value, "group 0",
+         [](PackModel& p) { p.groups[0].sphere_center.x = kNaN; }},
+        {"groupRadiusNegative", Issue::meaning_value, "group 0",
+         [](PackModel& p) { p.groups[0].sphere_radius = -1; }},
+        {"groupErrorNaN", Issue::meaning_value, "group 1", [](PackModel& p) { p.groups[1].error = kNaN; }},
+        {"groupPage", Issue::meaning_reference, "group 1", [](PackModel& p) { p.groups[1].page = 3; }},
+        {"groupReserved", Issue::meaning_padding, "group 1",
+         [](PackModel& p) { p.groups[1].reserved[1] = 1; }},
+        {"groupOfCluster", Issue::meaning_reference, "group 1",
+         [](PackModel& p) { p.clusters[3].group = 2; }},
+        {"groupLevel", Issue::meaning_reference, "group 1", [](PackModel& p) { p.groups[1].level = 1; }},
+        {"groupRootWithFiniteError", Issue::meaning_tree, "group 0",
+         [](PackModel& p) { p.groups[0].error = 5; }},
+        {"groupThatNothingReplaces", Issue::meaning_tree, "group 2",
+         [](PackModel& p) { p.clusters[1].refined_group = 1; }},
+
+        {"clusterTriangles", Issue::meaning_value, "cluster 3",
+         [](PackModel& p) {
+             p.clusters[3].triangle_count = 0, p.levels[0].triangle_count = 6,
+             p.meshes[0].source_triangles = 6;
+         }},
+        {"clusterVertices", Issue::meaning_value, "cluster 3",
+         [](PackModel& p) { p.clusters[3].vertex_count = 257; }},
+        {"clusterBoxNaN", Issue::meaning_value, "cluster 1",
+         [](PackModel& p) { p.clusters[1].box_max.z = kNaN; }},
+        {"clusterBoxOutsideMesh", Issue::meaning_bounds, "cluster 1",
+         [](PackModel& p) { p.clusters[1].box_max.z = 2; }},
+        {"clusterSphere", Issue::meaning_value, "cluster 1",
+         [](PackModel& p) { p.clusters[1].sphere_radius = kInfinity; }},
+        {"clusterConeCutoff", Issue::meaning_value, "cluster 1",
+         [](PackModel& p) { p.clusters[1].cone_cutoff = 1.1f; }},
+        {"clusterConeAxis", Issue::meaning_value, "cluster 1",
+         [](PackModel& p) { p.clusters[1].cone_axis = {}; }},
+        {"clusterConeApex", Issue::meaning_value, "cluster 1",
+         [](PackModel& p) { p.clusters[1].cone_apex.y = kNaN; }},
+        {"clusterOffset", Issue::meaning_value, "cluster 3",
+         [](PackModel& p) { ++p.clusters[3].page_offset; }},
+        {"clusterReserved", Issue::meaning_padding, "cluster 3",
+         [](PackModel& p) { p.clusters[3].reserved = 1; }},
+        {"clusterRefinedMissing", Issue::meaning_tree, "cluster 0",
+         [](PackModel& p) { p.clusters[0].refined_group = kNone; }},
+        {"clusterRefinedAtLevel0", Issue::meaning_tree, "cluster 2",
+         [](PackModel& p) { p.clusters[2].refined_group = 2; }},
+        {"clusterRefinedOutside", Issue::meaning_reference, "cluster 0",
+         [](PackModel& p) { p.clusters[0].refined_group = 3; }},
+        {"clusterRefinedItself", Issue::meaning_tree, "cluster 0",
+         [](PackModel& p) { p.clusters[0].refined_group = 0; }},
+        {"clusterErrorAtLevel0", Issue::meaning_value, "cluster 6",
+         [](PackModel& p) { p.clusters[6].error = 0.5f, p.levels[2].max_error = 0.5f; }},
+        {"clusterErrorOfGroup", Issue::meaning_value, "cluster 1",
+         [](PackModel& p) { p.clusters[1].error = 0.05f; }},
+        {"clusterErrorGrows", Issue::meaning_monotone, "cluster 0",
+         [](PackModel& p) { p.groups[0].error = 0.05f; }},
+        {"clusterSphereGrows", Issue::meaning_monotone, "cluster 0",
+         [](PackModel& p) { p.groups[0].sphere_radius = 2.4f; }},
+        {"clusterMaterial", Issue::meaning_reference, "cluster 0",
+         [](PackModel& p) { p.clusters[0].material = 1; }},
+    };
+}
+
+std::vector<MalformedPack> malformedPages()
+{
+    return {
+        {"pageClustersOutside", Issue::meaning_range, "page 0",
+         [](PackModel& p) { p.pages[0].clusters.count = kHuge; }},
+        {"pageClustersOrder", Issue::meaning_order, "page 1",
+         [](PackModel& p) {
+             p.pages[1].clusters = {3, 1};
+         }},
+        {"pageWithoutClusters", Issue::meaning_value, "page 3",
+         [](PackModel& p) { p.pages[3].clusters.count = 0; }},
+        {"pageOfCluster", Issue::meaning_reference, "page 1",
+         [](PackModel& p) { p.pages[1].clusters.count = 3; }},
+        {"pageMesh", Issue::meaning_reference, "page 3", [](PackModel& p) { p.pages[3].mesh = 0; }},
+        {"pageTooLarge", Issue::meaning_value, "page 0",
+         [](PackModel& p) { p.pages[0].size = kPageMaxBytes + 1; }},
+        {"pageCodec", Issue::meaning_value, "page 0", [](PackModel& p) { p.pages[0].codec = 2; }},
+        {"pageStoredSize", Issue::meaning_value, "page 1", [](PackModel& p) { ++p.pages[1].size; }},
+        {"pageReserved", Issue::meaning_padding, "page 2", [](PackModel& p) { p.pages[2].reserved[1] = 1; }},
+        {"pageParentsOutside", Issue::meaning_range, "page 2",
+         [](PackModel& p) { p.pages[2].parents.count = kHuge; }},
+        {"pageParentsOrder", Issue::meaning_order, "page 2",
+         [](PackModel& p) {
+             p.pages[2].parents = {0, 2};
+         }},
+        {"pageParentMissing", Issue::meaning_reference, "page 1",
+         [](PackModel& p)
+         {
+             p.pages[1].parents.count = 0;
+             p.pages[2].parents = {0, 1};
+             p.pages[3].parents = {1, 0};
+             p.page_parents.pop_back();
+         }},
+        {"pageParentLater", Issue::meaning_order, "page 1", [](PackModel& p) { p.page_parents[0] = 2; }},
+        {"pageParentWrong", Issue::meaning_reference, "page 2", [](PackModel& p) { p.page_parents[1] = 1; }},
+        {"pageParentLeft", Issue::meaning_range, "parent 2",
+         [](PackModel& p) { p.page_parents.push_back(0); }},
+        {"pageOffset", Issue::meaning_order, "page 1", [](PackModel& p) { p.pages[1].offset += 64; }},
+        {"pageOutside", Issue::meaning_range, "page 3",
+         [](PackModel& p) { p.page_bytes.pop_back(); }},
+        {"pagePadding", Issue::meaning_padding, "page 1",
+         [](PackModel& p) { p.page_bytes[p.pages[1].offset - 1] = std::byte{1}; }},
+        {"pageBytesBehind", Issue::meaning_range, "chunk PAGE 0",
+         [](PackModel& p) { p.page_bytes.resize(p.page_bytes.size() + 64); }},
+        {"pagePaddingBehind", Issue::meaning_padding, "chunk PAGE 0",
+         [](PackModel& p) { p.page_bytes.push_back(std::byte{1}); }},
+        {"pageHash", Issue::page_hash, "page 2", [](PackModel& p) { ++p.pages[2].hash; }},
+        {"pageNotZstd", Issue::chunk_codec, "page 0",
+         [](PackModel& p)
+         {
+             p.page_bytes[0] = std::byte{0};
+             p.pages[0].hash = hashBytes(std::span(p.page_bytes).first(p.pages[0].stored_size));
+         }},
+        {"pageSizeNotItsFrames", Issue::chunk_codec, "page 0", [](PackModel& p) { ++p.pages[0].size; }},
+    };
+}
+
+std::vector<MalformedPack> malformedGeometry()
+{
+    return {
+        {"geometryOutsidePage", Issue::meaning_range, "cluster 6",
+         [](PackModel& p) { p.clusters[6].page_offset = 4; }},
+        {"geometryOffsetHuge", Issue::meaning_range, "cluster 0",
+         [](PackModel& p) { p.clusters[0].page_offset = kHuge; }},
+        {"geometryOverlaps", Issue::meaning_order, "cluster 3",
+         [](PackModel& p) { p.clusters[3].page_offset -= 4; }},
+        {"geometryPadding", Issue::meaning_padding, "cluster 3",
+         [](PackModel& p) { poke(p, 1, kStripIndices + 6, uint8_t{1}); }, true},
+        {"geometryBytesBehind", Issue::meaning_padding, "page 2",
+         [](PackModel& p) { p.decoded_pages[2].resize(p.decoded_pages[2].size() + 4, std::byte{1}); }, true},
+        {"positionNaN", Issue::meaning_geometry, "cluster 2", [](PackModel& p) { poke(p, 1, 4, kNaN); },
+         true},
+        {"positionOutsideBox", Issue::meaning_bounds, "cluster 2",
+         [](PackModel& p) { poke(p, 1, 4, -0.01f); }, true},
+        {"positionOutsideSphere", Issue::meaning_bounds, "cluster 5",
+         [](PackModel& p) { p.clusters[5].sphere_radius *= 0.999f; }},
+        {"normalCode", Issue::meaning_geometry, "cluster 4",
+         [](PackModel& p) { poke(p, 2, 12, 0x00008000u); }, true},
+        {"tangentCode", Issue::meaning_geometry, "cluster 4",
+         [](PackModel& p) { poke(p, 2, 16, 0x80000000u); }, true},
+        {"uvNaN", Issue::meaning_geometry, "cluster 0", [](PackModel& p) { poke(p, 0, 24, kNaN); }, true},
+        {"indexOutside", Issue::meaning_geometry, "cluster 0",
+         [](PackModel& p) { poke(p, 0, kStripIndices + 5, uint8_t{4}); }, true},
+        {"allDegenerate", Issue::meaning_geometry, "cluster 6",
+         [](PackModel& p) { poke(p, 3, 3 * 12 + 1, uint8_t{0}); }, true},
+        {"coneTooNarrow", Issue::meaning_bounds, "cluster 2",
+         [](PackModel& p) { p.clusters[2].cone_cutoff = 0.05f; }},
+        {"coneTurned", Issue::meaning_bounds, "cluster 0",
+         [](PackModel& p) {
+             p.clusters[0].cone_axis = {0, -1, 0};
+         }},
+        {"triangleTurned", Issue::meaning_bounds, "cluster 0",
+         [](PackModel& p)
+         {
+             poke(p, 0, kStripIndices + 1, uint8_t{2});
+             poke(p, 0, kStripIndices + 2, uint8_t{1});
+         },
+         true},
+        {"apexInFront", Issue::meaning_bounds, "cluster 1",
+         [](PackModel& p) { p.clusters[1].cone_apex.y = 0.1f; }},
+    };
+}
+
+} // namespace
+
+const std::vector<MalformedPack>& malformedHierarchies()
+{
+    static const std::vector<MalformedPack> cases = []
+    {
+        std::vector<MalformedPack> all = malformedTables();
+        for (MalformedPack& pack : malformedPages())
+            all.push_back(std::move(pack));
+        for (MalformedPack& pack : malformedGeometry())
+            all.push_back(std::move(pack));
+        return all;
+    }();
+    return cases;
+}
+
+} // namespace hearth::test

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "formats/pack_check.h"
+#include "runtime/pack/pack.h"
+#include "tests/formats/malformed_packs.h"
+
+#include <gtest/gtest.h>
+
+namespace hearth::test
+{
+
+using namespace formats;
+
+namespace
+{
+
+/// The error of opening the model as a pack, as "E3002 node 1: ...", or "" where it is accepted.
+std::string refusal(const PackModel& model, bool compressed = false)
+{
+    const AlignedBytes bytes = model.bytes(compressed);
+    const auto pack = pack::Pack::fromBytes(bytes.span(), "small.hearth");
+    return pack.ok() ? "" : formatMessage(pack.error());
+}
+
+} // namespace
+
+TEST(CheckPack, acceptsASmallCompletePack)
+{
+    EXPECT_EQ(refusal(smallPack()), "");
+    EXPECT_EQ(refusal(smallPack(), true), "");
+}
+
+TEST(CheckPack, acceptsAnEmptyScene)
+{
+    EXPECT_EQ(refusal(PackModel()), "");
+}
+
+TEST(CheckPack, acceptsBoundsThatAreExactInFloats)
+{
+    PackModel pack = smallPack();
+    // the distance of the centres is 1, and 1 + 1.5 = 2.5
+    pack.groups[0].sphere_radius = 2.5f;
+    EXPECT_EQ(refusal(pack), "");
+}
+
+TEST(CheckPack, refusesAPart)
+{
+    const std::vector<ChunkImage> chunks = smallPack().chunks();
+    const AlignedBytes bytes = assemble(ContainerKind::part, chunks);
+    const auto pack = pack::Pack::fromBytes(bytes.span(), "part");
+    ASSERT_FALSE(pack.ok());
+    EXPECT_EQ(pack.error().issue, Issue::container_kind);
+}
+
+TEST(CheckHierarchy, needsOnlyTheMeshes)
+{
+    PackModel all = smallPack();
+    PackModel meshes;
+    meshes.strings = all.strings;
+    meshes.meshes = all.meshes;
+    meshes.levels = all.levels;
+    meshes.groups = all.groups;
+    meshes.clusters = all.clusters;
+    meshes.pages = all.pages;
+    meshes.page_parents = all.page_parents;
+    meshes.page_bytes = all.page_bytes;
+    const std::vector<ChunkImage> chunks = meshes.chunks();
+    const AlignedBytes bytes = assemble(ContainerKind::part, chunks);
+    auto reader = ContainerReader::fromBytes(bytes.span(), "clusters.part");
+    ASSERT_TRUE(reader.ok());
+    const auto view = PackView::read(std::move(reader).value());
+    ASSERT_TRUE(view.ok());
+    const Status status = checkHierarchy(*view);
+    EXPECT_TRUE(status.ok()) << formatMessage(status.error());
+}
+
+class MalformedPackTest : public testing::TestWithParam<MalformedPack>
+{
+};
+
+TEST_P(MalformedPackTest, isRefusedAsItsIssue)
+{
+    PackModel model = smallPack();
+    GetParam().spoil(model);
+    if (GetParam().reseal)
+        model.sealPages();
+    const AlignedBytes bytes = model.bytes();
+    const auto pack = pack::Pack::fromBytes(bytes.span(), "small.hearth");
+    ASSERT_FALSE(pack.ok()) << "accepted";
+    EXPECT_EQ(pack.error().issue, GetParam().issue) << formatMessage(pack.error());
+    EXPECT_EQ(pack.error().where, GetParam().where) << formatMessage(pack.error());
+}
+
+constexpr auto kCaseName = [](const testing::TestParamInfo<MalformedPack>& info) { return info.param.name; };
+INSTANTIATE_TEST_SUITE_P(Scene, MalformedPackTest, testing::ValuesIn(malformedScenes()), kCaseName);
+INSTANTIATE_TEST_SUITE_P(Hierarchy, MalformedPackTest, testing::ValuesIn(malformedHierarchies()), kCaseName);
+
+TEST(MalformedPacks, haveOneForEveryIssueOfMeaning)
+{
+    for (const IssueInfo& info : allIssues())
+    {
+        if (static_cast<uint32_t>(info.issue) / 1000 != 3)
+            continue;
+        const auto has = [&](const std::vector<MalformedPack>& packs)
+        {
+            return std::any_of(packs.begin(), packs.end(),
+                               [&](const MalformedPack& p) { return p.issue == info.issue; });
+        };
+        EXPECT_TRUE(has(malformedScenes()) || has(malformedHierarchies())) << info.name;
+    }
+}
+
+} // namespace hearth::test

@@ -1,0 +1,441 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "tests/formats/small_pack.h"
+
+#include "formats/container_reader.h"
+#include "formats/vertex_codec.h"
+
+#include <bit>
+#include <cmath>
+#include <cstring>
+
+namespace hearth::test
+{
+
+using namespace formats;
+
+namespace
+{
+
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+constexpr uint32_t kStripAttributes = kVertexNormal | kVertexTangent | kVertexUv0 | kVertexColor;
+constexpr float kFold = 0.1f; ///< metres by which every second edge of the strip is lifted
+
+StringRef intern(PackModel& pack, std::string_view text)
+{
+    const StringRef ref{static_cast<uint32_t>(pack.strings.size()), static_cast<uint32_t>(text.size())};
+    pack.strings += text;
+    return ref;
+}
+
+template <typename T>
+void appendValue(std::vector<std::byte>& bytes, const T& value)
+{
+    const size_t at = bytes.size();
+    bytes.resize(at + sizeof(T));
+    std::memcpy(bytes.data() + at, &value, sizeof(T));
+}
+
+void padTo(std::vector<std::byte>& bytes, size_t alignment)
+{
+    while (bytes.size() % alignment != 0)
+        bytes.push_back(std::byte{0});
+}
+
+struct Shape
+{
+    std::vector<Float3> positions;
+    std::vector<uint8_t> indices;
+};
+
+/// The strip between x0 and x1: two triangles that face +Y.
+Shape quad(float x0, float y0, float x1, float y1)
+{
+    return {{{x0, y0, 0}, {x0, y0, 1}, {x1, y1, 1}, {x1, y1, 0}}, {0, 1, 2, 0, 2, 3}};
+}
+
+void appendVertex(std::vector<std::byte>& page, Float3 position, uint32_t attributes)
+{
+    appendValue(page, position);
+    if (attributes & kVertexNormal)
+        appendValue(page, encodeNormal({0, 1, 0}));
+    if (attributes & kVertexTangent)
+        appendValue(page, encodeTangent({1, 0, 0, -1}));
+    if (attributes & kVertexUv0)
+        appendValue(page, Float2{position.x / 4, position.z});
+    if (attributes & kVertexColor)
+        appendValue(page, encodeColor({1, 0.5f, 0.25f, 1}));
+}
+
+/// Bounds of the shape: box, sphere about the box, and a cone that all its normals fit.
+ClusterRecord boundsOf(const Shape& shape, float cone_cutoff)
+{
+    Box3 box;
+    for (const Float3 p : shape.positions)
+        box.add(p);
+    ClusterRecord cluster{};
+    cluster.box_min = box.min;
+    cluster.box_max = box.max;
+    cluster.sphere_center = box.center();
+    cluster.sphere_radius = length(box.max - box.center()) * 1.00001f;
+    cluster.cone_axis = {0, 1, 0};
+    cluster.cone_cutoff = cone_cutoff;
+    cluster.cone_apex = box.center() - Float3{0, 2, 0};
+    return cluster;
+}
+
+/// Add a cluster, its geometry at the end of the last page, and its place in the last group.
+void addCluster(PackModel& pack, const Shape& shape, uint32_t refined_group)
+{
+    const uint32_t group = static_cast<uint32_t>(pack.groups.size() - 1);
+    const uint32_t mesh = static_cast<uint32_t>(pack.meshes.size() - 1);
+    std::vector<std::byte>& page = pack.decoded_pages.back();
+
+    ClusterRecord cluster = boundsOf(shape, pack.meshes.back().attributes == 0 ? 1.0f : 0.2f);
+    cluster.material = mesh == 0 ? 0 : kNone;
+    cluster.page = static_cast<uint32_t>(pack.decoded_pages.size() - 1);
+    cluster.page_offset = static_cast<uint32_t>(page.size());
+    cluster.group = group;
+    cluster.refined_group = refined_group;
+    cluster.vertex_count = static_cast<uint32_t>(shape.positions.size());
+    cluster.triangle_count = static_cast<uint32_t>(shape.indices.size() / 3);
+    cluster.error = refined_group == kNone ? 0 : kFold;
+    cluster.level = pack.groups.back().level;
+    cluster.mesh = mesh;
+    pack.clusters.push_back(cluster);
+
+    for (const Float3 position : shape.positions)
+        appendVertex(page, position, pack.meshes.back().attributes);
+    for (const uint8_t index : shape.indices)
+        page.push_back(std::byte{index});
+    padTo(page, 4);
+
+    ++pack.groups.back().clusters.count;
+    ++pack.pages.back().clusters.count;
+}
+
+/// Begin a group in a page of its own.
+void beginGroup(PackModel& pack, uint32_t level, Float3 center, float radius, float error)
+{
+    const auto first_cluster = static_cast<uint32_t>(pack.clusters.size());
+    GroupRecord group{};
+    group.sphere_center = center;
+    group.sphere_radius = radius;
+    group.error = error;
+    group.level = level;
+    group.clusters = {first_cluster, 0};
+    group.page = static_cast<uint32_t>(pack.pages.size());
+    pack.groups.push_back(group);
+
+    PageRecord page{};
+    page.mesh = static_cast<uint32_t>(pack.meshes.size() - 1);
+    page.clusters = {first_cluster, 0};
+    page.parents = {static_cast<uint32_t>(pack.page_parents.size()), 0};
+    pack.pages.push_back(page);
+    pack.decoded_pages.emplace_back();
+}
+
+void beginMesh(PackModel& pack, std::string_view name, uint32_t attributes)
+{
+    MeshRecord mesh{};
+    mesh.name = intern(pack, name);
+    mesh.attributes = attributes;
+    mesh.levels.first = static_cast<uint32_t>(pack.levels.size());
+    mesh.groups.first = static_cast<uint32_t>(pack.groups.size());
+    mesh.clusters.first = static_cast<uint32_t>(pack.clusters.size());
+    mesh.pages.first = static_cast<uint32_t>(pack.pages.size());
+    pack.meshes.push_back(mesh);
+}
+
+void endMesh(PackModel& pack, uint32_t source_triangles)
+{
+    MeshRecord& mesh = pack.meshes.back();
+    mesh.source_faces = source_triangles;
+    mesh.source_triangles = source_triangles;
+    mesh.source_vertices = source_triangles * 3;
+    mesh.levels.count = static_cast<uint32_t>(pack.levels.size()) - mesh.levels.first;
+    mesh.groups.count = static_cast<uint32_t>(pack.groups.size()) - mesh.groups.first;
+    mesh.clusters.count = static_cast<uint32_t>(pack.clusters.size()) - mesh.clusters.first;
+    mesh.pages.count = static_cast<uint32_t>(pack.pages.size()) - mesh.pages.first;
+    mesh.lod_count = mesh.levels.count;
+    Box3 box;
+    for (uint32_t i = mesh.clusters.first; i < pack.clusters.size(); ++i)
+        box.add(Box3{pack.clusters[i].box_min, pack.clusters[i].box_max});
+    mesh.box_min = box.empty() ? Float3{} : box.min;
+    mesh.box_max = box.empty() ? Float3{} : box.max;
+}
+
+void addStrip(PackModel& pack)
+{
+    beginMesh(pack, "strip", kStripAttributes);
+    beginGroup(pack, 1, {2, 0, 0.5f}, 3, kInfinity);
+    addCluster(pack, quad(0, 0, 2, 0), 1);
+    addCluster(pack, quad(2, 0, 4, 0), 2);
+    for (const float x : {0.0f, 2.0f})
+    {
+        beginGroup(pack, 0, {x + 1, 0, 0.5f}, 1.5f, kFold);
+        pack.page_parents.push_back(0);
+        pack.pages.back().parents.count = 1;
+        addCluster(pack, quad(x, 0, x + 1, kFold), kNone);
+        addCluster(pack, quad(x + 1, kFold, x + 2, 0), kNone);
+    }
+    pack.levels.push_back({{2, 4}, 8, 0});
+    pack.levels.push_back({{0, 2}, 4, kFold});
+    endMesh(pack, 8);
+}
+
+void addTriangle(PackModel& pack)
+{
+    beginMesh(pack, "triangle", 0);
+    pack.meshes.back().skinned = 1;
+    pack.meshes.back().morph_target_count = 1;
+    const uint32_t first = static_cast<uint32_t>(pack.clusters.size());
+    beginGroup(pack, 0, {0, 0, 0}, 2, kInfinity);
+    addCluster(pack, {{{0, 0, 0}, {0, 0, 1}, {1, 0, 0}}, {0, 1, 2}}, kNone);
+    pack.levels.push_back({{first, 1}, 1, 0});
+    endMesh(pack, 1);
+}
+
+/// Joints and weights of three vertices and one morph target, as chunk DEFM.
+std::vector<std::byte> deformation()
+{
+    constexpr struct
+    {
+        SourceSemantic semantic;
+        uint32_t element_size;
+    } kArrays[] = {
+        {SourceSemantic::joints, 8}, {SourceSemantic::weights, 16}, {SourceSemantic::morph_position, 12}};
+
+    SourceMeshHeader header{};
+    header.array_count = static_cast<uint32_t>(std::size(kArrays));
+    header.vertex_count = 3;
+    std::vector<std::byte> bytes;
+    appendValue(bytes, header);
+    uint64_t offset = sizeof(SourceMeshHeader) + std::size(kArrays) * sizeof(SourceArray);
+    for (const auto& kind : kArrays)
+    {
+        SourceArray array{};
+        array.semantic = static_cast<uint32_t>(kind.semantic);
+        array.offset = offset;
+        array.count = 3;
+        array.element_size = kind.element_size;
+        appendValue(bytes, array);
+        offset = (offset + array.count * array.element_size + 15) / 16 * 16;
+    }
+    bytes.resize(offset);
+    return bytes;
+}
+
+void addNodes(PackModel& pack)
+{
+    NodeRecord node{};
+    node.parent = kNone;
+    node.mesh = kNone;
+    node.skin = kNone;
+    node.has_trs = 1;
+    node.rotation = {0, 0, 0, 1};
+    node.scale = {1, 1, 1};
+    node.parent_from_node = Affine3{};
+    node.name =
+        intern(pack, "Wurzel \xC3\xA4\xE2\x82\xAC"); // names are UTF-8: two and three bytes a character
+    pack.nodes.push_back(node);
+
+    node.name = intern(pack, "strip node");
+    node.parent = 2; // a parent may stand after its child
+    node.mesh = 0;
+    pack.nodes.push_back(node);
+
+    node.name = intern(pack, "between");
+    node.parent = 0;
+    node.mesh = kNone;
+    node.has_trs = 0;
+    pack.nodes.push_back(node);
+
+    node.name = intern(pack, "skinned");
+    node.parent = kNone;
+    node.mesh = 2;
+    node.skin = 0;
+    node.morph_weights = {0, 1};
+    pack.nodes.push_back(node);
+    pack.morph_weights = {0.5f};
+}
+
+void addScene(PackModel& pack)
+{
+    addNodes(pack);
+    pack.instances.push_back({Affine3{}, 0, 1, 0, 1});
+    Affine3 mirrored;
+    mirrored.m[0][0] = -2;
+    mirrored.m[0][3] = 5;
+    pack.instances.push_back({mirrored, 2, 3, kInstanceMirrored, 2});
+
+    CameraRecord camera{};
+    camera.name = intern(pack, "camera");
+    camera.y_fov_rad = 1;
+    camera.z_near = 0.1f;
+    camera.world_from_camera = Affine3{};
+    pack.cameras.push_back(camera);
+    camera.type = static_cast<uint32_t>(CameraType::orthographic);
+    camera.x_magnification = camera.y_magnification = 2;
+    camera.z_far = 100;
+    pack.cameras.push_back(camera);
+
+    for (const LightType type : {LightType::directional, LightType::point, LightType::spot})
+    {
+        LightRecord light{};
+        light.name = intern(pack, "light");
+        light.type = static_cast<uint32_t>(type);
+        light.color = {1, 0.9f, 0.8f};
+        light.intensity = 10;
+        light.outer_cone_rad = 0.5f;
+        light.world_from_light = Affine3{};
+        pack.lights.push_back(light);
+    }
+}
+
+TextureRef texture(uint32_t image)
+{
+    return {image, 0, 0, 2, 0, {1, 0, 0, 0, 1, 0}};
+}
+
+void addMaterials(PackModel& pack)
+{
+    MaterialRecord material{};
+    material.name = intern(pack, "paint");
+    material.flags = kMaterialDoubleSided;
+    material.alpha_mode = static_cast<uint32_t>(AlphaMode::mask);
+    material.base_color = {1, 1, 1, 1};
+    material.alpha_cutoff = 0.5f;
+    material.roughness = 1;
+    material.normal_scale = 1;
+    material.occlusion_strength = 1;
+    material.base_color_texture = texture(0);
+    material.metallic_roughness_texture = texture(kNone);
+    material.normal_texture = texture(kNone);
+    material.occlusion_texture = texture(kNone);
+    material.emissive_texture = texture(1);
+    pack.materials.push_back(material);
+
+    pack.images.push_back({intern(pack, "paint.png"), 4, 2, 3, static_cast<uint32_t>(TexelFormat::rgba8_srgb),
+                           kImageAlphaTested, 0.5f});
+    pack.image_data.emplace_back((8 + 2 + 1) * 4, std::byte{0x7F});
+    pack.images.push_back(
+        {intern(pack, "glow.exr"), 2, 2, 1, static_cast<uint32_t>(TexelFormat::rgba16_float), 0, 0});
+    pack.image_data.emplace_back(4 * 8, std::byte{0x3C});
+}
+
+void addAnimation(PackModel& pack)
+{
+    pack.skins.push_back({intern(pack, "skin"), kNone, {0, 2}, 0});
+    pack.joints.push_back({0, {}, Affine3{}});
+    pack.joints.push_back({2, {}, Affine3{}});
+
+    // times 0 1 2, then three translations, a cubic spline of two rotations, and two steps of one weight
+    pack.keys = {0, 1, 2, 0, 0, 0, 1, 0, 0, 2, 0, 0};
+    const auto first_rotation = static_cast<uint32_t>(pack.keys.size());
+    for (int i = 0; i < 6; ++i)
+        pack.keys.insert(pack.keys.end(), {0, 0, 0, i % 3 == 1 ? 1.0f : 0.0f});
+    const auto first_weight = static_cast<uint32_t>(pack.keys.size());
+    pack.keys.insert(pack.keys.end(), {0, 1});
+    const auto channel = [](AnimationPath path, Interpolation interpolation)
+    {
+        AnimationChannelRecord record{};
+        record.path = static_cast<uint32_t>(path);
+        record.interpolation = static_cast<uint32_t>(interpolation);
+        return record;
+    };
+    AnimationChannelRecord move = channel(AnimationPath::translation, Interpolation::linear);
+    move.node = 1;
+    move.components = 3;
+    move.key_count = 3;
+    move.first_value = 3;
+    AnimationChannelRecord turn = channel(AnimationPath::rotation, Interpolation::cubic_spline);
+    turn.node = 2;
+    turn.components = 4;
+    turn.key_count = 2;
+    turn.first_value = first_rotation;
+    AnimationChannelRecord morph = channel(AnimationPath::weights, Interpolation::step);
+    morph.node = 3;
+    morph.components = 1;
+    morph.key_count = 2;
+    morph.first_value = first_weight;
+    pack.channels = {move, turn, morph};
+    pack.animations.push_back({intern(pack, "move"), {0, 2}, 2, 0});
+    pack.animations.push_back({intern(pack, "morph"), {2, 1}, 1, 0});
+}
+
+} // namespace
+
+void PackModel::sealPages()
+{
+    page_bytes.clear();
+    for (size_t i = 0; i < pages.size(); ++i)
+    {
+        padTo(page_bytes, kChunkAlignment);
+        const ChunkImage image =
+            i == 1 ? plainChunk(0, 0, 1, decoded_pages[i]) : zstdChunk(0, 0, 1, decoded_pages[i]);
+        pages[i].offset = page_bytes.size();
+        pages[i].stored_size = static_cast<uint32_t>(image.stored.size());
+        pages[i].size = static_cast<uint32_t>(decoded_pages[i].size());
+        pages[i].codec = image.entry.codec;
+        pages[i].hash = hashBytes(image.stored);
+        page_bytes.insert(page_bytes.end(), image.stored.begin(), image.stored.end());
+    }
+}
+
+std::vector<ChunkImage> PackModel::chunks(bool compressed) const
+{
+    std::vector<ChunkImage> list;
+    const auto bytes =
+        [&](uint32_t type, uint32_t index, uint32_t element_size, std::span<const std::byte> content)
+    {
+        list.push_back(compressed ? zstdChunk(type, index, element_size, content)
+                                  : plainChunk(type, index, element_size, content));
+    };
+    const auto table = [&]<typename T>(uint32_t type, const std::vector<T>& records)
+    { bytes(type, 0, sizeof(T), std::as_bytes(std::span(records))); };
+    bytes(kChunkMeta, 0, 1, std::as_bytes(std::span(meta)));
+    bytes(kChunkStrings, 0, 1, std::as_bytes(std::span(strings)));
+    table(kChunkNodes, nodes);
+    table(kChunkInstances, instances);
+    table(kChunkCameras, cameras);
+    table(kChunkLights, lights);
+    table(kChunkMaterials, materials);
+    table(kChunkImages, images);
+    table(kChunkSkins, skins);
+    table(kChunkJoints, joints);
+    table(kChunkAnimations, animations);
+    table(kChunkChannels, channels);
+    table(kChunkKeys, keys);
+    table(kChunkMorphWeights, morph_weights);
+    table(kChunkMeshes, meshes);
+    table(kChunkLevels, levels);
+    table(kChunkGroups, groups);
+    table(kChunkClusters, clusters);
+    table(kChunkPageTable, pages);
+    table(kChunkPageParents, page_parents);
+    list.push_back(plainChunk(kChunkPages, 0, 1, page_bytes));
+    for (uint32_t i = 0; i < deformations.size(); ++i)
+        if (!deformations[i].empty())
+            bytes(kChunkDeformation, i, 1, deformations[i]);
+    for (uint32_t i = 0; i < image_data.size(); ++i)
+        bytes(kChunkImageData, i, 1, image_data[i]);
+    return list;
+}
+
+PackModel smallPack()
+{
+    PackModel pack;
+    pack.meta = R"({"schema":"hearth.meta/1"})";
+    addScene(pack);
+    addMaterials(pack);
+    addAnimation(pack);
+    addStrip(pack);
+    beginMesh(pack, "empty", 0);
+    endMesh(pack, 0);
+    addTriangle(pack);
+    pack.deformations = {{}, {}, deformation()};
+    pack.sealPages();
+    return pack;
+}
+
+} // namespace hearth::test
