@@ -52,13 +52,13 @@ std::vector<uint32_t> islandOfTriangles(std::span<const uint32_t> positions, siz
     return island;
 }
 
-void gatherSmallIslands(std::span<Float3> centers, std::span<const uint32_t> positions, size_t position_count)
+void gatherSmallIslands(std::span<Float3> centers, std::span<const uint32_t> vertices, size_t vertex_count)
 {
-    const std::vector<uint32_t> island = islandOfTriangles(positions, position_count);
-    std::vector<uint32_t> size(position_count, 0);
+    const std::vector<uint32_t> island = islandOfTriangles(vertices, vertex_count);
+    std::vector<uint32_t> size(vertex_count, 0);
     for (const uint32_t i : island)
         ++size[i];
-    std::vector<Float3> island_center(position_count);
+    std::vector<Float3> island_center(vertex_count);
     for (size_t t = 0; t < centers.size(); ++t)
         if (size[island[t]] <= kSmallIsland)
             island_center[island[t]] += centers[t] / static_cast<float>(size[island[t]]);

@@ -24,17 +24,17 @@ private:
     std::vector<uint32_t> parent_;
 };
 
-/// The representative position of each triangle's island.
-/// positions  three for each triangle, all below position_count
-std::vector<uint32_t> islandOfTriangles(std::span<const uint32_t> positions, size_t position_count);
+/// The least position (or vertex: whatever the corners are) of each triangle's island.
+/// corners  three for each triangle, all below corner_limit
+std::vector<uint32_t> islandOfTriangles(std::span<const uint32_t> corners, size_t corner_limit);
 
 /// Where the splitter takes triangles to be: at their own centers; but triangles of an island of at most 32 triangles
-/// all move to the island's center, so that a leaf or a pebble is not torn apart between clusters.
+/// all move to the island's center, so that a leaf, a pebble or a small chart is not torn apart between clusters.
+/// Islands are by vertex here: what shares no vertex costs nothing to separate.
 ///
-/// centers    of the triangles, changed in place
-/// positions  three for each triangle, all below position_count
-void gatherSmallIslands(std::span<Float3> centers, std::span<const uint32_t> positions,
-                        size_t position_count);
+/// centers   of the triangles, changed in place
+/// vertices  three for each triangle, all below vertex_count
+void gatherSmallIslands(std::span<Float3> centers, std::span<const uint32_t> vertices, size_t vertex_count);
 
 /// The center of a triangle, without overflow for any finite corners.
 inline Float3 triangleCenter(Float3 a, Float3 b, Float3 c)

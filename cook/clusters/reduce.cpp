@@ -43,7 +43,7 @@ ClusterStore splitSimplified(const GroupMesh& group, const Simplified& simplifie
     for (size_t t = 0; t < count; ++t)
         centers[t] = triangleCenter(group.positions[positions[t * 3]], group.positions[positions[t * 3 + 1]],
                                     group.positions[positions[t * 3 + 2]]);
-    gatherSmallIslands(centers, positions, group.positions.size());
+    gatherSmallIslands(centers, simplified.corners, group.vertex_of_wedge.size());
     std::vector<SplitItem> items;
     items.reserve(count);
     for (uint32_t t = 0; t < count; ++t)

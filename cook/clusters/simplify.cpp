@@ -22,6 +22,9 @@ constexpr uint32_t kNoPosition = 0xFFFFFFFFu;
 // A collapse may turn a triangle by up to 75 degrees.
 constexpr float kMinTurnCosine = 0.25f;
 
+// Height of a triangle against its longest side below which its area is mostly rounding.
+constexpr float kNeedle = 1e-4f;
+
 // Where the surface is flat all collapses cost nothing: then short edges of small areas go first.
 constexpr float kLengthWeight = 1e-6f;
 
@@ -472,9 +475,13 @@ bool Collapser::turnsOver(uint32_t from, uint32_t to) const
         const Float3 b = group_.positions[positionAt(previousCorner(corner))];
         const Float3 old_normal = cross(a - old_place, b - old_place);
         const Float3 new_normal = cross(a - new_place, b - new_place);
+        const float old_area2 = dot(old_normal, old_normal);
         const float new_area2 = dot(new_normal, new_normal);
-        if (!(new_area2 > 0) ||
-            dot(old_normal, new_normal) < kMinTurnCosine * std::sqrt(dot(old_normal, old_normal) * new_area2))
+        const float longest2 = std::max(
+            {dot(a - new_place, a - new_place), dot(b - new_place, b - new_place), dot(a - b, a - b)});
+        const bool needle = !(new_area2 > kNeedle * kNeedle * longest2 * longest2);
+        if (!(new_area2 > 0) || (needle && new_area2 < old_area2) ||
+            dot(old_normal, new_normal) < kMinTurnCosine * std::sqrt(old_area2 * new_area2))
             return true;
     }
     return false;

@@ -316,16 +316,13 @@ std::vector<std::span<SplitItem>> splitTop(std::span<SplitItem> items)
 std::vector<Float3> centersOf(const PreparedMesh& mesh)
 {
     std::vector<Float3> centers(mesh.triangleCount());
-    std::vector<uint32_t> positions(mesh.corners.size());
     for (size_t t = 0; t < centers.size(); ++t)
     {
         const uint32_t* corner = &mesh.corners[t * 3];
         const auto place = [&](size_t k) { return mesh.source->positions[corner[k]]; };
         centers[t] = triangleCenter(place(0), place(1), place(2));
-        for (size_t k = 0; k < 3; ++k)
-            positions[t * 3 + k] = mesh.position_of_vertex[corner[k]];
     }
-    gatherSmallIslands(centers, positions, mesh.position_count);
+    gatherSmallIslands(centers, mesh.corners, mesh.source->vertexCount());
     return centers;
 }
 
