@@ -107,8 +107,7 @@ Weld weldPositions(std::span<const Float3> positions)
     {
         const Float3 p = positions[vertex] + Float3{}; // -0 + 0 = +0
         const uint64_t xy = std::bit_cast<uint32_t>(p.x) | uint64_t{std::bit_cast<uint32_t>(p.y)} << 32;
-        const uint32_t first =
-            set.findOrInsert(vertex, mix(mix(xy) + std::bit_cast<uint32_t>(p.z)), equal);
+        const uint32_t first = set.findOrInsert(vertex, mix(mix(xy) + std::bit_cast<uint32_t>(p.z)), equal);
         weld.position_of_vertex[vertex] =
             first == vertex ? weld.position_count++ : weld.position_of_vertex[first];
     }

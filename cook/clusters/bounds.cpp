@@ -1,0 +1,296 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/clusters/bounds.h"
+
+#include "formats/assert.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace hearth::clusters
+{
+
+namespace
+{
+
+// More steps shrink the sphere by less than 1 % of its radius.
+constexpr int kSphereSteps = 12;
+
+// The rasteriser snaps corners to 1/256 pixel, which can turn slivers that are seen edge-on (RUNTIME 2.4).
+constexpr double kConeMargin = 1e-3;
+
+// Wider cones than about 84 degrees cull next to nothing.
+constexpr double kMinConeCosine = 0.1;
+
+struct Double3
+{
+    double x = 0, y = 0, z = 0;
+};
+Double3 widen(Float3 a)
+{
+    return {a.x, a.y, a.z};
+}
+Double3 operator+(Double3 a, Double3 b)
+{
+    return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+Double3 operator-(Double3 a, Double3 b)
+{
+    return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+Double3 operator*(Double3 a, double s)
+{
+    return {a.x * s, a.y * s, a.z * s};
+}
+double dot(Double3 a, Double3 b)
+{
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+double length(Double3 a)
+{
+    return std::sqrt(dot(a, a));
+}
+Double3 cross(Double3 a, Double3 b)
+{
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+Float3 narrow(Double3 a)
+{
+    return {static_cast<float>(a.x), static_cast<float>(a.y), static_cast<float>(a.z)};
+}
+
+struct WideSphere
+{
+    Double3 center;
+    double radius = 0;
+};
+
+/// Grow the sphere just enough for a point.
+void growTo(WideSphere& sphere, Double3 point)
+{
+    const Double3 away = point - sphere.center;
+    const double distance = length(away);
+    if (distance <= sphere.radius)
+        return;
+    const double radius = (sphere.radius + distance) * 0.5;
+    sphere.center = sphere.center + away * ((radius - sphere.radius) / distance);
+    sphere.radius = radius;
+}
+
+WideSphere ritterSphere(std::span<const Float3> points)
+{
+    size_t low[3] = {};
+    size_t high[3] = {};
+    for (size_t i = 0; i < points.size(); ++i)
+        for (int axis = 0; axis < 3; ++axis)
+        {
+            if (points[i][axis] < points[low[axis]][axis])
+                low[axis] = i;
+            if (points[i][axis] > points[high[axis]][axis])
+                high[axis] = i;
+        }
+    WideSphere sphere;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+        const Double3 a = widen(points[low[axis]]);
+        const Double3 b = widen(points[high[axis]]);
+        if (const double radius = length(b - a) * 0.5; radius >= sphere.radius)
+            sphere = {(a + b) * 0.5, radius};
+    }
+    for (const Float3 p : points)
+        growTo(sphere, widen(p));
+    return sphere;
+}
+
+struct Farthest
+{
+    size_t point = 0;
+    double distance = 0;
+};
+
+Farthest farthestFrom(Double3 center, std::span<const Float3> points)
+{
+    Farthest farthest;
+    for (size_t i = 0; i < points.size(); ++i)
+        if (const Double3 away = widen(points[i]) - center; dot(away, away) > farthest.distance)
+            farthest = {i, dot(away, away)};
+    farthest.distance = std::sqrt(farthest.distance);
+    return farthest;
+}
+
+/// The center as it will be stored, and the radius that it then needs.
+Sphere storedSphere(Double3 center, std::span<const Float3> points)
+{
+    const Float3 stored = narrow(center);
+    return {stored, roundUp(farthestFrom(widen(stored), points).distance)};
+}
+
+double radiusAround(Float3 center, std::span<const Sphere> spheres)
+{
+    double radius = 0;
+    for (const Sphere& sphere : spheres)
+        radius = std::max(radius, length(widen(sphere.center) - widen(center)) + sphere.radius);
+    return radius;
+}
+
+struct Plane
+{
+    Double3 normal; ///< unit
+    Double3 point;
+};
+
+/// Planes of the triangles that have a normal in double arithmetic.
+std::vector<Plane> planesOf(std::span<const Float3> places)
+{
+    std::vector<Plane> planes;
+    planes.reserve(places.size() / 3);
+    for (size_t i = 0; i + 2 < places.size(); i += 3)
+    {
+        const Double3 a = widen(places[i]);
+        const Double3 normal = cross(widen(places[i + 1]) - a, widen(places[i + 2]) - a);
+        if (const double area = length(normal); area > 0)
+            planes.push_back({normal * (1 / area), a});
+    }
+    return planes;
+}
+
+/// Least cosine between the axis and the normals.
+double leastCosine(Double3 axis, std::span<const Plane> planes)
+{
+    double least = 1;
+    for (const Plane& plane : planes)
+        least = std::min(least, dot(axis, plane.normal));
+    return least;
+}
+
+/// An axis near the one with the narrowest cone: the mean normal, then steps towards the farthest normal.
+Double3 coneAxis(std::span<const Plane> planes)
+{
+    Double3 axis;
+    for (const Plane& plane : planes)
+        axis = axis + plane.normal;
+    const double sum = length(axis);
+    if (!(sum > 1e-6))
+        return {};
+    axis = axis * (1 / sum);
+    Double3 best = axis;
+    double best_cosine = leastCosine(axis, planes);
+    for (int step = 1; step <= 6; ++step)
+    {
+        const auto farthest = std::min_element(planes.begin(), planes.end(),
+                                               [&](const Plane& a, const Plane& b)
+                                               { return dot(axis, a.normal) < dot(axis, b.normal); });
+        axis = axis + (farthest->normal - axis) * (0.5 / (step + 1));
+        axis = axis * (1 / length(axis));
+        if (const double cosine = leastCosine(axis, planes); cosine > best_cosine)
+        {
+            best = axis;
+            best_cosine = cosine;
+        }
+    }
+    return best;
+}
+
+} // namespace
+
+float roundUp(double value)
+{
+    constexpr float kLargest = std::numeric_limits<float>::max();
+    if (!(value < kLargest))
+        return kLargest;
+    const auto rounded = static_cast<float>(value);
+    return rounded >= value ? rounded : std::nextafter(rounded, kLargest);
+}
+
+Sphere sphereOfPoints(std::span<const Float3> points)
+{
+    HEARTH_ASSERT(!points.empty());
+    const WideSphere start = ritterSphere(points);
+    Double3 best = start.center;
+    double best_radius = start.radius;
+    Double3 center = start.center;
+    for (int step = 1; step <= kSphereSteps; ++step)
+    {
+        const Farthest farthest = farthestFrom(center, points);
+        if (farthest.distance < best_radius)
+        {
+            best = center;
+            best_radius = farthest.distance;
+        }
+        center = center + (widen(points[farthest.point]) - center) * (0.3 / (step + 1));
+    }
+    return storedSphere(best, points);
+}
+
+Sphere sphereOfSpheres(std::span<const Sphere> spheres, const Sphere& start)
+{
+    HEARTH_ASSERT(!spheres.empty());
+    Double3 middle;
+    for (const Sphere& sphere : spheres)
+        middle = middle + widen(sphere.center) * (1.0 / static_cast<double>(spheres.size()));
+    const double radius_of_start = radiusAround(start.center, spheres);
+    // steps towards the sphere that reaches farthest
+    Double3 best = widen(start.center);
+    double best_radius = radius_of_start;
+    for (int step = 1; step <= kSphereSteps; ++step)
+    {
+        const Sphere* farthest = &spheres.front();
+        double reach = 0;
+        for (const Sphere& sphere : spheres)
+            if (const double r = length(widen(sphere.center) - middle) + sphere.radius; r > reach)
+            {
+                reach = r;
+                farthest = &sphere;
+            }
+        if (reach < best_radius)
+        {
+            best = middle;
+            best_radius = reach;
+        }
+        middle = middle + (widen(farthest->center) - middle) * (0.5 / (step + 1));
+    }
+    const Float3 stored = narrow(best);
+    return {stored, roundUp(radiusAround(stored, spheres))};
+}
+
+NormalCone coneOfTriangles(std::span<const Float3> places)
+{
+    NormalCone cone;
+    cone.axis = {0, 0, 1};
+    cone.apex = places.empty() ? Float3{} : places.front();
+    const std::vector<Plane> planes = planesOf(places);
+    // a triangle too thin for a normal in double could face anywhere
+    if (planes.empty() || planes.size() * 3 != places.size())
+        return cone;
+    const Double3 wide_axis = coneAxis(planes);
+    if (!(length(wide_axis) > 0))
+        return cone;
+    cone.axis = narrow(wide_axis);
+    const Double3 axis = widen(cone.axis) * (1 / length(widen(cone.axis)));
+    const double cosine = leastCosine(axis, planes);
+    if (cosine <= kMinConeCosine)
+        return cone;
+
+    // from the middle of the triangles back along the axis until no plane has the apex in front
+    Double3 middle;
+    for (const Plane& plane : planes)
+        middle = middle + plane.point * (1.0 / static_cast<double>(planes.size()));
+    double reach = 0;
+    double back = 0;
+    for (const Plane& plane : planes)
+    {
+        reach = std::max(reach, length(plane.point - middle));
+        back = std::max(back, dot(middle - plane.point, plane.normal) / dot(axis, plane.normal));
+    }
+    // room for rounding the apex to floats, and the runtime's arithmetic with it
+    const double magnitude = length(middle) + reach + back;
+    back += 1e-5 * (reach + back) + magnitude * 4e-7 / cosine;
+    cone.apex = narrow(middle - axis * back);
+    const double sine = std::sqrt(std::max(0.0, 1 - cosine * cosine)) + kConeMargin;
+    if (sine < 1 && isFinite(cone.apex))
+        cone.cutoff = roundUp(sine);
+    return cone;
+}
+
+} // namespace hearth::clusters

@@ -1,0 +1,65 @@
+// What the builder's stages hand to each other: the cleaned mesh and clusters that are not records yet.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "cook/mesh/source_mesh.h"
+#include "formats/mesh.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace hearth::clusters
+{
+
+/// The triangles that are kept. A vertex is an index into the source's arrays (the first of equal ones); a position
+/// stands for all vertices at one place.
+struct PreparedMesh
+{
+    const mesh::SourceMesh* source = nullptr;
+    uint32_t attributes = 0;
+    uint32_t degenerate_count = 0;
+    uint32_t position_count = 0;
+    std::vector<uint32_t> corners;            ///< three vertices for each triangle
+    std::vector<uint32_t> materials;          ///< for each triangle
+    std::vector<uint32_t> position_of_vertex; ///< for each vertex of the source
+
+    size_t triangleCount() const { return corners.size() / 3; }
+};
+
+/// A cluster's triangles: three u8 indices into its own list of vertices.
+struct ClusterShape
+{
+    uint32_t first_vertex = 0; ///< in ClusterStore::vertices
+    uint32_t vertex_count = 0;
+    uint32_t first_index = 0; ///< in ClusterStore::indices
+    uint32_t triangle_count = 0;
+    uint32_t material = 0;
+};
+
+struct ClusterStore
+{
+    std::vector<ClusterShape> shapes;
+    std::vector<uint32_t> vertices; ///< vertices of the source
+    std::vector<uint8_t> indices;
+
+    std::span<const uint32_t> verticesOf(const ClusterShape& shape) const
+    {
+        return std::span(vertices).subspan(shape.first_vertex, shape.vertex_count);
+    }
+    std::span<const uint8_t> indicesOf(const ClusterShape& shape) const
+    {
+        return std::span(indices).subspan(shape.first_index, size_t{shape.triangle_count} * 3);
+    }
+
+    /// Append all clusters of `other`, in their order.
+    void append(const ClusterStore& other);
+
+    /// Append a copy of one cluster of `other`.
+    void appendCluster(const ClusterStore& other, const ClusterShape& shape);
+};
+
+/// Weld, drop triangles without area, merge equal vertices.
+PreparedMesh prepareMesh(const mesh::SourceMesh& source);
+
+} // namespace hearth::clusters

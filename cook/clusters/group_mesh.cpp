@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/clusters/group_mesh.h"
+
+#include <bit>
+#include <cmath>
+
+namespace hearth::clusters
+{
+
+namespace
+{
+
+/// Numbers keys 0, 1, ... in order of first use.
+class KeyNumbers
+{
+public:
+    explicit KeyNumbers(size_t most) : slots_(std::bit_ceil(most * 2 + 1)), mask_(slots_.size() - 1) {}
+
+    /// The key's number; equal to `next` when the key is new.
+    uint32_t numberOf(uint64_t key, uint32_t next)
+    {
+        size_t slot = ((key * 0x9E3779B97F4A7C15u) >> 32) & mask_;
+        while (slots_[slot].number_plus_one != 0)
+        {
+            if (slots_[slot].key == key)
+                return slots_[slot].number_plus_one - 1;
+            slot = (slot + 1) & mask_;
+        }
+        slots_[slot] = {key, next + 1};
+        return next;
+    }
+
+private:
+    struct Slot
+    {
+        uint64_t key = 0;
+        uint32_t number_plus_one = 0;
+    };
+    std::vector<Slot> slots_;
+    size_t mask_;
+};
+
+void gatherTriangles(GroupMesh& group, const PreparedMesh& mesh, const ClusterStore& store,
+                     std::span<const uint32_t> members, std::span<const uint8_t> locked)
+{
+    size_t vertex_count = 0;
+    size_t triangle_count = 0;
+    for (const uint32_t member : members)
+    {
+        vertex_count += store.shapes[member].vertex_count;
+        triangle_count += store.shapes[member].triangle_count;
+    }
+    group.corners.reserve(triangle_count * 3);
+    group.materials.reserve(triangle_count);
+    KeyNumbers wedges(vertex_count);
+    KeyNumbers positions(vertex_count);
+    std::vector<uint32_t> wedge_of_local;
+    for (const uint32_t member : members)
+    {
+        const ClusterShape& shape = store.shapes[member];
+        wedge_of_local.clear();
+        for (const uint32_t vertex : store.verticesOf(shape))
+        {
+            const auto next_wedge = static_cast<uint32_t>(group.vertex_of_wedge.size());
+            const uint32_t wedge = wedges.numberOf(uint64_t{shape.material} << 32 | vertex, next_wedge);
+            wedge_of_local.push_back(wedge);
+            if (wedge != next_wedge)
+                continue;
+            const uint32_t global = mesh.position_of_vertex[vertex];
+            const auto next_position = static_cast<uint32_t>(group.global_position.size());
+            const uint32_t position = positions.numberOf(global, next_position);
+            group.vertex_of_wedge.push_back(vertex);
+            group.position_of_wedge.push_back(position);
+            if (position != next_position)
+                continue;
+            group.global_position.push_back(global);
+            group.locked.push_back(locked[global]);
+        }
+        for (const uint8_t index : store.indicesOf(shape))
+            group.corners.push_back(wedge_of_local[index]);
+        group.materials.insert(group.materials.end(), shape.triangle_count, shape.material);
+    }
+}
+
+void placePositions(GroupMesh& group, std::span<const Float3> source_positions)
+{
+    Box3 box;
+    for (const uint32_t vertex : group.vertex_of_wedge)
+        box.add(source_positions[vertex]);
+    group.scale = 0;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+        group.center[axis] = (double{box.min[axis]} + box.max[axis]) * 0.5;
+        group.scale = std::max(group.scale, (double{box.max[axis]} - box.min[axis]) * 0.5);
+    }
+    group.positions.resize(group.global_position.size());
+    for (size_t w = 0; w < group.vertex_of_wedge.size(); ++w)
+    {
+        const Float3 p = source_positions[group.vertex_of_wedge[w]];
+        Float3& local = group.positions[group.position_of_wedge[w]];
+        for (int axis = 0; axis < 3; ++axis)
+            local[axis] = static_cast<float>((p[axis] - group.center[axis]) / group.scale);
+    }
+}
+
+/// Local length of one unit of UV: square root of the ratio of the areas on the surface and in the texture.
+float uvScale(const GroupMesh& group, std::span<const Float2> uvs)
+{
+    double surface = 0;
+    double texture = 0;
+    for (size_t t = 0; t < group.corners.size(); t += 3)
+    {
+        const Float3 a = group.positions[group.positionAt(t)];
+        const Float3 b = group.positions[group.positionAt(t + 1)];
+        const Float3 c = group.positions[group.positionAt(t + 2)];
+        surface += length(cross(b - a, c - a));
+        const Float2 ua = uvs[group.vertex_of_wedge[group.corners[t]]];
+        const Float2 ub = uvs[group.vertex_of_wedge[group.corners[t + 1]]];
+        const Float2 uc = uvs[group.vertex_of_wedge[group.corners[t + 2]]];
+        texture += std::abs((double{ub.x} - ua.x) * (double{uc.y} - ua.y) -
+                            (double{ub.y} - ua.y) * (double{uc.x} - ua.x));
+    }
+    const double scale = texture > 0 ? std::sqrt(surface / texture) : 0.0;
+    // UVs so large or small that their differences are no longer useful numbers do not steer the simplification
+    return std::isfinite(scale) && scale < 1e6 && scale > 1e-6 ? static_cast<float>(scale) : 0.0f;
+}
+
+void gatherAttributes(GroupMesh& group, const mesh::SourceMesh& source, const Config& config)
+{
+    const bool has_normal = !source.normals.empty() && config.normal_weight > 0;
+    const bool has_color = !source.colors.empty() && config.color_weight > 0;
+    const float uv_scale = source.uvs[0].empty() || config.uv_weight <= 0
+                               ? 0.0f
+                               : config.uv_weight * uvScale(group, source.uvs[0]);
+    group.attribute_count = (has_normal ? 3u : 0u) + (uv_scale > 0 ? 2u : 0u) + (has_color ? 4u : 0u);
+    group.attributes.reserve(group.attribute_count * group.vertex_of_wedge.size());
+    for (const uint32_t vertex : group.vertex_of_wedge)
+    {
+        const auto add = [&](float value) { group.attributes.push_back(value); };
+        if (has_normal)
+        {
+            const Float3 n = source.normals[vertex] * config.normal_weight;
+            add(n.x), add(n.y), add(n.z);
+        }
+        if (uv_scale > 0)
+        {
+            const Float2 uv = source.uvs[0][vertex] * uv_scale;
+            add(uv.x), add(uv.y);
+        }
+        if (has_color)
+        {
+            const Float4 c = source.colors[vertex];
+            const float weight = config.color_weight;
+            add(c.x * weight), add(c.y * weight), add(c.z * weight), add(c.w * weight);
+        }
+    }
+}
+
+} // namespace
+
+GroupMesh gatherGroup(const PreparedMesh& mesh, const ClusterStore& store, std::span<const uint32_t> members,
+                      std::span<const uint8_t> locked, const Config& config)
+{
+    GroupMesh group;
+    gatherTriangles(group, mesh, store, members, locked);
+    placePositions(group, mesh.source->positions);
+    gatherAttributes(group, *mesh.source, config);
+    return group;
+}
+
+} // namespace hearth::clusters

@@ -1,0 +1,42 @@
+// The triangles of one group as a small mesh of its own, near the origin and about one unit in size.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "cook/clusters/cluster.h"
+#include "cook/clusters/hierarchy.h"
+#include "formats/math.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace hearth::clusters
+{
+
+inline constexpr uint32_t kMaxSimplifyAttributes = 9; ///< normal 3, one UV set 2, colour 4
+
+/// A wedge is a vertex together with a material: where wedges of one position differ, attributes or material jump.
+struct GroupMesh
+{
+    double center[3] = {}; ///< local = (object - center) / scale
+    double scale = 1;
+    std::vector<Float3> positions;           ///< local, for each position
+    std::vector<uint8_t> locked;             ///< for each position
+    std::vector<uint32_t> global_position;   ///< for each position, that of the prepared mesh
+    std::vector<uint32_t> vertex_of_wedge;   ///< vertex of the source
+    std::vector<uint32_t> position_of_wedge; ///< position of this mesh
+    std::vector<uint32_t> corners;           ///< three wedges for each triangle
+    std::vector<uint32_t> materials;         ///< for each triangle
+    uint32_t attribute_count = 0;
+    std::vector<float>
+        attributes; ///< attribute_count for each wedge, weighted: differences are local lengths
+
+    size_t triangleCount() const { return corners.size() / 3; }
+    uint32_t positionAt(size_t corner) const { return position_of_wedge[corners[corner]]; }
+};
+
+/// Collect the clusters of a group.
+GroupMesh gatherGroup(const PreparedMesh& mesh, const ClusterStore& store, std::span<const uint32_t> members,
+                      std::span<const uint8_t> locked, const Config& config);
+
+} // namespace hearth::clusters

@@ -1,0 +1,69 @@
+// The cluster hierarchy of one mesh, as plain data, and the function that builds it. See README.md in this folder.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "cook/mesh/source_mesh.h"
+#include "formats/mesh.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace hearth::clusters
+{
+
+struct Config
+{
+    /// Clusters of a group: merging stops at the target and never passes the maximum. Bigger groups lock fewer
+    /// vertices; past 24 the gain is under 3 % and streaming gets coarser (PEERS section 7).
+    uint32_t group_target_clusters = 16;
+    uint32_t group_max_clusters = 24;
+
+    /// Triangles that a group keeps, as part of what it has.
+    float simplify_ratio = 0.5f;
+
+    /// A group that keeps more than this part of its triangles is stuck: halving it again would cost more memory
+    /// than it saves drawing.
+    float stuck_ratio = 0.85f;
+
+    /// How often a stuck group passes unchanged to the next level, to be tried with other neighbours, before it
+    /// stays as a root. Each time costs a copy of its geometry.
+    uint32_t max_retries = 2;
+
+    /// Weight of attribute errors against position errors, as lengths in units of the group's radius.
+    float normal_weight = 0.25f;
+    float uv_weight = 0.25f;
+    float color_weight = 0.25f;
+};
+
+/// What happened, for the report.
+struct BuildCounts
+{
+    uint64_t permissive_groups = 0; ///< groups that had to let attributes jump across seams
+    uint64_t pruned_groups = 0;     ///< groups that lost whole islands
+    uint64_t retried_groups = 0;    ///< groups that passed unchanged to the next level
+    uint64_t stuck_groups = 0;      ///< roots besides the one that ends the hierarchy
+    uint64_t loose_pieces = 0; ///< pieces of triangles whose distance was bounded without closing the search
+};
+
+/// One mesh as formats/mesh.h describes it, with indices that start at 0: clusters, groups and pages are ordered
+/// coarse to fine, levels fine to coarse. In `mesh`, the name is left to the caller.
+struct Hierarchy
+{
+    formats::MeshRecord mesh{};
+    std::vector<formats::LevelRecord> levels;
+    std::vector<formats::GroupRecord> groups;
+    std::vector<formats::ClusterRecord> clusters;
+    std::vector<formats::PageRecord> pages;
+    std::vector<uint32_t> page_parents;
+    std::vector<std::byte> page_bytes; ///< the stored pages, each at a multiple of 64
+    BuildCounts counts;
+};
+
+/// Build the hierarchy of a mesh. Deterministic: the same bytes whatever the number of threads.
+/// Time O(n log n); memory about 200 bytes for each source triangle.
+///
+/// source   finite, indices in range (the contract of SourceMesh); any topology, any number of triangles
+/// returns  a hierarchy that validateHierarchy accepts; without clusters if no triangle has an area
+Hierarchy buildHierarchy(const mesh::SourceMesh& source, const Config& config = {});
+
+} // namespace hearth::clusters

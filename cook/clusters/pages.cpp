@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/clusters/pages.h"
+
+#include "formats/assert.h"
+#include "formats/vertex_codec.h"
+
+#include <zstd.h>
+
+#include <algorithm>
+#include <cstring>
+
+#include <tbb/parallel_for.h>
+
+namespace hearth::clusters
+{
+
+namespace
+{
+
+using namespace formats;
+
+// Float positions hardly compress: higher levels cost seconds on a large mesh and gain 1 % (measured in README.md).
+constexpr int kZstdLevel = 1;
+
+/// Give each group its page, and each cluster its place in the page.
+void assignPages(uint32_t attributes, Hierarchy& hierarchy)
+{
+    uint32_t used = kPageMaxBytes;
+    for (GroupRecord& group : hierarchy.groups)
+    {
+        const auto clusters =
+            std::span(hierarchy.clusters).subspan(group.clusters.first, group.clusters.count);
+        uint32_t bytes = 0;
+        for (const ClusterRecord& cluster : clusters)
+            bytes += clusterBytes(attributes, cluster.vertex_count, cluster.triangle_count);
+        HEARTH_ASSERT(bytes <= kPageMaxBytes);
+        if (used + bytes > kPageMaxBytes)
+        {
+            PageRecord page{};
+            page.clusters.first = group.clusters.first;
+            hierarchy.pages.push_back(page);
+            used = 0;
+        }
+        group.page = static_cast<uint32_t>(hierarchy.pages.size() - 1);
+        PageRecord& page = hierarchy.pages.back();
+        page.clusters.count += group.clusters.count;
+        for (ClusterRecord& cluster : clusters)
+        {
+            cluster.page = group.page;
+            cluster.page_offset = used;
+            used += clusterBytes(attributes, cluster.vertex_count, cluster.triangle_count);
+        }
+        page.size = used;
+    }
+}
+
+class WordWriter
+{
+public:
+    explicit WordWriter(std::byte* at) : at_(at) {}
+    void word(uint32_t value)
+    {
+        std::memcpy(at_, &value, sizeof(value));
+        at_ += sizeof(value);
+    }
+    void number(float value) { word(std::bit_cast<uint32_t>(value)); }
+    std::byte* at() const { return at_; }
+
+private:
+    std::byte* at_;
+};
+
+void writeVertex(WordWriter& out, const mesh::SourceMesh& source, uint32_t vertex)
+{
+    const Float3 position = source.positions[vertex];
+    out.number(position.x);
+    out.number(position.y);
+    out.number(position.z);
+    if (!source.normals.empty())
+        out.word(encodeNormal(source.normals[vertex]));
+    if (!source.tangents.empty())
+        out.word(encodeTangent(source.tangents[vertex]));
+    for (const auto& uvs : source.uvs)
+        if (!uvs.empty())
+        {
+            out.number(uvs[vertex].x);
+            out.number(uvs[vertex].y);
+        }
+    if (!source.colors.empty())
+    {
+        const ColorWords words = encodeColor(source.colors[vertex]);
+        out.word(words.word[0]);
+        out.word(words.word[1]);
+    }
+}
+
+std::vector<std::byte> pageContent(const PreparedMesh& mesh, const ClusterStore& store,
+                                   std::span<const ClusterShape> shapes, const Hierarchy& hierarchy,
+                                   const PageRecord& page)
+{
+    std::vector<std::byte> bytes(page.size);
+    for (uint32_t c = page.clusters.first; c < page.clusters.first + page.clusters.count; ++c)
+    {
+        WordWriter out(bytes.data() + hierarchy.clusters[c].page_offset);
+        for (const uint32_t vertex : store.verticesOf(shapes[c]))
+            writeVertex(out, *mesh.source, vertex);
+        const auto indices = store.indicesOf(shapes[c]);
+        std::memcpy(out.at(), indices.data(), indices.size());
+    }
+    return bytes;
+}
+
+/// Compress the page if that gains more than 5 %; returns the bytes to store.
+std::vector<std::byte> compressPage(std::vector<std::byte> content, PageRecord& page)
+{
+    std::vector<std::byte> packed(ZSTD_compressBound(content.size()));
+    const size_t size =
+        ZSTD_compress(packed.data(), packed.size(), content.data(), content.size(), kZstdLevel);
+    HEARTH_ASSERT(!ZSTD_isError(size));
+    const bool gains = size * 20 < content.size() * 19;
+    page.codec = static_cast<uint32_t>(gains ? Codec::zstd : Codec::none);
+    if (!gains)
+        return content;
+    packed.resize(size);
+    return packed;
+}
+
+/// The pages that must be there before each page: those of the clusters that were made from its groups.
+void linkPages(Hierarchy& hierarchy)
+{
+    std::vector<std::vector<uint32_t>> parents(hierarchy.pages.size());
+    for (const ClusterRecord& cluster : hierarchy.clusters)
+    {
+        if (cluster.refined_group == kNone)
+            continue;
+        const uint32_t finer = hierarchy.groups[cluster.refined_group].page;
+        // clusters stand in page order: each list comes out ascending
+        if (finer != cluster.page && (parents[finer].empty() || parents[finer].back() != cluster.page))
+            parents[finer].push_back(cluster.page);
+    }
+    for (size_t i = 0; i < parents.size(); ++i)
+    {
+        hierarchy.pages[i].parents = {static_cast<uint32_t>(hierarchy.page_parents.size()),
+                                      static_cast<uint32_t>(parents[i].size())};
+        hierarchy.page_parents.insert(hierarchy.page_parents.end(), parents[i].begin(), parents[i].end());
+    }
+}
+
+} // namespace
+
+void buildPages(const PreparedMesh& mesh, const ClusterStore& store, std::span<const ClusterShape> shapes,
+                Hierarchy& hierarchy)
+{
+    assignPages(mesh.attributes, hierarchy);
+    std::vector<std::vector<std::byte>> stored(hierarchy.pages.size());
+    tbb::parallel_for(size_t{0}, stored.size(),
+                      [&](size_t i)
+                      {
+                          PageRecord& page = hierarchy.pages[i];
+                          stored[i] = compressPage(pageContent(mesh, store, shapes, hierarchy, page), page);
+                          page.stored_size = static_cast<uint32_t>(stored[i].size());
+                          page.hash = hashBytes(stored[i]);
+                      });
+    uint64_t end = 0;
+    for (size_t i = 0; i < stored.size(); ++i)
+    {
+        hierarchy.pages[i].offset = (end + kChunkAlignment - 1) / kChunkAlignment * kChunkAlignment;
+        end = hierarchy.pages[i].offset + stored[i].size();
+    }
+    hierarchy.page_bytes.resize((end + kChunkAlignment - 1) / kChunkAlignment * kChunkAlignment);
+    for (size_t i = 0; i < stored.size(); ++i)
+        std::memcpy(hierarchy.page_bytes.data() + hierarchy.pages[i].offset, stored[i].data(),
+                    stored[i].size());
+    linkPages(hierarchy);
+}
+
+} // namespace hearth::clusters

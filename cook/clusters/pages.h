@@ -1,0 +1,21 @@
+// Lays clusters out in pages: whole groups, coarse to fine. See README.md, "Pages".
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "cook/clusters/cluster.h"
+#include "cook/clusters/hierarchy.h"
+
+#include <span>
+
+namespace hearth::clusters
+{
+
+/// Put the groups, in their order, into pages, each page filled before the next is begun; write the vertex and index
+/// data, compress each page where it gains more than 5 %, and link each page to those that it refines.
+///
+/// hierarchy  groups and clusters are final but for page and page_offset, which are filled here with the page tables
+/// shapes     the geometry of each of hierarchy's clusters, in `store`
+void buildPages(const PreparedMesh& mesh, const ClusterStore& store, std::span<const ClusterShape> shapes,
+                Hierarchy& hierarchy);
+
+} // namespace hearth::clusters

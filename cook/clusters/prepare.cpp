@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/clusters/cluster.h"
+#include "cook/mesh/triangles.h"
+#include "cook/mesh/weld.h"
+
+namespace hearth::clusters
+{
+
+void ClusterStore::append(const ClusterStore& other)
+{
+    const auto vertex_offset = static_cast<uint32_t>(vertices.size());
+    const auto index_offset = static_cast<uint32_t>(indices.size());
+    for (ClusterShape shape : other.shapes)
+    {
+        shape.first_vertex += vertex_offset;
+        shape.first_index += index_offset;
+        shapes.push_back(shape);
+    }
+    vertices.insert(vertices.end(), other.vertices.begin(), other.vertices.end());
+    indices.insert(indices.end(), other.indices.begin(), other.indices.end());
+}
+
+void ClusterStore::appendCluster(const ClusterStore& other, const ClusterShape& shape)
+{
+    ClusterShape copy = shape;
+    copy.first_vertex = static_cast<uint32_t>(vertices.size());
+    copy.first_index = static_cast<uint32_t>(indices.size());
+    shapes.push_back(copy);
+    const auto shape_vertices = other.verticesOf(shape);
+    const auto shape_indices = other.indicesOf(shape);
+    vertices.insert(vertices.end(), shape_vertices.begin(), shape_vertices.end());
+    indices.insert(indices.end(), shape_indices.begin(), shape_indices.end());
+}
+
+PreparedMesh prepareMesh(const mesh::SourceMesh& source)
+{
+    PreparedMesh prepared;
+    prepared.source = &source;
+    prepared.attributes = mesh::attributesOf(source);
+    mesh::Weld weld = mesh::weldPositions(source.positions);
+    const std::vector<uint32_t> first_equal = mesh::firstEqualVertices(source);
+    prepared.corners.reserve(source.indices.size());
+    prepared.materials.reserve(source.triangleCount());
+    for (size_t t = 0; t < source.triangleCount(); ++t)
+    {
+        const uint32_t a = first_equal[source.indices[t * 3]];
+        const uint32_t b = first_equal[source.indices[t * 3 + 1]];
+        const uint32_t c = first_equal[source.indices[t * 3 + 2]];
+        if (mesh::isDegenerate(source.positions[a], source.positions[b], source.positions[c]))
+        {
+            ++prepared.degenerate_count;
+            continue;
+        }
+        prepared.corners.insert(prepared.corners.end(), {a, b, c});
+        prepared.materials.push_back(source.triangle_materials[t]);
+    }
+    prepared.position_of_vertex = std::move(weld.position_of_vertex);
+    prepared.position_count = weld.position_count;
+    return prepared;
+}
+
+} // namespace hearth::clusters

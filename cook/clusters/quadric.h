@@ -1,0 +1,75 @@
+// Quadric error of a position and the attributes around it, relative to the vertex that it belongs to.
+// M. Garland, P. Heckbert, "Surface simplification using quadric error metrics", 1997; attributes as in H. Hoppe,
+// "New quadric metric for simplifying meshes with appearance attributes", 1999. See README.md, "Simplifying".
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "cook/clusters/group_mesh.h"
+#include "formats/math.h"
+
+namespace hearth::clusters
+{
+
+/// E(x) = x^T A x + 2 b.x + c, where x is the offset from the vertex's own place: near zero, so that floats suffice.
+struct PositionQuadric
+{
+    float a00 = 0, a11 = 0, a22 = 0, a01 = 0, a02 = 0, a12 = 0;
+    Float3 b;
+    float c = 0;
+
+    void addPlane(Float3 unit_normal, float weight)
+    {
+        // the plane goes through the vertex itself: b and c get nothing
+        const Float3 n = unit_normal * weight;
+        a00 += n.x * unit_normal.x;
+        a11 += n.y * unit_normal.y;
+        a22 += n.z * unit_normal.z;
+        a01 += n.x * unit_normal.y;
+        a02 += n.x * unit_normal.z;
+        a12 += n.y * unit_normal.z;
+    }
+
+    void addOuterProduct(Float3 g, float weight) { addPlane(g, weight); }
+
+    Float3 timesA(Float3 x) const
+    {
+        return {a00 * x.x + a01 * x.y + a02 * x.z, a01 * x.x + a11 * x.y + a12 * x.z,
+                a02 * x.x + a12 * x.y + a22 * x.z};
+    }
+
+    float at(Float3 x) const { return dot(x, timesA(x)) + 2 * dot(b, x) + c; }
+
+    /// Add `other` when its vertex moves by `t` to this one.
+    void addMoved(const PositionQuadric& other, Float3 t)
+    {
+        c += other.at(t);
+        b += other.b + other.timesA(t);
+        a00 += other.a00;
+        a11 += other.a11;
+        a22 += other.a22;
+        a01 += other.a01;
+        a02 += other.a02;
+        a12 += other.a12;
+    }
+};
+
+/// One attribute of one wedge: the area-weighted sum of its linear functions (gradient . x + offset) over the
+/// triangles it stands for, relative to the wedge's own place and value.
+struct AttributeGradient
+{
+    Float3 gradient;
+    float offset = 0;
+};
+
+/// All quadrics of a group. Each position has one PositionQuadric, which takes in what the attributes contribute to
+/// A, b and c; each wedge has an area weight and attribute_count gradients.
+struct Quadrics
+{
+    std::vector<PositionQuadric> position;
+    std::vector<float> wedge_weight;
+    std::vector<AttributeGradient> gradients;
+};
+
+Quadrics initialQuadrics(const GroupMesh& group);
+
+} // namespace hearth::clusters

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/clusters/reduce.h"
+
+#include "cook/clusters/bounds.h"
+#include "cook/clusters/deviation.h"
+#include "cook/clusters/group_mesh.h"
+#include "cook/clusters/islands.h"
+#include "cook/clusters/simplify.h"
+#include "cook/clusters/split.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace hearth::clusters
+{
+
+namespace
+{
+
+using formats::kClusterMaxTriangles;
+
+/// Half of the triangles, as full clusters where that is at least one.
+size_t targetTriangles(size_t triangle_count, const Config& config)
+{
+    const auto part = static_cast<size_t>(static_cast<float>(triangle_count) * config.simplify_ratio);
+    return std::max<size_t>(
+        1, part >= kClusterMaxTriangles ? part / kClusterMaxTriangles * kClusterMaxTriangles : part);
+}
+
+/// Cut what is left into clusters, material by material in order of their numbers.
+ClusterStore splitSimplified(const GroupMesh& group, const Simplified& simplified)
+{
+    const size_t count = simplified.triangleCount();
+    std::vector<uint32_t> vertices(count * 3);
+    std::vector<uint32_t> positions(count * 3);
+    for (size_t i = 0; i < vertices.size(); ++i)
+    {
+        vertices[i] = group.vertex_of_wedge[simplified.corners[i]];
+        positions[i] = group.position_of_wedge[simplified.corners[i]];
+    }
+    std::vector<Float3> centers(count);
+    for (size_t t = 0; t < count; ++t)
+        centers[t] = triangleCenter(group.positions[positions[t * 3]], group.positions[positions[t * 3 + 1]],
+                                    group.positions[positions[t * 3 + 2]]);
+    gatherSmallIslands(centers, simplified.corners, group.vertex_of_wedge.size());
+    std::vector<SplitItem> items;
+    items.reserve(count);
+    for (uint32_t t = 0; t < count; ++t)
+        items.push_back({centers[t], t});
+    const auto& materials = simplified.materials;
+    if (!std::is_sorted(materials.begin(), materials.end()))
+        std::stable_sort(items.begin(), items.end(),
+                         [&](const SplitItem& a, const SplitItem& b)
+                         { return materials[a.triangle] < materials[b.triangle]; });
+    ClusterStore out;
+    for (size_t first = 0; first < count;)
+    {
+        const uint32_t material = materials[items[first].triangle];
+        size_t last = first;
+        while (last < count && materials[items[last].triangle] == material)
+            ++last;
+        splitIntoClusters(std::span(items).subspan(first, last - first), vertices, material, out);
+        first = last;
+    }
+    return out;
+}
+
+} // namespace
+
+Reduced reduceGroup(const PreparedMesh& mesh, const ClusterStore& store, std::span<const uint32_t> members,
+                    std::span<const uint8_t> locked, float members_error, const Config& config)
+{
+    Reduced reduced;
+    const GroupMesh group = gatherGroup(mesh, store, members, locked, config);
+    const Simplified simplified = simplifyGroup(group, targetTriangles(group.triangleCount(), config));
+    reduced.permissive = simplified.permissive;
+    reduced.pruned = simplified.pruned;
+    if (static_cast<float>(simplified.triangleCount()) >
+        config.stuck_ratio * static_cast<float>(group.triangleCount()))
+        return reduced;
+    reduced.clusters = splitSimplified(group, simplified);
+    if (reduced.clusters.shapes.size() >= members.size())
+        return reduced;
+    const Deviation deviation = boundDeviation(group, simplified);
+    reduced.loose_pieces = deviation.loose_pieces;
+    reduced.error = roundUp((members_error + deviation.distance * group.scale) * kMonotoneSlack);
+    // an error beyond the floats cannot be stored: what it belongs to is a root
+    reduced.progressed = reduced.error < std::numeric_limits<float>::max();
+    return reduced;
+}
+
+} // namespace hearth::clusters

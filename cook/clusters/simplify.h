@@ -1,0 +1,38 @@
+// Halves the triangles of one group by collapsing edges, without touching what it shares with others.
+// See README.md, "Simplifying".
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "cook/clusters/group_mesh.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace hearth::clusters
+{
+
+inline constexpr uint32_t kPruned = 0xFFFFFFFFu;
+
+struct Simplified
+{
+    std::vector<uint32_t> corners;         ///< wedges of the group's mesh, three for each triangle left
+    std::vector<uint32_t> materials;       ///< for each triangle left
+    std::vector<uint32_t> source_triangle; ///< for each triangle left, the triangle of the group that it was
+    std::vector<uint32_t> target_of_position; ///< where each position went: itself, another, or kPruned
+    bool permissive = false;                  ///< attributes had to jump across a seam
+    bool pruned = false;                      ///< whole islands are gone
+
+    size_t triangleCount() const { return corners.size() / 3; }
+};
+
+/// Collapse edges, cheapest first by quadric error, until `target_triangles` are left or nothing more can go.
+/// What holds after every collapse:
+/// - locked positions stay;
+/// - every wedge of the removed position goes to a wedge of the target along their common edge, so that attributes and
+///   materials do not jump (unless `permissive`: then wedges without such an edge take the nearest attributes);
+/// - open borders, and edges of more than two triangles, only shorten along themselves;
+/// - no triangle turns over, no two sheets are glued together (link condition), no island disappears.
+/// If that is not enough, whole islands go, the smallest first (`pruned`); one triangle always stays.
+Simplified simplifyGroup(const GroupMesh& group, size_t target_triangles);
+
+} // namespace hearth::clusters

@@ -1,0 +1,36 @@
+// Cuts triangles into clusters: full, compact, of one material. See README.md, "Splitting".
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "cook/clusters/cluster.h"
+#include "formats/math.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace hearth::clusters
+{
+
+/// A triangle as the splitter sees it: where it is and what it uses. Triangles with equal centers stay together
+/// where the counts allow it.
+struct SplitItem
+{
+    Float3 center;
+    uint32_t triangle;
+};
+
+/// Top-down: cut where the surface-area cost is least, at multiples of a full cluster, so that all clusters but one
+/// are full. A cluster that would need more than 256 vertices is cut again.
+/// Reorders `items`; deterministic for any order of items with different triangles.
+///
+/// items      of one material; centers finite
+/// corners    three vertices for each triangle
+/// out        gets the clusters, in the order of the tree's leaves
+void splitIntoClusters(std::span<SplitItem> items, std::span<const uint32_t> corners, uint32_t material,
+                       ClusterStore& out);
+
+/// Clusters of the whole mesh, material by material, in parallel.
+ClusterStore splitMesh(const PreparedMesh& mesh);
+
+} // namespace hearth::clusters
