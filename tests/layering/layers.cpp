@@ -57,7 +57,7 @@ const std::vector<Library>& libraries()
         {"jerror.h", {"pipelines/import/"}},
         {"webp/", {"pipelines/import/"}},
         {"OpenEXR/", {"pipelines/import/"}},
-        {"stb/", {"pipelines/import/", "cook/textures/"}},
+        {"stb/", {"pipelines/import/", "cook/textures/", "runtime/viewer/"}}, // the viewer writes PNG
         {"stb_image.h", {"pipelines/import/"}},
         {"stb_image_resize.h", {"cook/textures/"}},
         {"OpenImageIO/", {"pipelines/import/", "cook/textures/"}},
