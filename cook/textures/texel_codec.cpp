@@ -17,6 +17,9 @@ namespace
 // that 8 bits store, what is cut away adds less than 1/4000.
 constexpr float kLeastWeight = 0x1p-20f;
 
+// Stored directions are good to half a step of 8 bits: a mean that is shorter than one has no direction.
+constexpr float kLeastDirection = 1.0f / 128;
+
 uint8_t unorm8(float value)
 {
     return static_cast<uint8_t>(std::clamp(value, 0.0f, 1.0f) * 255 + 0.5f);
@@ -64,7 +67,8 @@ std::array<uint8_t, 4> encode(Content content, Float4 texel, float alpha_scale, 
     }
     case Content::normals:
     {
-        const Float3 direction = normalizeOr({texel.x, texel.y, texel.z}, {0, 0, 1});
+        const Float3 mean{texel.x, texel.y, texel.z};
+        const Float3 direction = length(mean) < kLeastDirection ? Float3{0, 0, 1} : mean / length(mean);
         return {unorm8(direction.x * 0.5f + 0.5f), unorm8(direction.y * 0.5f + 0.5f),
                 unorm8(direction.z * 0.5f + 0.5f), alpha};
     }
