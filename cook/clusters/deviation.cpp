@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/clusters/deviation.h"
 
+#include "cook/clusters/facet_grid.h"
 #include "formats/assert.h"
 
 #include <algorithm>
@@ -17,504 +18,453 @@ namespace
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 // Pieces are cut until they are this close to the largest distance that the group has anyway.
-constexpr float kSlack = 1.1f;
+constexpr float kSlack2 = 1.1f * 1.1f;
 
 // And not below this part of the size of their triangle: on a plane all distances are rounding.
-constexpr float kFinest = 1.0f / 512.0f;
+constexpr float kFinest2 = 1.0f / (512.0f * 512.0f);
 
 // Rounding of a distance between points in [-1, 1]^3: a few times 2^-23, with room.
-constexpr float kRounding = 2e-6f;
+constexpr double kRounding = 2e-6;
 
-constexpr size_t kLanes = 4;
 constexpr size_t kMaxBlocks = 8;
 constexpr size_t kMaxCandidates = kLanes * kMaxBlocks;
-constexpr size_t kMaxPoints = 24;
+constexpr size_t kMaxPoints = 28;
 
-using Lanes = float __attribute__((vector_size(kLanes * sizeof(float))));
-using LaneMask = int32_t __attribute__((vector_size(kLanes * sizeof(int32_t))));
+// Facets within this part of a triangle's size are looked at first.
+constexpr float kTouching = 0.1f;
 
-Lanes all(float x)
-{
-    return Lanes{x, x, x, x};
-}
-Lanes minimum(Lanes a, Lanes b)
-{
-    return a < b ? a : b;
-}
-Lanes maximum(Lanes a, Lanes b)
-{
-    return a > b ? a : b;
-}
-Lanes clampToUnit(Lanes x)
-{
-    return minimum(maximum(x, all(0)), all(1));
-}
+// A triangle is searched in at most so many parts before its bound is taken as it is.
+constexpr size_t kMaxParts = 64;
 
-struct Vector
-{
-    Lanes x, y, z;
-};
-Vector operator-(Vector a, Vector b)
-{
-    return {a.x - b.x, a.y - b.y, a.z - b.z};
-}
-Vector operator*(Vector a, Lanes s)
-{
-    return {a.x * s, a.y * s, a.z * s};
-}
-Lanes dot(Vector a, Vector b)
-{
-    return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-Vector all(Float3 p)
-{
-    return {all(p.x), all(p.y), all(p.z)};
-}
+using Corners = std::array<Float3, 3>;
 
-/// A triangle with what the distance to it needs.
-struct Facet
-{
-    Float3 a;
-    Float3 ab;
-    Float3 ac;
-    float ab_ab, ab_ac, ac_ac;
-    float inverse_det; ///< 0 for a needle: then only its edges count
-    float inverse_ab, inverse_ac, inverse_bc;
-};
-static_assert(sizeof(Facet) == 64);
-
-float inverseOr0(float x)
-{
-    return x > 0 ? 1.0f / x : 0.0f;
-}
-
-Facet makeFacet(Float3 a, Float3 b, Float3 c)
-{
-    Facet f{};
-    f.a = a;
-    f.ab = b - a;
-    f.ac = c - a;
-    f.ab_ab = hearth::dot(f.ab, f.ab);
-    f.ab_ac = hearth::dot(f.ab, f.ac);
-    f.ac_ac = hearth::dot(f.ac, f.ac);
-    const float det = f.ab_ab * f.ac_ac - f.ab_ac * f.ab_ac;
-    f.inverse_det = det > 1e-5f * f.ab_ab * f.ac_ac ? 1.0f / det : 0.0f;
-    f.inverse_ab = inverseOr0(f.ab_ab);
-    f.inverse_ac = inverseOr0(f.ac_ac);
-    f.inverse_bc = inverseOr0(f.ab_ab - 2 * f.ab_ac + f.ac_ac);
-    return f;
-}
-
-/// Several facets side by side.
-struct FacetBlock
-{
-    Vector a, ab, ac;
-    Lanes ab_ab, ab_ac, ac_ac, inverse_det, inverse_ab, inverse_ac, inverse_bc;
-
-    /// Squared distances of a point. Each is the distance to some point of the facet, so never too small.
-    Lanes distance2(Float3 point) const
-    {
-        const Vector ap = all(point) - a;
-        const Lanes ab_ap = dot(ab, ap);
-        const Lanes ac_ap = dot(ac, ap);
-        const Vector to_ab = ap - ab * clampToUnit(ab_ap * inverse_ab);
-        const Vector to_ac = ap - ac * clampToUnit(ac_ap * inverse_ac);
-        const Vector bp = ap - ab;
-        const Vector bc = ac - ab;
-        const Vector to_bc = bp - bc * clampToUnit(dot(bp, bc) * inverse_bc);
-        Lanes nearest = minimum(minimum(dot(to_ab, to_ab), dot(to_ac, to_ac)), dot(to_bc, to_bc));
-        const Lanes v = (ac_ac * ab_ap - ab_ac * ac_ap) * inverse_det;
-        const Lanes w = (ab_ab * ac_ap - ab_ac * ab_ap) * inverse_det;
-        const LaneMask inside = (v >= all(0)) & (w >= all(0)) & (v + w <= all(1)) & (inverse_det > all(0));
-        const Vector to_face = ap - ab * v - ac * w;
-        const Lanes face = dot(to_face, to_face);
-        return inside ? minimum(face, nearest) : nearest;
-    }
-};
-
-template <typename Member>
-Lanes gather(const std::array<const Facet*, kLanes>& f, Member member)
-{
-    return Lanes{member(*f[0]), member(*f[1]), member(*f[2]), member(*f[3])};
-}
-
-FacetBlock makeBlock(const std::array<const Facet*, kLanes>& f)
-{
-    const auto vector = [&](auto part)
-    {
-        return Vector{gather(f, [&](const Facet& facet) { return part(facet).x; }),
-                      gather(f, [&](const Facet& facet) { return part(facet).y; }),
-                      gather(f, [&](const Facet& facet) { return part(facet).z; })};
-    };
-    return {vector([](const Facet& facet) { return facet.a; }),
-            vector([](const Facet& facet) { return facet.ab; }),
-            vector([](const Facet& facet) { return facet.ac; }),
-            gather(f, [](const Facet& facet) { return facet.ab_ab; }),
-            gather(f, [](const Facet& facet) { return facet.ab_ac; }),
-            gather(f, [](const Facet& facet) { return facet.ac_ac; }),
-            gather(f, [](const Facet& facet) { return facet.inverse_det; }),
-            gather(f, [](const Facet& facet) { return facet.inverse_ab; }),
-            gather(f, [](const Facet& facet) { return facet.inverse_ac; }),
-            gather(f, [](const Facet& facet) { return facet.inverse_bc; })};
-}
-
-/// A surface of the group: its facets, and those around each position.
-struct Surface
-{
-    std::vector<Facet> facets;
-    std::vector<std::array<uint32_t, 3>> positions; ///< of each facet
-    std::vector<uint32_t> star_items;
-    std::vector<uint32_t> star_offsets;
-
-    std::span<const uint32_t> star(uint32_t position) const
-    {
-        return std::span(star_items)
-            .subspan(star_offsets[position], star_offsets[position + 1] - star_offsets[position]);
-    }
-};
-
-Surface makeSurface(const GroupMesh& group, std::span<const uint32_t> corners)
-{
-    Surface surface;
-    const size_t count = corners.size() / 3;
-    surface.facets.reserve(count);
-    surface.positions.reserve(count);
-    surface.star_offsets.assign(group.positions.size() + 1, 0);
-    for (size_t t = 0; t < count; ++t)
-    {
-        std::array<uint32_t, 3> p;
-        for (size_t k = 0; k < 3; ++k)
-        {
-            p[k] = group.position_of_wedge[corners[t * 3 + k]];
-            ++surface.star_offsets[p[k] + 1];
-        }
-        surface.positions.push_back(p);
-        surface.facets.push_back(
-            makeFacet(group.positions[p[0]], group.positions[p[1]], group.positions[p[2]]));
-    }
-    for (size_t i = 1; i < surface.star_offsets.size(); ++i)
-        surface.star_offsets[i] += surface.star_offsets[i - 1];
-    surface.star_items.resize(count * 3);
-    std::vector<uint32_t> next(surface.star_offsets.begin(), surface.star_offsets.end() - 1);
-    for (uint32_t t = 0; t < count; ++t)
-        for (const uint32_t p : surface.positions[t])
-            surface.star_items[next[p]++] = t;
-    return surface;
-}
-
-/// The facets that a triangle is held against.
+/// The facets that a piece is held against, at most kMaxCandidates.
 class Candidates
 {
 public:
-    void clear() { count_ = 0; }
-    bool full() const { return count_ == kMaxCandidates; }
-    size_t count() const { return count_; }
-
-    void add(uint32_t facet)
+    void load(const FacetGrid& grid, std::span<const uint32_t> facets)
     {
-        if (full() || std::find(numbers_.begin(), numbers_.begin() + static_cast<ptrdiff_t>(count_), facet) !=
-                          numbers_.begin() + static_cast<ptrdiff_t>(count_))
-            return;
-        numbers_[count_++] = facet;
-    }
-
-    /// Fill the blocks; lanes that are left over repeat the first facet.
-    void load(const Surface& surface)
-    {
-        HEARTH_ASSERT(count_ > 0);
-        block_count_ = (count_ + kLanes - 1) / kLanes;
+        HEARTH_ASSERT(!facets.empty() && facets.size() <= kMaxCandidates);
+        block_count_ = (facets.size() + kLanes - 1) / kLanes;
         for (size_t b = 0; b < block_count_; ++b)
         {
-            std::array<const Facet*, kLanes> facets;
+            // lanes that are left over repeat the first facet
+            std::array<const Facet*, kLanes> lanes;
             for (size_t lane = 0; lane < kLanes; ++lane)
-                facets[lane] = &surface.facets[numbers_[b * kLanes + lane < count_ ? b * kLanes + lane : 0]];
-            blocks_[b] = makeBlock(facets);
+                lanes[lane] = &grid.facet(facets[b * kLanes + lane < facets.size() ? b * kLanes + lane : 0]);
+            blocks_[b] = makeBlock(lanes);
         }
     }
 
     std::span<const FacetBlock> blocks() const { return std::span(blocks_).first(block_count_); }
 
 private:
-    std::array<uint32_t, kMaxCandidates> numbers_;
     std::array<FacetBlock, kMaxBlocks> blocks_;
-    size_t count_ = 0;
     size_t block_count_ = 0;
 };
 
+/// A point of the piece: where it is in the piece's plane, and its squared distance to each candidate.
 struct Probe
 {
     Float3 place;
-    std::array<Lanes, kMaxBlocks> distance2; ///< to each candidate
+    Float2 plane; ///< multiples of the piece's edges from corner 0
+    std::array<Lanes, kMaxBlocks> distance2;
 };
 
-struct Nearest
+float leastLane(Lanes x)
 {
-    float distance2;
-    size_t candidate;
+    return std::min(std::min(x[0], x[1]), std::min(x[2], x[3]));
+}
+
+/// Twice the signed area of a triangle in the plane.
+float area2(Float2 a, Float2 b, Float2 c)
+{
+    return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+}
+
+struct Bound
+{
+    float upper2; ///< the whole piece is within this of the candidates, squared
+    float found2; ///< some point of it is so far from these candidates
+    float sure2;  ///< and so far from all facets
+    bool closed;  ///< upper2 is as good as is worth searching for
 };
 
+/// Bounds the distance of one piece of a triangle to a few facets.
 class Bounder
 {
 public:
-    /// Cut the triangle until each piece is within allowed2 of one candidate, or the points run out.
-    /// Returns the bound of the whole triangle, squared.
-    float bound(const std::array<Float3, 3>& triangle, const Candidates& candidates, float allowed2);
-
-    uint64_t loosePieces() const { return loose_pieces_; }
+    /// Cut the piece where the nearest candidate changes, until every part is within allowed2 of one candidate (or
+    /// within 10 % of a distance that is there), or the points run out. Parts are cut at corners of candidates that
+    /// lie over them, else where an edge leaves the candidate that it starts on: on a plane that is the common
+    /// refinement of both surfaces.
+    ///
+    /// blocks    all facets that are within `radius` of the piece, and perhaps others
+    Bound bound(const Corners& piece, std::span<const FacetBlock> blocks, float allowed2, float radius)
+    {
+        blocks_ = blocks;
+        allowed2_ = allowed2;
+        radius2_ = radius * radius;
+        point_count_ = 0;
+        lower2_ = 0;
+        corners_found_ = false;
+        float upper2 = 0;
+        size_t stack_size = 0;
+        stack_[stack_size++] = {addPoint(piece[0], {0, 0}), addPoint(piece[1], {1, 0}), addPoint(piece[2], {0, 1})};
+        while (stack_size > 0)
+        {
+            const Part part = stack_[--stack_size];
+            const float best2 = common(part);
+            if (best2 <= std::max(tolerance2(), upper2) || point_count_ == kMaxPoints)
+            {
+                upper2 = std::max(upper2, best2);
+                continue;
+            }
+            if (!corners_found_)
+                findCorners();
+            if (const uint8_t inner = cornerInside(part); inner != kNoPoint)
+            {
+                for (size_t k = 0; k < 3; ++k)
+                    stack_[stack_size++] = {part[k], part[(k + 1) % 3], inner};
+                continue;
+            }
+            const size_t edge = worstEdge(part);
+            const uint8_t p = part[edge];
+            const uint8_t q = part[(edge + 1) % 3];
+            const uint8_t apex = part[(edge + 2) % 3];
+            const uint8_t middle = cutEdge(p, q);
+            stack_[stack_size++] = {p, middle, apex};
+            stack_[stack_size++] = {middle, q, apex};
+        }
+        return {upper2, lower2_, std::min(lower2_, radius2_), upper2 <= tolerance2()};
+    }
 
 private:
-    using Piece = std::array<uint8_t, 3>;
+    using Part = std::array<uint8_t, 3>;
+    static constexpr uint8_t kNoPoint = 0xFF;
 
-    uint8_t addPoint(Float3 place, std::span<const FacetBlock> blocks)
+    /// Closer than this need not be searched for.
+    float tolerance2() const { return std::max(allowed2_, std::min(lower2_, radius2_) * kSlack2); }
+
+    uint8_t addPoint(Float3 place, Float2 plane)
     {
         Probe& probe = points_[point_count_];
         probe.place = place;
-        for (size_t b = 0; b < blocks.size(); ++b)
-            probe.distance2[b] = blocks[b].distance2(place);
+        probe.plane = plane;
+        Lanes least = allLanes(kInfinity);
+        for (size_t b = 0; b < blocks_.size(); ++b)
+        {
+            probe.distance2[b] = blocks_[b].distance2(place);
+            least = minimum(least, probe.distance2[b]);
+        }
+        lower2_ = std::max(lower2_, leastLane(least));
         return static_cast<uint8_t>(point_count_++);
     }
 
-    static Nearest reduce(std::span<const Lanes> values)
-    {
-        Nearest nearest{kInfinity, 0};
-        for (size_t b = 0; b < values.size(); ++b)
-            for (size_t lane = 0; lane < kLanes; ++lane)
-                if (values[b][lane] < nearest.distance2)
-                    nearest = {values[b][lane], b * kLanes + lane};
-        return nearest;
-    }
-
-    /// The candidate that holds all the named points best.
+    /// Squared distance within which one candidate holds all the named points.
     template <size_t N>
-    Nearest common(const std::array<uint8_t, N>& names, size_t block_count) const
+    float common(const std::array<uint8_t, N>& names) const
     {
-        std::array<Lanes, kMaxBlocks> worst;
-        for (size_t b = 0; b < block_count; ++b)
+        Lanes least = allLanes(kInfinity);
+        for (size_t b = 0; b < blocks_.size(); ++b)
         {
-            worst[b] = points_[names[0]].distance2[b];
+            Lanes worst = points_[names[0]].distance2[b];
             for (size_t i = 1; i < N; ++i)
-                worst[b] = maximum(worst[b], points_[names[i]].distance2[b]);
+                worst = maximum(worst, points_[names[i]].distance2[b]);
+            least = minimum(least, worst);
         }
-        return reduce(std::span(worst).first(block_count));
+        return leastLane(least);
     }
 
-    float distance2(uint8_t point, size_t candidate) const
+    /// The corners of candidates that project into the piece.
+    void findCorners()
     {
-        return points_[point].distance2[candidate / kLanes][candidate % kLanes];
-    }
-
-    /// Where between two points the nearest candidate changes.
-    float changePoint(uint8_t p, uint8_t q, size_t block_count) const
-    {
-        const size_t near_p = common<1>({p}, block_count).candidate;
-        const size_t near_q = common<1>({q}, block_count).candidate;
-        const float p_leaves = std::sqrt(distance2(p, near_q));
-        const float q_leaves = std::sqrt(distance2(q, near_p));
-        const float sum = p_leaves + q_leaves;
-        return near_p == near_q || !(sum > 0) ? 0.5f : std::clamp(p_leaves / sum, 0.1f, 0.9f);
-    }
-
-    std::array<Probe, kMaxPoints> points_;
-    size_t point_count_ = 0;
-    std::array<Piece, 2 * kMaxPoints> stack_;
-    uint64_t loose_pieces_ = 0;
-};
-
-float Bounder::bound(const std::array<Float3, 3>& triangle, const Candidates& candidates, float allowed2)
-{
-    const auto blocks = candidates.blocks();
-    point_count_ = 0;
-    Piece whole;
-    for (size_t k = 0; k < 3; ++k)
-        whole[k] = addPoint(triangle[k], blocks);
-    size_t stack_size = 0;
-    stack_[stack_size++] = whole;
-    float result2 = 0;
-    while (stack_size > 0)
-    {
-        const Piece piece = stack_[--stack_size];
-        const float best2 = common(piece, blocks.size()).distance2;
-        if (best2 <= std::max(allowed2, result2) || point_count_ == kMaxPoints)
+        corners_found_ = true;
+        corner_count_ = 0;
+        const Float3 origin = points_[0].place;
+        const Float3 e1 = points_[1].place - origin;
+        const Float3 e2 = points_[2].place - origin;
+        const float d11 = hearth::dot(e1, e1), d12 = hearth::dot(e1, e2), d22 = hearth::dot(e2, e2);
+        const float det = d11 * d22 - d12 * d12;
+        if (!(det > 1e-5f * d11 * d22))
+            return;
+        const LaneVector f1 = allLanes((e1 * d22 - e2 * d12) / det);
+        const LaneVector f2 = allLanes((e2 * d11 - e1 * d12) / det);
+        for (const FacetBlock& block : blocks_)
         {
-            loose_pieces_ += best2 > std::max(allowed2, result2) ? 1u : 0u;
-            result2 = std::max(result2, best2);
-            continue;
+            const LaneVector corner_a = block.a - allLanes(origin);
+            const Lanes a1 = dot(corner_a, f1), a2 = dot(corner_a, f2);
+            keepInside(a1, a2);
+            keepInside(a1 + dot(block.ab, f1), a2 + dot(block.ab, f2));
+            keepInside(a1 + dot(block.ac, f1), a2 + dot(block.ac, f2));
         }
-        // cut the edge whose ends agree least on a candidate
-        size_t cut_edge = 0;
-        float cut_value = -1;
-        float cut_length2 = -1;
+    }
+
+    void keepInside(Lanes x, Lanes y)
+    {
+        const Lanes margin = allLanes(kCornerMargin);
+        const Lanes inside = minimum(minimum(x, y), allLanes(1) - x - y) - margin;
+        for (size_t lane = 0; lane < kLanes; ++lane)
+        {
+            if (!(inside[lane] > 0) || corner_count_ == corners_.size())
+                continue;
+            const Float2 corner{x[lane], y[lane]};
+            // each corner comes once for each of its facets
+            const bool known = std::any_of(corners_.begin(), corners_.begin() + corner_count_,
+                                           [&](Float2 other)
+                                           {
+                                               return std::abs(other.x - corner.x) < kCornerMargin &&
+                                                      std::abs(other.y - corner.y) < kCornerMargin;
+                                           });
+            if (!known)
+                corners_[corner_count_++] = corner;
+        }
+    }
+
+    Float3 placeAt(Float2 plane) const
+    {
+        return points_[0].place + (points_[1].place - points_[0].place) * plane.x +
+               (points_[2].place - points_[0].place) * plane.y;
+    }
+
+    /// A new point at a candidate's corner over the part, or kNoPoint.
+    uint8_t cornerInside(const Part& part)
+    {
+        const Float2 a = points_[part[0]].plane, b = points_[part[1]].plane, c = points_[part[2]].plane;
+        const float least = kCornerMargin * std::abs(area2(a, b, c));
+        for (uint32_t i = 0; i < corner_count_; ++i)
+        {
+            const Float2 corner = corners_[i];
+            if (area2(a, b, corner) > least && area2(b, c, corner) > least && area2(c, a, corner) > least)
+                return addPoint(placeAt(corner), corner);
+        }
+        return kNoPoint;
+    }
+
+    /// The edge whose ends agree least on a candidate.
+    size_t worstEdge(const Part& part) const
+    {
+        size_t edge = 0;
+        float edge_value = -1;
+        float edge_length2 = -1;
         for (size_t k = 0; k < 3; ++k)
         {
-            const std::array<uint8_t, 2> ends{piece[k], piece[(k + 1) % 3]};
-            const float value = common(ends, blocks.size()).distance2;
+            const std::array<uint8_t, 2> ends{part[k], part[(k + 1) % 3]};
+            const float value = common(ends);
             const Float3 along = points_[ends[1]].place - points_[ends[0]].place;
             const float length2 = hearth::dot(along, along);
-            if (value > cut_value || (value == cut_value && length2 > cut_length2))
+            if (value > edge_value || (value == edge_value && length2 > edge_length2))
             {
-                cut_edge = k;
-                cut_value = value;
-                cut_length2 = length2;
+                edge = k;
+                edge_value = value;
+                edge_length2 = length2;
             }
         }
-        const uint8_t p = piece[cut_edge];
-        const uint8_t q = piece[(cut_edge + 1) % 3];
-        const uint8_t apex = piece[(cut_edge + 2) % 3];
-        const float t = changePoint(p, q, blocks.size());
-        const uint8_t middle = addPoint(points_[p].place * (1 - t) + points_[q].place * t, blocks);
-        stack_[stack_size++] = {p, middle, apex};
-        stack_[stack_size++] = {middle, q, apex};
+        return edge;
     }
-    return result2;
+
+    /// A new point between two, where the edge has left every candidate that it starts on; the middle if none serves.
+    uint8_t cutEdge(uint8_t p, uint8_t q)
+    {
+        const Lanes near2 = allLanes(tolerance2());
+        const LaneVector place_p = allLanes(points_[p].place);
+        const LaneVector place_q = allLanes(points_[q].place);
+        Lanes farthest = allLanes(0);
+        for (size_t b = 0; b < blocks_.size(); ++b)
+        {
+            const FacetBlock::Coordinates at_p = blocks_[b].project(place_p);
+            const FacetBlock::Coordinates at_q = blocks_[b].project(place_q);
+            const Lanes leaves =
+                minimum(minimum(leavesAt(at_p.v, at_q.v), leavesAt(at_p.w, at_q.w)),
+                        leavesAt(allLanes(1) - at_p.v - at_p.w, allLanes(1) - at_q.v - at_q.w));
+            const LaneMask starts_here =
+                (points_[p].distance2[b] <= near2) & (blocks_[b].inverse_det > allLanes(0));
+            farthest = maximum(farthest, starts_here ? leaves : allLanes(0));
+        }
+        const float t = std::max(std::max(farthest[0], farthest[1]), std::max(farthest[2], farthest[3]));
+        const float s = t > kShortest && t < 1 - kShortest ? t : 0.5f;
+        return addPoint(points_[p].place * (1 - s) + points_[q].place * s,
+                        points_[p].plane * (1 - s) + points_[q].plane * s);
+    }
+
+    /// Where a coordinate that runs from x to y becomes negative, in [0, 1].
+    static Lanes leavesAt(Lanes x, Lanes y)
+    {
+        const Lanes start = maximum(x, allLanes(0));
+        return y < allLanes(0) ? start / (start - y) : allLanes(1);
+    }
+
+    static constexpr float kCornerMargin = 0.01f; ///< corners this near to an edge of the piece are left to its cuts
+    static constexpr float kShortest = 0.01f;     ///< part of an edge that is worth cutting off
+
+    std::span<const FacetBlock> blocks_;
+    float allowed2_ = 0;
+    float radius2_ = 0;
+    float lower2_ = 0; ///< largest distance of a point to the candidates; true up to radius2_
+    std::array<Probe, kMaxPoints> points_;
+    size_t point_count_ = 0;
+    std::array<Part, 3 * kMaxPoints> stack_;
+    std::array<Float2, 12> corners_;
+    uint32_t corner_count_ = 0;
+    bool corners_found_ = false;
+};
+
+Box3 boxAround(const Corners& corners, float radius)
+{
+    Box3 box;
+    for (const Float3 corner : corners)
+        box.add(corner);
+    box.min -= Float3{radius, radius, radius};
+    box.max += Float3{radius, radius, radius};
+    return box;
 }
 
-/// One group being measured.
+float sizeOf(const Corners& corners)
+{
+    return std::max({length(corners[1] - corners[0]), length(corners[2] - corners[1]), length(corners[0] - corners[2])});
+}
+
+/// Halves the longest edge.
+std::pair<Corners, Corners> halve(const Corners& c)
+{
+    size_t longest = 0;
+    for (size_t k = 1; k < 3; ++k)
+        if (length(c[(k + 1) % 3] - c[k]) > length(c[(longest + 1) % 3] - c[longest]))
+            longest = k;
+    const Float3 p = c[longest], q = c[(longest + 1) % 3], apex = c[(longest + 2) % 3];
+    const Float3 middle = (p + q) * 0.5f;
+    return {{p, middle, apex}, {middle, q, apex}};
+}
+
+/// Measures triangles against one surface and keeps the largest bound.
 class Measure
 {
 public:
-    Measure(const GroupMesh& group, const Simplified& simplified)
-        : group_(group),
-          simplified_(simplified),
-          before_(makeSurface(group, group.corners)),
-          after_(makeSurface(group, simplified.corners)),
-          changed_before_(group.triangleCount(), 1),
-          changed_after_(simplified.triangleCount(), 1),
-          under_(simplified.triangleCount())
-    {
-        for (size_t t = 0; t < changed_after_.size(); ++t)
-        {
-            const uint32_t source = simplified.source_triangle[t];
-            if (before_.positions[source] == after_.positions[t])
-                changed_after_[t] = changed_before_[source] = 0;
-        }
-    }
+    float worst2() const { return worst2_; }
+    uint64_t loosePieces() const { return loose_pieces_; }
 
-    Deviation run()
+    /// Raise the bound until it holds for the triangle.
+    void add(const Corners& triangle, FacetGrid& grid)
     {
-        placeRemoved();
-        for (uint32_t t = 0; t < changed_before_.size(); ++t)
-            if (changed_before_[t] != 0)
-                boundBefore(t);
-        for (uint32_t t = 0; t < changed_after_.size(); ++t)
-            if (changed_after_[t] != 0)
-                boundAfter(t);
-        return {static_cast<double>(std::sqrt(worst2_)) + kRounding, bounder_.loosePieces()};
+        const float size = sizeOf(triangle);
+        const float floor2 = size * size * kFinest2;
+        stack_.assign(1, triangle);
+        for (size_t parts = 1; !stack_.empty(); ++parts)
+        {
+            const Corners piece = stack_.back();
+            stack_.pop_back();
+            const float allowed2 = std::max({worst2_, sure2_ * kSlack2, floor2});
+            // the facets that touch the piece do for most; the rest needs all that could be the nearest
+            const float near = std::min(std::sqrt(allowed2), size * kTouching);
+            Bound bound = boundPiece(piece, grid, allowed2, near);
+            if (!bound.closed)
+                bound = boundPiece(piece, grid, allowed2, std::sqrt(bound.found2) * 1.01f);
+            sure2_ = std::max(sure2_, bound.sure2);
+            if (!bound.closed && parts < kMaxParts)
+            {
+                const auto [first, second] = halve(piece);
+                stack_.push_back(first);
+                stack_.push_back(second);
+                continue;
+            }
+            loose_pieces_ += bound.closed ? 0u : 1u;
+            worst2_ = std::max(worst2_, bound.upper2);
+        }
     }
 
 private:
-    /// Find the facet that each removed position lies on now. Their distances are the least that the group can have.
-    void placeRemoved()
+    /// Bound the distance to the facets within `radius`; if there are none, to those within a larger one. Where there
+    /// are more than fit, those with the nearest centers serve.
+    Bound boundPiece(const Corners& piece, FacetGrid& grid, float allowed2, float radius)
     {
-        for (uint32_t p = 0; p < simplified_.target_of_position.size(); ++p)
+        grid.query(boxAround(piece, radius), found_);
+        for (float wider = std::max(radius, 1e-3f); found_.empty(); wider *= 2)
+            grid.query(boxAround(piece, wider), found_);
+        if (found_.size() > kMaxCandidates)
         {
-            const uint32_t target = simplified_.target_of_position[p];
-            if (target == p || target == kPruned || before_.star(p).empty())
-                continue;
-            uint32_t nearest = 0;
-            float nearest2 = kInfinity;
-            const auto star = after_.star(target);
-            for (size_t i = 0; i < star.size(); i += kLanes)
-            {
-                std::array<const Facet*, kLanes> facets;
-                for (size_t lane = 0; lane < kLanes; ++lane)
-                    facets[lane] = &after_.facets[star[std::min(i + lane, star.size() - 1)]];
-                const Lanes distance2 = makeBlock(facets).distance2(group_.positions[p]);
-                for (size_t lane = 0; lane < kLanes; ++lane)
-                    if (distance2[lane] < nearest2)
-                    {
-                        nearest2 = distance2[lane];
-                        nearest = star[std::min(i + lane, star.size() - 1)];
-                    }
-            }
-            if (star.empty())
-                continue;
-            worst2_ = std::max(worst2_, nearest2);
-            under_[nearest].push_back(p);
+            keepNearest(piece, grid);
+            radius = 0;
         }
+        candidates_.load(grid, found_);
+        return bounder_.bound(piece, candidates_.blocks(), allowed2, radius);
     }
 
-    std::array<Float3, 3> placesOf(const std::array<uint32_t, 3>& positions) const
+    void keepNearest(const Corners& piece, const FacetGrid& grid)
     {
-        return {group_.positions[positions[0]], group_.positions[positions[1]],
-                group_.positions[positions[2]]};
-    }
-
-    void boundTriangle(const std::array<Float3, 3>& triangle, const Surface& surface)
-    {
-        const Float3 e1 = triangle[1] - triangle[0];
-        const Float3 e2 = triangle[2] - triangle[0];
-        const float size2 = std::max(hearth::dot(e1, e1), hearth::dot(e2, e2));
-        const float allowed2 = std::max(worst2_ * kSlack * kSlack, size2 * kFinest * kFinest);
-        candidates_.load(surface);
-        worst2_ = std::max(worst2_, bounder_.bound(triangle, candidates_, allowed2));
-    }
-
-    void boundBefore(uint32_t triangle)
-    {
-        candidates_.clear();
-        for (const uint32_t p : before_.positions[triangle])
+        const Float3 middle = (piece[0] + piece[1] + piece[2]) / 3.0f;
+        by_distance_.clear();
+        for (const uint32_t f : found_)
         {
-            const uint32_t target = simplified_.target_of_position[p];
-            if (target != kPruned && target != p)
-                for (const uint32_t facet : after_.star(target))
-                    candidates_.add(facet);
+            const Float3 away = grid.facet(f).a + (grid.facet(f).ab + grid.facet(f).ac) / 3.0f - middle;
+            by_distance_.push_back({hearth::dot(away, away), f});
         }
-        if (candidates_.count() == 0)
-            addNearest(placesOf(before_.positions[triangle]));
-        boundTriangle(placesOf(before_.positions[triangle]), after_);
+        std::nth_element(by_distance_.begin(), by_distance_.begin() + kMaxCandidates, by_distance_.end());
+        std::sort(by_distance_.begin(), by_distance_.begin() + kMaxCandidates);
+        found_.resize(kMaxCandidates);
+        for (size_t i = 0; i < kMaxCandidates; ++i)
+            found_[i] = by_distance_[i].second;
     }
 
-    void boundAfter(uint32_t triangle)
-    {
-        candidates_.clear();
-        for (const uint32_t p : under_[triangle])
-            for (const uint32_t facet : before_.star(p))
-                candidates_.add(facet);
-        for (const uint32_t p : after_.positions[triangle])
-            for (const uint32_t facet : before_.star(p))
-                candidates_.add(facet);
-        boundTriangle(placesOf(after_.positions[triangle]), before_);
-    }
-
-    /// For a triangle whose island is gone: the facets that are left with the nearest corners.
-    void addNearest(const std::array<Float3, 3>& triangle)
-    {
-        std::array<std::pair<float, uint32_t>, kLanes> nearest;
-        nearest.fill({kInfinity, 0});
-        const Float3 center = (triangle[0] + triangle[1] + triangle[2]) / 3.0f;
-        for (uint32_t f = 0; f < after_.facets.size(); ++f)
-        {
-            const Float3 away =
-                after_.facets[f].a + (after_.facets[f].ab + after_.facets[f].ac) / 3.0f - center;
-            const std::pair<float, uint32_t> entry{hearth::dot(away, away), f};
-            if (entry < nearest.back())
-            {
-                nearest.back() = entry;
-                std::sort(nearest.begin(), nearest.end());
-            }
-        }
-        for (const auto& [distance2, facet] : nearest)
-            candidates_.add(facet);
-    }
-
-    const GroupMesh& group_;
-    const Simplified& simplified_;
-    Surface before_;
-    Surface after_;
-    std::vector<uint8_t> changed_before_;
-    std::vector<uint8_t> changed_after_;
-    std::vector<std::vector<uint32_t>> under_; ///< removed positions that lie on each facet
-    float worst2_ = 0;
+    std::vector<std::pair<float, uint32_t>> by_distance_;
+    float worst2_ = 0; ///< no point is farther away, squared
+    float sure2_ = 0;  ///< some point is as far away
+    uint64_t loose_pieces_ = 0;
+    std::vector<Corners> stack_;
+    std::vector<uint32_t> found_;
     Candidates candidates_;
     Bounder bounder_;
 };
+
+std::vector<Float3> placesOf(const GroupMesh& group, std::span<const uint32_t> corners)
+{
+    std::vector<Float3> places;
+    places.reserve(corners.size());
+    for (const uint32_t wedge : corners)
+        places.push_back(group.positions[group.position_of_wedge[wedge]]);
+    return places;
+}
+
+/// Marks the triangles that are the same before and after.
+struct Changes
+{
+    std::vector<uint8_t> before;
+    std::vector<uint8_t> after;
+};
+
+Changes findChanges(const GroupMesh& group, const Simplified& simplified)
+{
+    Changes changes{std::vector<uint8_t>(group.triangleCount(), 1),
+                    std::vector<uint8_t>(simplified.triangleCount(), 1)};
+    for (size_t t = 0; t < changes.after.size(); ++t)
+    {
+        const size_t source = simplified.source_triangle[t];
+        bool same = true;
+        for (size_t k = 0; k < 3; ++k)
+            same &= group.positionAt(source * 3 + k) == group.position_of_wedge[simplified.corners[t * 3 + k]];
+        if (same)
+            changes.before[source] = changes.after[t] = 0;
+    }
+    return changes;
+}
 
 } // namespace
 
 Deviation boundDeviation(const GroupMesh& group, const Simplified& simplified)
 {
     HEARTH_ASSERT(simplified.triangleCount() > 0);
-    return Measure(group, simplified).run();
+    const std::vector<Float3> before = placesOf(group, group.corners);
+    const std::vector<Float3> after = placesOf(group, simplified.corners);
+    const Changes changes = findChanges(group, simplified);
+    FacetGrid before_grid(before);
+    FacetGrid after_grid(after);
+    Measure measure;
+    for (size_t t = 0; t < changes.before.size(); ++t)
+        if (changes.before[t] != 0)
+            measure.add({before[t * 3], before[t * 3 + 1], before[t * 3 + 2]}, after_grid);
+    for (size_t t = 0; t < changes.after.size(); ++t)
+        if (changes.after[t] != 0)
+            measure.add({after[t * 3], after[t * 3 + 1], after[t * 3 + 2]}, before_grid);
+    return {static_cast<double>(std::sqrt(measure.worst2())) + kRounding, measure.loosePieces()};
 }
 
 } // namespace hearth::clusters

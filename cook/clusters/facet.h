@@ -1,0 +1,136 @@
+// Distances from a point to several triangles at once.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "formats/math.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace hearth::clusters
+{
+
+/// A triangle with what the distance to it needs.
+struct Facet
+{
+    Float3 a;
+    Float3 ab;
+    Float3 ac;
+    float ab_ab, ab_ac, ac_ac;
+    float inverse_det; ///< 0 for a needle: then only its edges count
+    float inverse_ab, inverse_ac, inverse_bc;
+};
+
+inline float inverseOr0(float x)
+{
+    return x > 0 ? 1.0f / x : 0.0f;
+}
+
+inline Facet makeFacet(Float3 a, Float3 b, Float3 c)
+{
+    Facet f{};
+    f.a = a;
+    f.ab = b - a;
+    f.ac = c - a;
+    f.ab_ab = dot(f.ab, f.ab);
+    f.ab_ac = dot(f.ab, f.ac);
+    f.ac_ac = dot(f.ac, f.ac);
+    const float det = f.ab_ab * f.ac_ac - f.ab_ac * f.ab_ac;
+    f.inverse_det = det > 1e-5f * f.ab_ab * f.ac_ac ? 1.0f / det : 0.0f;
+    f.inverse_ab = inverseOr0(f.ab_ab);
+    f.inverse_ac = inverseOr0(f.ac_ac);
+    f.inverse_bc = inverseOr0(f.ab_ab - 2 * f.ab_ac + f.ac_ac);
+    return f;
+}
+
+/// Four numbers that are computed side by side: what every x86-64 and ARM64 processor has.
+inline constexpr size_t kLanes = 4;
+using Lanes = float __attribute__((vector_size(kLanes * sizeof(float))));
+using LaneMask = int32_t __attribute__((vector_size(kLanes * sizeof(int32_t))));
+
+inline Lanes allLanes(float x)
+{
+    return Lanes{x, x, x, x};
+}
+inline Lanes minimum(Lanes a, Lanes b) { return a < b ? a : b; }
+inline Lanes maximum(Lanes a, Lanes b) { return a > b ? a : b; }
+/// NaN becomes 0.
+inline Lanes clampToUnit(Lanes x) { return minimum(maximum(x, allLanes(0)), allLanes(1)); }
+
+struct LaneVector
+{
+    Lanes x, y, z;
+};
+inline LaneVector operator-(LaneVector a, LaneVector b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+inline LaneVector operator*(LaneVector a, Lanes s) { return {a.x * s, a.y * s, a.z * s}; }
+inline Lanes dot(LaneVector a, LaneVector b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+inline LaneVector allLanes(Float3 p) { return {allLanes(p.x), allLanes(p.y), allLanes(p.z)}; }
+
+/// Facets side by side.
+struct FacetBlock
+{
+    LaneVector a, ab, ac;
+    Lanes ab_ab, ab_ac, ac_ac, inverse_det, inverse_ab, inverse_ac, inverse_bc;
+
+    struct Coordinates
+    {
+        Lanes v, w; ///< the point's projection is a + v ab + w ac; 0 in needles
+    };
+
+    Coordinates project(LaneVector point) const
+    {
+        const LaneVector ap = point - a;
+        const Lanes ab_ap = dot(ab, ap);
+        const Lanes ac_ap = dot(ac, ap);
+        return {(ac_ac * ab_ap - ab_ac * ac_ap) * inverse_det, (ab_ab * ac_ap - ab_ac * ab_ap) * inverse_det};
+    }
+
+    /// Squared distances of a point. Each is the distance to some point of the facet, so never too small.
+    Lanes distance2(Float3 point) const
+    {
+        const LaneVector ap = allLanes(point) - a;
+        const Lanes ab_ap = dot(ab, ap);
+        const Lanes ac_ap = dot(ac, ap);
+        const LaneVector to_ab = ap - ab * clampToUnit(ab_ap * inverse_ab);
+        const LaneVector to_ac = ap - ac * clampToUnit(ac_ap * inverse_ac);
+        const LaneVector bp = ap - ab;
+        const LaneVector bc = ac - ab;
+        const LaneVector to_bc = bp - bc * clampToUnit(dot(bp, bc) * inverse_bc);
+        const Lanes edges = minimum(minimum(dot(to_ab, to_ab), dot(to_ac, to_ac)), dot(to_bc, to_bc));
+        const Lanes v = (ac_ac * ab_ap - ab_ac * ac_ap) * inverse_det;
+        const Lanes w = (ab_ab * ac_ap - ab_ac * ab_ap) * inverse_det;
+        const LaneMask inside = (v >= allLanes(0)) & (w >= allLanes(0)) & (v + w <= allLanes(1)) &
+                                (inverse_det > allLanes(0));
+        const LaneVector to_face = ap - ab * v - ac * w;
+        return inside ? minimum(dot(to_face, to_face), edges) : edges;
+    }
+};
+
+template <typename Member>
+Lanes gatherLanes(const std::array<const Facet*, kLanes>& f, Member member)
+{
+    return Lanes{member(*f[0]), member(*f[1]), member(*f[2]), member(*f[3])};
+}
+
+inline FacetBlock makeBlock(const std::array<const Facet*, kLanes>& f)
+{
+    const auto vector = [&](auto part)
+    {
+        return LaneVector{gatherLanes(f, [&](const Facet& facet) { return part(facet).x; }),
+                          gatherLanes(f, [&](const Facet& facet) { return part(facet).y; }),
+                          gatherLanes(f, [&](const Facet& facet) { return part(facet).z; })};
+    };
+    return {vector([](const Facet& facet) { return facet.a; }),
+            vector([](const Facet& facet) { return facet.ab; }),
+            vector([](const Facet& facet) { return facet.ac; }),
+            gatherLanes(f, [](const Facet& facet) { return facet.ab_ab; }),
+            gatherLanes(f, [](const Facet& facet) { return facet.ab_ac; }),
+            gatherLanes(f, [](const Facet& facet) { return facet.ac_ac; }),
+            gatherLanes(f, [](const Facet& facet) { return facet.inverse_det; }),
+            gatherLanes(f, [](const Facet& facet) { return facet.inverse_ab; }),
+            gatherLanes(f, [](const Facet& facet) { return facet.inverse_ac; }),
+            gatherLanes(f, [](const Facet& facet) { return facet.inverse_bc; })};
+}
+
+} // namespace hearth::clusters
