@@ -168,6 +168,7 @@ Result<std::unique_ptr<Scene>> uploadScene(const Device& device, const DrawLayou
     scene->item_count = static_cast<uint32_t>(layout.items.size());
     scene->slot_capacity = static_cast<uint32_t>(std::min<uint64_t>(
         layout.instanced_clusters, std::min(options.max_visible_clusters, shared::kMaxSlots)));
+    scene->used_slices = layout.slice_words[1] == 0 ? 1 : shared::kPoolSlices;
     scene->bounds = sceneBounds(pack);
 
     HEARTH_TRY(createBuffers(device, pack, layout, *scene));
