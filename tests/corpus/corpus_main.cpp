@@ -166,6 +166,7 @@ int run(const Arguments& arguments)
 } // namespace
 
 int main(int argc, char** argv)
+try
 {
     CLI::App app("Cooks the files of $HEARTH_ASSETS/manifest.json and checks each against its class.");
     Arguments arguments;
@@ -201,4 +202,9 @@ int main(int argc, char** argv)
     ::setrlimit(RLIMIT_FSIZE, &file_size);
     adoptOrphans();
     return run(arguments);
+}
+catch (const std::exception& error)
+{
+    std::fprintf(stderr, "hearth_corpus: %s\n", error.what());
+    return 70;
 }

@@ -5,7 +5,6 @@
 
 #include <cerrno>
 #include <climits>
-#include <cstdarg>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -96,12 +95,6 @@ bool writes(const char* mode)
     return std::strpbrk(mode, "wa+") != nullptr;
 }
 
-mode_t modeOf(int flags, va_list arguments)
-{
-    const bool creates = (flags & O_CREAT) != 0 || (flags & O_TMPFILE) == O_TMPFILE;
-    return creates ? va_arg(arguments, mode_t) : 0;
-}
-
 int logged(int folder, const char* path, bool for_writing, int opened)
 {
     logOpen(folder, path, for_writing, opened);
@@ -116,25 +109,20 @@ FILE* logged(const char* path, const char* mode, FILE* opened)
 
 } // namespace
 
-// open and its relatives, each under the two names that it has.
+// open and its relatives, each under the two names that it has. The last argument of open and openat is optional in C;
+// on Linux it is passed in the same register either way, so these take it always.
 #define HEARTH_LOG_OPEN(name)                                                                                \
-    HEARTH_EXPORT int name(const char* path, int flags, ...)                                                 \
+    HEARTH_EXPORT int name##Logged(const char* path, int flags, mode_t mode) __asm__(#name);                 \
+    int name##Logged(const char* path, int flags, mode_t mode)                                               \
     {                                                                                                        \
-        va_list arguments;                                                                                   \
-        va_start(arguments, flags);                                                                          \
-        const mode_t mode = modeOf(flags, arguments);                                                        \
-        va_end(arguments);                                                                                   \
         static auto* const real = next<int(const char*, int, mode_t)>(#name);                                \
         return logged(AT_FDCWD, path, writes(flags), real(path, flags, mode));                               \
     }
 
 #define HEARTH_LOG_OPENAT(name)                                                                              \
-    HEARTH_EXPORT int name(int folder, const char* path, int flags, ...)                                     \
+    HEARTH_EXPORT int name##Logged(int folder, const char* path, int flags, mode_t mode) __asm__(#name);     \
+    int name##Logged(int folder, const char* path, int flags, mode_t mode)                                   \
     {                                                                                                        \
-        va_list arguments;                                                                                   \
-        va_start(arguments, flags);                                                                          \
-        const mode_t mode = modeOf(flags, arguments);                                                        \
-        va_end(arguments);                                                                                   \
         static auto* const real = next<int(int, const char*, int, mode_t)>(#name);                           \
         return logged(folder, path, writes(flags), real(folder, path, flags, mode));                         \
     }
