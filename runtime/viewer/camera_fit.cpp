@@ -81,4 +81,17 @@ shared::Camera fitCamera(const formats::PackView& pack, float aspect)
     return camera;
 }
 
+shared::Camera sceneCamera(const formats::PackView& pack, uint32_t index)
+{
+    const formats::CameraRecord& record = pack.cameras()[index];
+    const Affine3& world_from_camera = record.world_from_camera;
+    shared::Camera camera;
+    camera.position = transformPoint(world_from_camera, {});
+    camera.target = camera.position + transformVector(world_from_camera, {0, 0, -1});
+    camera.up = transformVector(world_from_camera, {0, 1, 0});
+    camera.y_fov_rad = record.y_fov_rad;
+    camera.z_near = record.z_near > 0 ? record.z_near : nearPlane(1);
+    return camera;
+}
+
 } // namespace hearth::viewer

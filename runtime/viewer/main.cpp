@@ -30,13 +30,26 @@ Result<std::vector<std::byte>> readPicture(VulkanHost& host, const gpu::Renderer
     return downsampleSrgb(pixels, targets.extent().width, targets.extent().height);
 }
 
-/// Where the eye is, and what is decided and shown.
-gpu::FrameInput makeFrame(const RenderOptions& options, const formats::PackView& pack, VkExtent2D extent)
+Result<shared::Camera> chooseCamera(const RenderOptions& options, const formats::PackView& pack)
 {
-    const shared::Camera camera =
-        options.camera
-            ? *options.camera
-            : fitCamera(pack, static_cast<float>(options.width) / static_cast<float>(options.height));
+    if (options.camera)
+        return *options.camera;
+    if (!options.scene_camera)
+        return fitCamera(pack, static_cast<float>(options.width) / static_cast<float>(options.height));
+    const std::span<const formats::CameraRecord> cameras = pack.cameras();
+    if (*options.scene_camera >= cameras.size())
+        return Error{Issue::usage, pack.name(), "",
+                     "--scene-camera " + std::to_string(*options.scene_camera) + ": the pack has " +
+                         std::to_string(cameras.size()) + " cameras"};
+    if (cameras[*options.scene_camera].type != static_cast<uint32_t>(formats::CameraType::perspective))
+        return Error{Issue::usage, pack.name(), "", "--scene-camera: only perspective cameras can be drawn"};
+    return sceneCamera(pack, *options.scene_camera);
+}
+
+/// Where the eye is, and what is decided and shown.
+gpu::FrameInput makeFrame(const RenderOptions& options, const shared::Camera& camera,
+                          const formats::PackView& pack, VkExtent2D extent)
+{
     // the error is meant in pixels of the picture, not of its samples
     const float error =
         options.error_pixels * static_cast<float>(extent.width) / static_cast<float>(options.width);
@@ -59,6 +72,7 @@ void warnAboutLimits(const gpu::Scene& scene, const VisibleList& list, const std
 
 Status drawPack(const RenderOptions& options, const formats::PackView& pack, VulkanHost& host)
 {
+    HEARTH_ASSIGN_OR_RETURN(const shared::Camera camera, chooseCamera(options, pack));
     HEARTH_ASSIGN_OR_RETURN(const std::unique_ptr<gpu::Renderer> renderer,
                             gpu::Renderer::create(host.description()));
     std::unique_ptr<gpu::Scene> scene;
@@ -73,7 +87,7 @@ Status drawPack(const RenderOptions& options, const formats::PackView& pack, Vul
     const uint32_t scale = options.samples == 4 ? 2 : 1;
     const VkExtent2D extent{options.width * scale, options.height * scale};
     HEARTH_ASSIGN_OR_RETURN(const gpu::FrameTargets targets, renderer->createTargets(extent));
-    gpu::FrameInput frame = makeFrame(options, pack, extent);
+    gpu::FrameInput frame = makeFrame(options, camera, pack, extent);
     HEARTH_ASSIGN_OR_RETURN(frame.timestamps, host.createTimestamps(gpu::kTimestampCount));
     std::vector<std::vector<double>> times;
     for (uint32_t i = 0; i < options.frames; ++i)

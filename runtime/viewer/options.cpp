@@ -22,6 +22,7 @@ const char* const kRenderHelp =
     "      --size WxH          pixels, default 1280x720\n"
     "      --camera PX,PY,PZ,TX,TY,TZ,FOV\n"
     "                          eye and target in metres, full vertical angle in degrees\n"
+    "      --scene-camera N    the camera N of the pack, the first is 0\n"
     "      --fit               frame the whole scene (default)\n"
     "      --error-pixels E    largest error on the screen, default 1; 0 draws the source triangles\n"
     "      --view VIEW         final, clusters, lod, triangles, normals or depth\n"
@@ -126,6 +127,14 @@ Status parseCamera(std::string_view text, RenderOptions& options)
     return success();
 }
 
+Status parseSceneCamera(std::string_view text, RenderOptions& options)
+{
+    options.scene_camera = parseNumber<uint32_t>(text);
+    if (!options.scene_camera)
+        return usage("--scene-camera: " + quoted(text) + " is not the index of a camera");
+    return success();
+}
+
 Status parseView(std::string_view text, RenderOptions& options)
 {
     constexpr std::pair<std::string_view, uint32_t> kViews[] = {
@@ -206,6 +215,7 @@ constexpr ValueOption kValueOptions[] = {
     {"--output", parseText<&RenderOptions::output>},
     {"--size", parseSize},
     {"--camera", parseCamera},
+    {"--scene-camera", parseSceneCamera},
     {"--error-pixels", parseErrorPixels},
     {"--view", parseView},
     {"--samples", parseSamples},
@@ -234,7 +244,10 @@ bool parseSwitch(std::string_view name, RenderOptions& options)
     else if (name == "-h" || name == "--help")
         options.help = true;
     else if (name == "--fit")
+    {
         options.camera.reset();
+        options.scene_camera.reset();
+    }
     else
         return false;
     return true;

@@ -19,7 +19,8 @@ struct RenderOptions
     std::string output;
     uint32_t width = 1280;
     uint32_t height = 720;
-    std::optional<shared::Camera> camera; ///< none: fit the scene
+    std::optional<shared::Camera> camera; ///< none: the scene's camera, or fit the scene
+    std::optional<uint32_t> scene_camera; ///< index of a camera of the pack
     float error_pixels = 1;
     uint32_t view = 0; ///< shared::kView*
     uint32_t samples = 1;
