@@ -24,12 +24,12 @@ std::string shortened(const std::string& uri)
     return uri.size() <= kMax ? uri : uri.substr(0, kMax) + "...";
 }
 
-/// Whether anything is read from each buffer: one that is only a fallback for compressed views may be absent.
+/// Which buffers must be there: one that only stands behind compressed views, as their fallback, may be absent.
 std::vector<bool> findNeeded(const GltfModel& model)
 {
     std::vector<bool> needed(model.buffers.size());
     for (size_t i = 0; i < model.buffers.size(); ++i)
-        needed[i] = !model.buffers[i].fallback;
+        needed[i] = model.buffers[i].uri && !model.buffers[i].fallback;
     for (const GltfBufferView& view : model.buffer_views)
         needed[view.meshopt ? view.meshopt->buffer : view.buffer] = true;
     return needed;

@@ -91,6 +91,7 @@ public:
 
 private:
     Status checkFormat(const GltfAttribute& attribute, std::span<const AttributeFormat> formats) const;
+    Status checkCount(uint32_t accessor, std::string_view semantic) const;
     Result<std::vector<float>> values(std::string_view semantic);
     template <typename T>
     Result<std::vector<T>> vectors(std::string_view semantic);
@@ -162,11 +163,20 @@ Status VertexReader::decodeCompressed(const GltfModel& model, const GltfBuffers&
     }
     HEARTH_ASSIGN_OR_RETURN(DracoMesh mesh, decodeDraco(buffers.view(primitive_.draco->buffer_view), wanted,
                                                         context.file, where));
-    const uint64_t declared = model.accessors[findAttribute(primitive_.attributes, "POSITION")].count;
-    if (mesh.vertex_count != declared)
-        return context.error(
-            Issue::gltf_data, where,
-            fmt::format("{} vertices were compressed, the accessors say {}", mesh.vertex_count, declared));
+    const auto is_compressed = [&](const std::string& semantic)
+    { return std::find(semantics.begin(), semantics.end(), semantic) != semantics.end(); };
+    if (!is_compressed("POSITION"))
+        return context.error(Issue::gltf_value, where, "POSITION is not among the compressed attributes");
+    for (const GltfAttribute& attribute : primitive_.attributes)
+    {
+        const GltfAccessor& format = model.accessors[attribute.accessor];
+        const bool has_data = format.buffer_view != kNone || format.sparse.has_value();
+        if (!has_data && formatOf(attribute.semantic, kVertexFormats) != nullptr &&
+            !is_compressed(attribute.semantic))
+            return context.error(Issue::gltf_value, where, fmt::format("{} has no data", attribute.semantic));
+    }
+    if (mesh.vertex_count != model.accessors[findAttribute(primitive_.attributes, "POSITION")].count)
+        tally_.repaired("accessor counts that differ from the vertices that Draco decodes", where_);
     for (size_t i = 0; i < semantics.size(); ++i)
         decompressed_.emplace(semantics[i], std::move(mesh.attributes[i]));
     result.draco_indices = std::move(mesh.indices);
@@ -178,7 +188,20 @@ Result<std::vector<float>> VertexReader::values(std::string_view semantic)
     const auto found = decompressed_.find(semantic);
     if (found != decompressed_.end())
         return std::move(found->second);
-    return accessors_.floats(findAttribute(primitive_.attributes, semantic));
+    const uint32_t index = findAttribute(primitive_.attributes, semantic);
+    HEARTH_TRY(checkCount(index, semantic));
+    return accessors_.floats(index);
+}
+
+/// The counts of accessors agree with each other, but perhaps not with what Draco decodes.
+Status VertexReader::checkCount(uint32_t accessor, std::string_view semantic) const
+{
+    const uint64_t count = accessors_.accessor(accessor).count;
+    if (semantic == "POSITION" || count == result.mesh.vertexCount())
+        return success();
+    return accessors_.error(accessor, Issue::gltf_data,
+                            fmt::format("{} has {} elements, but there are {} vertices", semantic, count,
+                                        result.mesh.vertexCount()));
 }
 
 template <typename T>
@@ -332,6 +355,8 @@ Result<std::vector<Float3>> VertexReader::deltas(const GltfAttributes& target, s
     const uint32_t index = findAttribute(target, semantic);
     if (index == kNone)
         return std::vector<Float3>{};
+    // target and base may both be called POSITION, but only the base sets the count
+    HEARTH_TRY(checkCount(index, "target"));
     HEARTH_ASSIGN_OR_RETURN(const std::vector<float> floats, accessors_.floats(index));
     std::vector<Float3> vectors = asVectors<Float3>(floats);
     const auto bad = std::find_if_not(vectors.begin(), vectors.end(), isPosition);
