@@ -33,6 +33,10 @@ constexpr size_t kMaxPoints = 28;
 // Facets within this part of a triangle's size are looked at first.
 constexpr float kTouching = 0.1f;
 
+// The first try with a few likely facets ends early; it serves for four triangles of five.
+constexpr size_t kQuickPoints = 9;
+constexpr size_t kMaxLikely = 2 * kLanes;
+
 // A triangle is searched in at most so many parts before its bound is taken as it is.
 constexpr size_t kMaxParts = 64;
 
@@ -100,7 +104,8 @@ public:
     /// refinement of both surfaces.
     ///
     /// blocks    all facets that are within `radius` of the piece, and perhaps others
-    Bound bound(const Corners& piece, std::span<const FacetBlock> blocks, float allowed2, float radius)
+    Bound bound(const Corners& piece, std::span<const FacetBlock> blocks, float allowed2, float radius,
+                size_t max_points = kMaxPoints)
     {
         blocks_ = blocks;
         allowed2_ = allowed2;
@@ -115,7 +120,7 @@ public:
         {
             const Part part = stack_[--stack_size];
             const float best2 = common(part);
-            if (best2 <= std::max(tolerance2(), upper2) || point_count_ == kMaxPoints)
+            if (best2 <= std::max(tolerance2(), upper2) || point_count_ >= max_points)
             {
                 upper2 = std::max(upper2, best2);
                 continue;
@@ -344,10 +349,22 @@ public:
     uint64_t loosePieces() const { return loose_pieces_; }
 
     /// Raise the bound until it holds for the triangle.
-    void add(const Corners& triangle, FacetGrid& grid)
+    /// likely  facets that probably lie beside it: if they bound it well enough, no others are searched
+    void add(const Corners& triangle, FacetGrid& grid, std::span<const uint32_t> likely)
     {
         const float size = sizeOf(triangle);
         const float floor2 = size * size * kFinest2;
+        if (!likely.empty())
+        {
+            candidates_.load(grid, likely);
+            const float allowed2 = std::max({worst2_, sure2_ * kSlack2, floor2});
+            const Bound bound = bounder_.bound(triangle, candidates_.blocks(), allowed2, 0, kQuickPoints);
+            if (bound.closed)
+            {
+                worst2_ = std::max(worst2_, bound.upper2);
+                return;
+            }
+        }
         stack_.assign(1, triangle);
         for (size_t parts = 1; !stack_.empty(); ++parts)
         {
@@ -424,47 +441,113 @@ std::vector<Float3> placesOf(const GroupMesh& group, std::span<const uint32_t> c
     return places;
 }
 
-/// Marks the triangles that are the same before and after.
-struct Changes
+/// The triangles around each position.
+class Stars
 {
-    std::vector<uint8_t> before;
-    std::vector<uint8_t> after;
+public:
+    Stars(const GroupMesh& group, std::span<const uint32_t> corners) : offsets_(group.positions.size() + 1, 0)
+    {
+        for (const uint32_t wedge : corners)
+            ++offsets_[group.position_of_wedge[wedge] + 1];
+        for (size_t i = 1; i < offsets_.size(); ++i)
+            offsets_[i] += offsets_[i - 1];
+        items_.resize(corners.size());
+        std::vector<uint32_t> next(offsets_.begin(), offsets_.end() - 1);
+        for (size_t corner = 0; corner < corners.size(); ++corner)
+            items_[next[group.position_of_wedge[corners[corner]]]++] = static_cast<uint32_t>(corner / 3);
+    }
+
+    std::span<const uint32_t> of(uint32_t position) const
+    {
+        return std::span(items_).subspan(offsets_[position], offsets_[position + 1] - offsets_[position]);
+    }
+
+private:
+    std::vector<uint32_t> offsets_;
+    std::vector<uint32_t> items_;
 };
 
-Changes findChanges(const GroupMesh& group, const Simplified& simplified)
+void addLikely(std::span<const uint32_t> star, std::vector<uint32_t>& likely)
 {
-    Changes changes{std::vector<uint8_t>(group.triangleCount(), 1),
-                    std::vector<uint8_t>(simplified.triangleCount(), 1)};
-    for (size_t t = 0; t < changes.after.size(); ++t)
-    {
-        const size_t source = simplified.source_triangle[t];
-        bool same = true;
-        for (size_t k = 0; k < 3; ++k)
-            same &= group.positionAt(source * 3 + k) == group.position_of_wedge[simplified.corners[t * 3 + k]];
-        if (same)
-            changes.before[source] = changes.after[t] = 0;
-    }
-    return changes;
+    for (const uint32_t triangle : star)
+        if (likely.size() < kMaxLikely && std::find(likely.begin(), likely.end(), triangle) == likely.end())
+            likely.push_back(triangle);
 }
+
+/// Bound the triangles from before that are gone or changed, and those that are new. What a collapse moved lies
+/// beside the star of the position that it moved to, and the new star beside that of the position that moved.
+class GroupMeasure
+{
+public:
+    GroupMeasure(const GroupMesh& group, const Simplified& simplified)
+        : group_(group), simplified_(simplified), before_(placesOf(group, group.corners)),
+          after_(placesOf(group, simplified.corners)), before_grid_(before_), after_grid_(after_),
+          before_stars_(group, group.corners), after_stars_(group, simplified.corners)
+    {
+    }
+
+    Deviation run()
+    {
+        std::vector<uint8_t> unchanged(group_.triangleCount(), 0);
+        for (size_t t = 0; t < simplified_.triangleCount(); ++t)
+            unchanged[simplified_.source_triangle[t]] = movedCorner(simplified_.source_triangle[t]) ? 0 : 1;
+        for (size_t t = 0; t < unchanged.size(); ++t)
+            if (unchanged[t] == 0)
+                addBefore(t);
+        for (size_t t = 0; t < simplified_.triangleCount(); ++t)
+            if (unchanged[simplified_.source_triangle[t]] == 0)
+                addAfter(t);
+        return {static_cast<double>(std::sqrt(measure_.worst2())) + kRounding, measure_.loosePieces()};
+    }
+
+private:
+    uint32_t targetOf(size_t corner) const { return simplified_.target_of_position[group_.positionAt(corner)]; }
+
+    bool movedCorner(size_t triangle) const
+    {
+        for (size_t k = 0; k < 3; ++k)
+            if (targetOf(triangle * 3 + k) != group_.positionAt(triangle * 3 + k))
+                return true;
+        return false;
+    }
+
+    void addBefore(size_t t)
+    {
+        likely_.clear();
+        for (size_t corner = t * 3; corner < t * 3 + 3; ++corner)
+            if (const uint32_t target = targetOf(corner); target != kPruned && target != group_.positionAt(corner))
+                addLikely(after_stars_.of(target), likely_);
+        measure_.add({before_[t * 3], before_[t * 3 + 1], before_[t * 3 + 2]}, after_grid_, likely_);
+    }
+
+    void addAfter(size_t t)
+    {
+        likely_.clear();
+        const size_t source = simplified_.source_triangle[t];
+        for (size_t corner = source * 3; corner < source * 3 + 3; ++corner)
+            if (targetOf(corner) != group_.positionAt(corner))
+                addLikely(before_stars_.of(group_.positionAt(corner)), likely_);
+        measure_.add({after_[t * 3], after_[t * 3 + 1], after_[t * 3 + 2]}, before_grid_, likely_);
+    }
+
+    const GroupMesh& group_;
+    const Simplified& simplified_;
+    std::vector<Float3> before_;
+    std::vector<Float3> after_;
+    FacetGrid before_grid_;
+    FacetGrid after_grid_;
+    Stars before_stars_;
+    Stars after_stars_;
+    std::vector<uint32_t> likely_;
+    Measure measure_;
+};
 
 } // namespace
 
 Deviation boundDeviation(const GroupMesh& group, const Simplified& simplified)
 {
     HEARTH_ASSERT(simplified.triangleCount() > 0);
-    const std::vector<Float3> before = placesOf(group, group.corners);
-    const std::vector<Float3> after = placesOf(group, simplified.corners);
-    const Changes changes = findChanges(group, simplified);
-    FacetGrid before_grid(before);
-    FacetGrid after_grid(after);
-    Measure measure;
-    for (size_t t = 0; t < changes.before.size(); ++t)
-        if (changes.before[t] != 0)
-            measure.add({before[t * 3], before[t * 3 + 1], before[t * 3 + 2]}, after_grid);
-    for (size_t t = 0; t < changes.after.size(); ++t)
-        if (changes.after[t] != 0)
-            measure.add({after[t * 3], after[t * 3 + 1], after[t * 3 + 2]}, before_grid);
-    return {static_cast<double>(std::sqrt(measure.worst2())) + kRounding, measure.loosePieces()};
+    return GroupMeasure(group, simplified).run();
 }
 
 } // namespace hearth::clusters

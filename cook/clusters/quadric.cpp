@@ -1,25 +1,11 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/clusters/quadric.h"
 
-#include <algorithm>
-
 namespace hearth::clusters
 {
 
 namespace
 {
-
-// An open border may only move along itself; this weight against the planes of the surface keeps its shape. Seams are
-// kept less strictly: the surface on their other side holds them too. (Both as in meshoptimizer, found by trial there.)
-constexpr float kBorderWeight = 10.0f;
-constexpr float kSeamWeight = 1.0f;
-
-/// A directed edge of a triangle between wedges, sortable by the positions of its ends.
-struct HalfEdge
-{
-    uint64_t key; ///< smaller position in the high half, larger in the low
-    uint32_t corner;
-};
 
 /// Gradient of a function on a triangle with the given differences along its two edges from corner 0.
 struct GradientBasis
@@ -57,8 +43,8 @@ void addTriangle(Quadrics& quadrics, const GroupMesh& group, size_t first_corner
         return;
     // a third of the area to each corner
     const float weight = twice_area / 6.0f;
-    for (const uint32_t p : position)
-        quadrics.position[p].addPlane(normal / twice_area, weight);
+    PositionQuadric quadric;
+    quadric.addPlane(normal / twice_area, weight);
 
     const GradientBasis basis = gradientBasis(e1, e2);
     const uint32_t count = group.attribute_count;
@@ -68,70 +54,15 @@ void addTriangle(Quadrics& quadrics, const GroupMesh& group, size_t first_corner
         const float s1 = group.attributes[wedge[1] * count + i];
         const float s2 = group.attributes[wedge[2] * count + i];
         const Float3 gradient = basis.of_e1 * (s1 - s0) + basis.of_e2 * (s2 - s0);
-        for (size_t k = 0; k < 3; ++k)
-        {
-            quadrics.position[position[k]].addOuterProduct(gradient, weight);
-            quadrics.gradients[wedge[k] * count + i].gradient += gradient * weight;
-        }
+        quadric.addPlane(gradient, weight);
+        for (const uint32_t w : wedge)
+            quadrics.gradients[w * count + i].gradient += gradient * weight;
     }
-    for (const uint32_t w : wedge)
-        quadrics.wedge_weight[w] += weight;
-}
-
-/// The plane through an edge that stands upright on its triangle holds the edge in place.
-void addEdgePlane(Quadrics& quadrics, const GroupMesh& group, uint32_t corner, float factor)
-{
-    const uint32_t first = corner - corner % 3;
-    const uint32_t from = group.positionAt(corner);
-    const uint32_t to = group.positionAt(first + (corner + 1) % 3);
-    const uint32_t apex = group.positionAt(first + (corner + 2) % 3);
-    const Float3 edge = group.positions[to] - group.positions[from];
-    const Float3 side = group.positions[apex] - group.positions[from];
-    const float edge_length2 = dot(edge, edge);
-    if (!(edge_length2 > 0))
-        return;
-    const Float3 upright = side - edge * (dot(side, edge) / edge_length2);
-    const float height = length(upright);
-    if (!(height > 0))
-        return;
-    for (const uint32_t p : {from, to})
-        quadrics.position[p].addPlane(upright / height, factor * edge_length2);
-}
-
-uint64_t edgeKey(uint32_t a, uint32_t b)
-{
-    const auto [low, high] = std::minmax(a, b);
-    return uint64_t{low} << 32 | high;
-}
-
-/// Hold open borders, edges of more than two triangles, and seams.
-void addEdgePlanes(Quadrics& quadrics, const GroupMesh& group)
-{
-    std::vector<HalfEdge> edges;
-    edges.reserve(group.corners.size());
-    for (uint32_t corner = 0; corner < group.corners.size(); ++corner)
+    for (size_t k = 0; k < 3; ++k)
     {
-        const uint32_t next = corner - corner % 3 + (corner + 1) % 3;
-        edges.push_back({edgeKey(group.positionAt(corner), group.positionAt(next)), corner});
-    }
-    std::sort(edges.begin(), edges.end(),
-              [](const HalfEdge& a, const HalfEdge& b)
-              { return a.key != b.key ? a.key < b.key : a.corner < b.corner; });
-    const auto nextWedge = [&](uint32_t corner)
-    { return group.corners[corner - corner % 3 + (corner + 1) % 3]; };
-    for (size_t i = 0; i < edges.size();)
-    {
-        size_t end = i + 1;
-        while (end < edges.size() && edges[end].key == edges[i].key)
-            ++end;
-        const uint32_t a = edges[i].corner;
-        const uint32_t b = edges[end - 1].corner;
-        const bool regular = end - i == 2 && group.positionAt(a) != group.positionAt(b);
-        const bool smooth = regular && group.corners[a] == nextWedge(b) && group.corners[b] == nextWedge(a);
-        if (!smooth)
-            for (size_t k = i; k < end; ++k)
-                addEdgePlane(quadrics, group, edges[k].corner, regular ? kSeamWeight : kBorderWeight);
-        i = end;
+        quadrics.wedge_weight[wedge[k]] += weight;
+        if (group.locked[position[k]] == 0)
+            quadrics.position[position[k]].add(quadric);
     }
 }
 
@@ -145,8 +76,20 @@ Quadrics initialQuadrics(const GroupMesh& group)
     quadrics.gradients.resize(group.vertex_of_wedge.size() * group.attribute_count);
     for (size_t corner = 0; corner < group.corners.size(); corner += 3)
         addTriangle(quadrics, group, corner);
-    addEdgePlanes(quadrics, group);
     return quadrics;
+}
+
+PositionQuadric edgeQuadric(Float3 along, Float3 side, float factor)
+{
+    PositionQuadric quadric;
+    const float length2 = dot(along, along);
+    if (!(length2 > 0))
+        return quadric;
+    const Float3 upright = side - along * (dot(side, along) / length2);
+    const float height = length(upright);
+    if (height > 0)
+        quadric.addPlane(upright / height, factor * length2);
+    return quadric;
 }
 
 } // namespace hearth::clusters

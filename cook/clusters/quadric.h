@@ -29,7 +29,18 @@ struct PositionQuadric
         a12 += n.y * unit_normal.z;
     }
 
-    void addOuterProduct(Float3 g, float weight) { addPlane(g, weight); }
+    /// Add one of the same vertex.
+    void add(const PositionQuadric& other)
+    {
+        a00 += other.a00;
+        a11 += other.a11;
+        a22 += other.a22;
+        a01 += other.a01;
+        a02 += other.a02;
+        a12 += other.a12;
+        b += other.b;
+        c += other.c;
+    }
 
     Float3 timesA(Float3 x) const
     {
@@ -70,6 +81,16 @@ struct Quadrics
     std::vector<AttributeGradient> gradients;
 };
 
+/// The planes and attributes of all triangles; what locked positions have is never asked for and left out.
 Quadrics initialQuadrics(const GroupMesh& group);
+
+/// What holds an edge in place: the plane through it that stands upright on a triangle beside it.
+/// along  from one end of the edge to the other;  side: from there to the triangle's third corner
+PositionQuadric edgeQuadric(Float3 along, Float3 side, float factor);
+
+// An open border may only move along itself; this weight against the planes of the surface keeps its shape. Seams are
+// kept less strictly: the surface on their other side holds them too. (Both as in meshoptimizer, found by trial there.)
+inline constexpr float kBorderWeight = 10.0f;
+inline constexpr float kSeamWeight = 1.0f;
 
 } // namespace hearth::clusters
