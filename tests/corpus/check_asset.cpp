@@ -109,11 +109,6 @@ void addEndFaults(std::vector<std::string>& faults, const ProcessEnd& end, const
         faults.push_back("leaves processes running");
 }
 
-bool isControlCharacter(char c)
-{
-    return (static_cast<unsigned char>(c) < 0x20 && c != '\n' && c != '\t') || c == 0x7F;
-}
-
 void addStreamFaults(std::vector<std::string>& faults, const Workplace& place, const std::string& messages)
 {
     if (fs::file_size(place.stdout_file) != 0)

@@ -246,6 +246,35 @@ TEST_F(CheckAsset, drawsWhatMustLoad)
     EXPECT_THAT(faults(kGoodCook, "must-not-crash"), IsEmpty());
 }
 
+TEST_F(CheckAsset, readsTheManifest)
+{
+    std::ofstream(root_ + "/manifest.json") << R"({
+        "good": [{"file": "good/a.glb", "bytes": 9, "files": [], "stratum": "draco", "expected": "must-load",
+                  "counts": {"triangles": 12, "mode": "RGB", "channels": []}}],
+        "bad": [{"file": "bad/b.glb", "bytes": 9, "files": [{}], "category": "gen-uri", "expected": "must-reject",
+                 "confidence": "high", "limits": {"seconds": 10, "rss_mb": 1024}}]})";
+    const Result<std::vector<Asset>> assets = readManifest(root_);
+    ASSERT_TRUE(assets.ok()) << assets.error().detail;
+    ASSERT_THAT(*assets, SizeIs(2));
+    const Asset& good = (*assets)[0];
+    EXPECT_TRUE(good.expected->mustLoad() && good.self_contained && good.confidence == Confidence::good);
+    EXPECT_THAT(good.counts, ElementsAre(std::pair<const std::string, uint64_t>("triangles", 12)));
+    const Asset& bad = (*assets)[1];
+    EXPECT_EQ(bad.folder, root_ + "/bad");
+    EXPECT_EQ(bad.category, "gen-uri");
+    EXPECT_FALSE(bad.expected->may_load || bad.self_contained);
+    EXPECT_EQ(bad.confidence, Confidence::high);
+    EXPECT_EQ(bad.limits.rss_bytes, uint64_t{1} << 30);
+}
+
+TEST_F(CheckAsset, refusesAManifestWithAClassThatItDoesNotKnow)
+{
+    std::ofstream(root_ + "/manifest.json")
+        << R"({"good": [{"file": "a.glb", "bytes": 9, "files": [], "stratum": "x", "expected": "may-hope"}], "bad": []})";
+    EXPECT_FALSE(readManifest(root_).ok());
+    EXPECT_FALSE(readManifest(root_ + "/nowhere").ok());
+}
+
 class Judge : public testing::Test
 {
 protected:

@@ -43,7 +43,8 @@ Limits limitsOf(const Json& entry)
 std::map<std::string, uint64_t> countsOf(const Json& entry)
 {
     std::map<std::string, uint64_t> counts;
-    for (const auto& [name, value] : entry.value("counts", Json::object()).items())
+    const Json all = entry.value("counts", Json::object());
+    for (const auto& [name, value] : all.items())
         if (value.is_number_unsigned())
             counts[name] = value.get<uint64_t>();
     return counts;

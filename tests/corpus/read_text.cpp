@@ -20,6 +20,11 @@ std::string readText(const std::string& path, size_t max_size)
     return text;
 }
 
+bool isControlCharacter(char c)
+{
+    return (static_cast<unsigned char>(c) < 0x20 && c != '\n' && c != '\t') || c == 0x7F;
+}
+
 std::vector<std::string> linesOf(const std::string& text)
 {
     std::vector<std::string> lines;

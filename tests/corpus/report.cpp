@@ -13,7 +13,7 @@ namespace hearth::corpus
 namespace
 {
 
-constexpr size_t kReportedLines = 4;
+constexpr size_t kReportedLines = 3;
 constexpr size_t kReportedSlowest = 10;
 
 const char* className(const Checked& checked)
@@ -25,6 +25,36 @@ void printHead(const char* what, const Checked& checked)
 {
     std::printf("%s %s  (%s, %s)\n", what, checked.asset->file.c_str(), className(checked),
                 confidenceName(checked.asset->confidence));
+}
+
+/// What the programs print comes from the asset: here it is made harmless to a terminal.
+std::string printable(const std::string& text)
+{
+    std::string result;
+    for (const char c : text)
+    {
+        char escape[8];
+        std::snprintf(escape, sizeof(escape), "\\x%02x",
+                      static_cast<unsigned>(static_cast<unsigned char>(c)));
+        result += isControlCharacter(c) ? escape : std::string(1, c);
+    }
+    return result;
+}
+
+/// The lines that tell most: errors before warnings before the rest.
+std::vector<std::string> tellingLines(const std::string& messages)
+{
+    std::vector<std::string> lines = linesOf(messages);
+    const auto rank = [](const std::string& line)
+    {
+        if (line.find(": error:") != std::string::npos)
+            return 0;
+        return line.find(": warning:") != std::string::npos ? 1 : 2;
+    };
+    std::stable_sort(lines.begin(), lines.end(),
+                     [&](const std::string& a, const std::string& b) { return rank(a) < rank(b); });
+    lines.resize(std::min(lines.size(), kReportedLines));
+    return lines;
 }
 
 long countOf(std::span<const Checked> all, const AssetClass& expected, Confidence confidence, Verdict verdict)
@@ -48,10 +78,8 @@ void printFailures(std::span<const Checked> all)
         printHead("FAILED", checked);
         for (const std::string& fault : checked.finding.faults)
             std::printf("    %s\n", fault.c_str());
-        std::vector<std::string> lines = linesOf(checked.finding.messages);
-        lines.resize(std::min(lines.size(), kReportedLines));
-        for (const std::string& line : lines)
-            std::printf("    | %s\n", line.c_str());
+        for (const std::string& line : tellingLines(checked.finding.messages))
+            std::printf("    | %s\n", printable(line).c_str());
     }
 }
 
