@@ -51,7 +51,8 @@ TEST(FormatDocument, hasNoTableOfAnUnknownName)
 TEST(WithFreshTables, replacesWhatStandsInTheBlocks)
 {
     const std::string fresh = withFreshTables("a\n<!-- table Range -->\nstale\n<!-- end -->\nb\n");
-    EXPECT_EQ(fresh, "a\n<!-- table Range -->\n" + *formatTable("Range") + "<!-- end -->\nb\n");
+    EXPECT_EQ(fresh,
+              "a\n<!-- table Range -->\n" + formatTable("Range").value_or("none") + "<!-- end -->\nb\n");
     EXPECT_NE(fresh.find("| 4 | 4 | count | u32 | number of records |"), std::string::npos) << fresh;
     EXPECT_EQ(withFreshTables("no block <!-- table Range -->\n"), "no block <!-- table Range -->\n");
 }
