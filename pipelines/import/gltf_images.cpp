@@ -2,6 +2,7 @@
 #include "pipelines/import/gltf_images.h"
 
 #include "pipelines/import/gltf_uri.h"
+#include "pipelines/import/image_placeholder.h"
 
 #include <fmt/format.h>
 
@@ -13,34 +14,19 @@ using namespace formats;
 namespace
 {
 
-using Texel = std::array<uint8_t, 4>;
+constexpr std::array<uint8_t, 4> kWhite{255, 255, 255, 255};
+constexpr std::array<uint8_t, 4> kFlatNormal{128, 128, 255, 255};
 
-constexpr Texel kMagenta{255, 0, 255, 255};
-constexpr Texel kBlack{0, 0, 0, 255};
-constexpr Texel kWhite{255, 255, 255, 255};
-constexpr Texel kFlatNormal{128, 128, 255, 255};
-
-/// Magenta and black squares for a colour, which nobody overlooks; for data and normals the value that changes
-/// nothing, so that only one thing looks wrong.
+/// For a colour what nobody overlooks; for data and normals the value that changes nothing, so that one thing
+/// alone looks wrong.
 DecodedImage placeholder(ImagePurpose purpose)
 {
-    constexpr uint32_t kSize = 64;
-    constexpr uint32_t kSquare = 8;
-    DecodedImage image;
-    image.width = kSize;
-    image.height = kSize;
-    image.texels.reserve(size_t{kSize} * kSize * 4);
-    for (uint32_t y = 0; y < kSize; ++y)
-        for (uint32_t x = 0; x < kSize; ++x)
-        {
-            const bool odd = (x / kSquare + y / kSquare) % 2 != 0;
-            const Texel texel = purpose == ImagePurpose::normal ? kFlatNormal
-                                : purpose == ImagePurpose::data ? kWhite
-                                : odd                           ? kBlack
-                                                                : kMagenta;
-            for (const uint8_t value : texel)
-                image.texels.push_back(std::byte{value});
-        }
+    DecodedImage image = placeholderImage();
+    if (purpose == ImagePurpose::color)
+        return image;
+    const auto& texel = purpose == ImagePurpose::normal ? kFlatNormal : kWhite;
+    for (size_t i = 0; i < image.texels.size(); ++i)
+        image.texels[i] = std::byte{texel[i % 4]};
     return image;
 }
 

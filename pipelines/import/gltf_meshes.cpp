@@ -56,6 +56,14 @@ void applyMorphWeights(mesh::SourceMesh& mesh, std::span<const float> weights)
     }
 }
 
+/// A target that moves nothing has its number too, which a part would lose with its last array.
+void keepEmptyTargets(mesh::SourceMesh& mesh)
+{
+    for (mesh::MorphTarget& target : mesh.morph_targets)
+        if (target.positions.empty() && target.normals.empty() && target.tangents.empty())
+            target.positions.resize(mesh.vertexCount());
+}
+
 } // namespace
 
 Result<mesh::SourceMesh> GltfMeshReader::read(uint32_t mesh_index, std::span<const float> rest_weights)
@@ -85,6 +93,7 @@ Result<mesh::SourceMesh> GltfMeshReader::read(uint32_t mesh_index, std::span<con
         parts.push_back(std::move(piece.vertices.mesh));
     }
     mesh::SourceMesh result = mergedPieces(std::move(parts));
+    keepEmptyTargets(result);
     result.name = mesh.name;
     result.face_count = static_cast<uint32_t>(result.triangleCount());
     result.source_vertex_count = static_cast<uint32_t>(sourceVertexCount(mesh));
