@@ -92,7 +92,8 @@ public:
 private:
     Error failure(std::string detail) const
     {
-        return {Issue::mesh_syntax, path_, "line " + std::to_string(std::max<size_t>(line_, 1)), std::move(detail)};
+        return {Issue::mesh_syntax, path_, "line " + std::to_string(std::max<size_t>(line_, 1)),
+                std::move(detail)};
     }
 
     static std::string_view trimmed(std::string_view text)
