@@ -118,6 +118,9 @@ public:
         stack_[stack_size++] = {addPoint(piece[0], {0, 0}), addPoint(piece[1], {1, 0}), addPoint(piece[2], {0, 1})};
         while (stack_size > 0)
         {
+            // a true distance beyond what these facets can prove ends the search among them
+            if (lower2_ > std::max(allowed2, radius2_ * kSlack2))
+                return {kInfinity, lower2_, std::min(lower2_, radius2_), false};
             const Part part = stack_[--stack_size];
             const float best2 = common(part);
             if (best2 <= std::max(tolerance2(), upper2) || point_count_ >= max_points)
@@ -354,29 +357,31 @@ public:
     {
         const float size = sizeOf(triangle);
         const float floor2 = size * size * kFinest2;
+        float found2 = 0;
         if (!likely.empty())
         {
             candidates_.load(grid, likely);
-            const float allowed2 = std::max({worst2_, sure2_ * kSlack2, floor2});
-            const Bound bound = bounder_.bound(triangle, candidates_.blocks(), allowed2, 0, kQuickPoints);
+            const Bound bound = bounder_.bound(triangle, candidates_.blocks(), allowed2(floor2), 0, kQuickPoints);
             if (bound.closed)
             {
                 worst2_ = std::max(worst2_, bound.upper2);
                 return;
             }
+            found2 = bound.found2;
         }
         stack_.assign(1, triangle);
         for (size_t parts = 1; !stack_.empty(); ++parts)
         {
             const Corners piece = stack_.back();
             stack_.pop_back();
-            const float allowed2 = std::max({worst2_, sure2_ * kSlack2, floor2});
             // the facets that touch the piece do for most; the rest needs all that could be the nearest
-            const float near = std::min(std::sqrt(allowed2), size * kTouching);
-            Bound bound = boundPiece(piece, grid, allowed2, near);
+            Bound bound{kInfinity, found2, 0, false};
+            if (found2 <= allowed2(floor2))
+                bound = boundPiece(piece, grid, allowed2(floor2), size * kTouching);
             if (!bound.closed)
-                bound = boundPiece(piece, grid, allowed2, std::sqrt(bound.found2) * 1.01f);
+                bound = boundPiece(piece, grid, allowed2(floor2), std::sqrt(bound.found2) * 1.01f);
             sure2_ = std::max(sure2_, bound.sure2);
+            found2 = 0;
             if (!bound.closed && parts < kMaxParts)
             {
                 const auto [first, second] = halve(piece);
@@ -384,12 +389,19 @@ public:
                 stack_.push_back(second);
                 continue;
             }
-            loose_pieces_ += bound.closed ? 0u : 1u;
+            if (!bound.closed)
+            {
+                ++loose_pieces_;
+                bound = boundPiece(piece, grid, kInfinity, std::sqrt(bound.found2));
+            }
             worst2_ = std::max(worst2_, bound.upper2);
         }
     }
 
 private:
+    /// What need not be searched for: as far as any found so far, or 10 % more than what is sure.
+    float allowed2(float floor2) const { return std::max({worst2_, sure2_ * kSlack2, floor2}); }
+
     /// Bound the distance to the facets within `radius`; if there are none, to those within a larger one. Where there
     /// are more than fit, those with the nearest centers serve.
     Bound boundPiece(const Corners& piece, FacetGrid& grid, float allowed2, float radius)

@@ -7,11 +7,12 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 
 namespace hearth::clusters
 {
 
-/// A triangle with what the distance to it needs.
+/// A triangle with what the distance to it needs: 16 numbers, four rows of four.
 struct Facet
 {
     Float3 a;
@@ -107,30 +108,43 @@ struct FacetBlock
     }
 };
 
-template <typename Member>
-Lanes gatherLanes(const std::array<const Facet*, kLanes>& f, Member member)
+/// Row r of the four facets' numbers: four numbers of each.
+struct FacetRow
 {
-    return Lanes{member(*f[0]), member(*f[1]), member(*f[2]), member(*f[3])};
+    Lanes of[kLanes];
+};
+
+/// From numbers facet by facet to facets number by number.
+inline FacetRow transpose(const std::array<const Facet*, kLanes>& facets, size_t row)
+{
+    Lanes r[kLanes];
+    for (size_t i = 0; i < kLanes; ++i)
+        std::memcpy(&r[i], reinterpret_cast<const float*>(facets[i]) + row * kLanes, sizeof(Lanes));
+    const Lanes low01 = __builtin_shufflevector(r[0], r[1], 0, 4, 1, 5);
+    const Lanes high01 = __builtin_shufflevector(r[0], r[1], 2, 6, 3, 7);
+    const Lanes low23 = __builtin_shufflevector(r[2], r[3], 0, 4, 1, 5);
+    const Lanes high23 = __builtin_shufflevector(r[2], r[3], 2, 6, 3, 7);
+    return {{__builtin_shufflevector(low01, low23, 0, 1, 4, 5), __builtin_shufflevector(low01, low23, 2, 3, 6, 7),
+             __builtin_shufflevector(high01, high23, 0, 1, 4, 5), __builtin_shufflevector(high01, high23, 2, 3, 6, 7)}};
 }
 
-inline FacetBlock makeBlock(const std::array<const Facet*, kLanes>& f)
+inline FacetBlock makeBlock(const std::array<const Facet*, kLanes>& facets)
 {
-    const auto vector = [&](auto part)
-    {
-        return LaneVector{gatherLanes(f, [&](const Facet& facet) { return part(facet).x; }),
-                          gatherLanes(f, [&](const Facet& facet) { return part(facet).y; }),
-                          gatherLanes(f, [&](const Facet& facet) { return part(facet).z; })};
-    };
-    return {vector([](const Facet& facet) { return facet.a; }),
-            vector([](const Facet& facet) { return facet.ab; }),
-            vector([](const Facet& facet) { return facet.ac; }),
-            gatherLanes(f, [](const Facet& facet) { return facet.ab_ab; }),
-            gatherLanes(f, [](const Facet& facet) { return facet.ab_ac; }),
-            gatherLanes(f, [](const Facet& facet) { return facet.ac_ac; }),
-            gatherLanes(f, [](const Facet& facet) { return facet.inverse_det; }),
-            gatherLanes(f, [](const Facet& facet) { return facet.inverse_ab; }),
-            gatherLanes(f, [](const Facet& facet) { return facet.inverse_ac; }),
-            gatherLanes(f, [](const Facet& facet) { return facet.inverse_bc; })};
+    static_assert(sizeof(Facet) == 4 * sizeof(Lanes));
+    const FacetRow r0 = transpose(facets, 0);
+    const FacetRow r1 = transpose(facets, 1);
+    const FacetRow r2 = transpose(facets, 2);
+    const FacetRow r3 = transpose(facets, 3);
+    return {.a = {r0.of[0], r0.of[1], r0.of[2]},
+            .ab = {r0.of[3], r1.of[0], r1.of[1]},
+            .ac = {r1.of[2], r1.of[3], r2.of[0]},
+            .ab_ab = r2.of[1],
+            .ab_ac = r2.of[2],
+            .ac_ac = r2.of[3],
+            .inverse_det = r3.of[0],
+            .inverse_ab = r3.of[1],
+            .inverse_ac = r3.of[2],
+            .inverse_bc = r3.of[3]};
 }
 
 } // namespace hearth::clusters
