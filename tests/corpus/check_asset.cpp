@@ -21,7 +21,7 @@ using Json = nlohmann::json;
 // Looking at a pack that is there takes no limit of the asset's; this one finds a hang.
 constexpr Limits kLookLimits{120, uint64_t{4} << 30};
 
-constexpr size_t kReportedMessages = 2000;
+constexpr size_t kReportedLines = 3;
 constexpr size_t kMaxMessages = size_t{16} << 20;
 
 /// The folders and files of one check: the box is what the programs see, the rest stands beside it.
@@ -75,6 +75,42 @@ ProcessEnd cook(const Workplace& place, const Asset& asset, const Programs& prog
                {"LD_PRELOAD=" + library, std::string(kOpenLogVariable) + "=" + place.open_log,
                 // a program under AddressSanitizer refuses to start after a preloaded library otherwise
                 "ASAN_OPTIONS=verify_asan_link_order=0"});
+}
+
+// ---- messages
+
+bool isError(const std::string& line)
+{
+    return line.find(": error:") != std::string::npos;
+}
+
+std::vector<std::string> errorLines(const std::string& messages)
+{
+    std::vector<std::string> lines = linesOf(messages);
+    std::erase_if(lines, [](const std::string& line) { return !isError(line); });
+    return lines;
+}
+
+/// The lines that tell most: errors before warnings before the rest.
+std::vector<std::string> tellingLines(const std::string& messages)
+{
+    std::vector<std::string> lines = linesOf(messages);
+    const auto rank = [](const std::string& line)
+    {
+        if (isError(line))
+            return 0;
+        return line.find(": warning:") != std::string::npos ? 1 : 2;
+    };
+    std::stable_sort(lines.begin(), lines.end(),
+                     [&](const std::string& a, const std::string& b) { return rank(a) < rank(b); });
+    lines.resize(std::min(lines.size(), kReportedLines));
+    return lines;
+}
+
+std::string mostTellingLine(const std::string& messages)
+{
+    const std::vector<std::string> lines = tellingLines(messages);
+    return lines.empty() ? "" : lines.front();
 }
 
 // ---- faults that no asset excuses
@@ -137,15 +173,6 @@ void addLeftovers(std::vector<std::string>& faults, const Workplace& place)
             faults.push_back("leaves " + file + " behind");
 }
 
-std::vector<std::string> errorLines(const std::string& messages)
-{
-    std::vector<std::string> lines;
-    for (const std::string& line : linesOf(messages))
-        if (line.find(": error:") != std::string::npos)
-            lines.push_back(line);
-    return lines;
-}
-
 void addRejectionFaults(std::vector<std::string>& faults, const Workplace& place, const Asset& asset,
                         const std::string& messages)
 {
@@ -164,7 +191,7 @@ void addProgramFault(std::vector<std::string>& faults, const char* what, const P
     addEndFaults(faults, end, kLookLimits);
     if (end.signal == 0 && end.exit_code != 0)
         faults.push_back(std::string(what) + " exits with " + std::to_string(end.exit_code) + ": " +
-                         firstLine(readText(place.stderr_file, kReportedMessages)));
+                         mostTellingLine(readText(place.stderr_file, kMaxMessages)));
 }
 
 /// 0 where the pack does not say.
@@ -295,7 +322,7 @@ Finding checkAsset(const Asset& asset, const Programs& programs, const std::stri
 
     Finding finding;
     finding.exit_code = end.exit_code;
-    finding.messages = messages.substr(0, kReportedMessages);
+    finding.messages = tellingLines(messages);
     finding.cook_seconds = end.seconds;
     finding.peak_rss_bytes = end.peak_rss_bytes;
     addEndFaults(finding.faults, end, asset.limits);

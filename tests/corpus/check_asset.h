@@ -32,7 +32,7 @@ struct Finding
     Outcome outcome = Outcome::broken;
     std::vector<std::string> faults; ///< one sentence each; none where the class is met
     int exit_code = 0;
-    std::string messages; ///< what the cook wrote to stderr, its beginning
+    std::vector<std::string> messages; ///< the most telling lines that the cook wrote to stderr
     double cook_seconds = 0;
     double total_seconds = 0; ///< with verify, inspect and drawing
     uint64_t peak_rss_bytes = 0;

@@ -34,9 +34,4 @@ std::vector<std::string> linesOf(const std::string& text)
     return lines;
 }
 
-std::string firstLine(const std::string& text)
-{
-    return text.substr(0, text.find('\n'));
-}
-
 } // namespace hearth::corpus

@@ -15,6 +15,5 @@ std::string readText(const std::string& path, size_t max_size);
 bool isControlCharacter(char c);
 
 std::vector<std::string> linesOf(const std::string& text);
-std::string firstLine(const std::string& text);
 
 } // namespace hearth::corpus

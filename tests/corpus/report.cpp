@@ -13,7 +13,6 @@ namespace hearth::corpus
 namespace
 {
 
-constexpr size_t kReportedLines = 3;
 constexpr size_t kReportedSlowest = 10;
 
 const char* className(const Checked& checked)
@@ -41,22 +40,6 @@ std::string printable(const std::string& text)
     return result;
 }
 
-/// The lines that tell most: errors before warnings before the rest.
-std::vector<std::string> tellingLines(const std::string& messages)
-{
-    std::vector<std::string> lines = linesOf(messages);
-    const auto rank = [](const std::string& line)
-    {
-        if (line.find(": error:") != std::string::npos)
-            return 0;
-        return line.find(": warning:") != std::string::npos ? 1 : 2;
-    };
-    std::stable_sort(lines.begin(), lines.end(),
-                     [&](const std::string& a, const std::string& b) { return rank(a) < rank(b); });
-    lines.resize(std::min(lines.size(), kReportedLines));
-    return lines;
-}
-
 long countOf(std::span<const Checked> all, const AssetClass& expected, Confidence confidence, Verdict verdict)
 {
     return std::count_if(all.begin(), all.end(),
@@ -78,7 +61,7 @@ void printFailures(std::span<const Checked> all)
         printHead("FAILED", checked);
         for (const std::string& fault : checked.finding.faults)
             std::printf("    %s\n", fault.c_str());
-        for (const std::string& line : tellingLines(checked.finding.messages))
+        for (const std::string& line : checked.finding.messages)
             std::printf("    | %s\n", printable(line).c_str());
     }
 }
