@@ -167,6 +167,13 @@ double clampedDepth(const ScreenTriangle& t, const DepthPlane& plane, int64_t x,
     return std::clamp(plane.at(x, y), least, greatest);
 }
 
+/// A masked triangle at a pixel.
+struct MaskedFragment
+{
+    double depth;
+    uint32_t id;
+};
+
 class Canvas
 {
 public:
@@ -175,7 +182,6 @@ public:
           height_(height),
           nearest_(size_t{width} * height, 0.0),
           second_(nearest_),
-          foretold_(nearest_),
           ids_(nearest_.size(), kNothing),
           excused_(nearest_.size(), 0)
     {
@@ -204,7 +210,7 @@ public:
                       const double depth = plane.at(x, y);
                       if (t.only_excuses)
                       {
-                          foretold_[pixel] = std::max(foretold_[pixel], depth);
+                          masked_[pixel].push_back({depth, t.id});
                           return;
                       }
                       if (depth > nearest_[pixel])
@@ -226,29 +232,34 @@ public:
                   {
                       if (outlineDistance(t, x, y) <= kEdgeBand &&
                           clampedDepth(t, plane, x, y) >= nearest_[pixel] * (1 - kDepthBand))
-                          excused_[pixel] = 1;
+                          excused_[pixel] |= kExcuseEdge;
                   });
     }
 
     RasterImage finish()
     {
-        RasterImage image{width_, height_, std::move(ids_), {}, std::move(excused_)};
+        RasterImage image{width_, height_, std::move(ids_), {}, std::move(excused_), {}};
         image.depths.reserve(nearest_.size());
         for (size_t i = 0; i < nearest_.size(); ++i)
         {
             image.depths.push_back(static_cast<float>(nearest_[i]));
-            const bool tie = nearest_[i] > 0 && second_[i] >= nearest_[i] * (1 - kDepthBand);
-            const bool masked = foretold_[i] > 0 && foretold_[i] >= nearest_[i] * (1 - kDepthBand);
-            if (tie || masked)
-                image.excused[i] = 1;
+            if (nearest_[i] > 0 && second_[i] >= nearest_[i] * (1 - kDepthBand))
+                image.excused[i] |= kExcuseTie;
         }
+        for (const auto& [pixel, fragments] : masked_)
+            for (const MaskedFragment& fragment : fragments)
+                if (fragment.depth >= nearest_[pixel] * (1 - kDepthBand))
+                {
+                    image.excused[pixel] |= kExcuseMask;
+                    image.masked_ids[pixel].push_back(fragment.id);
+                }
         return image;
     }
 
 private:
     uint32_t width_, height_;
     std::vector<double> nearest_, second_;
-    std::vector<double> foretold_; ///< depth of the nearest masked triangle
+    std::map<size_t, std::vector<MaskedFragment>> masked_;
     std::vector<uint32_t> ids_;
     std::vector<uint8_t> excused_;
 };
