@@ -50,8 +50,8 @@ std::string formatMessage(const Error& error)
     if (!info.hint.empty())
         text += " hint: " + std::string(info.hint);
     // one message is one line, whatever a hostile file put into a name
-    std::replace_if(
-        text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20; }, ' ');
+    const auto is_control = [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; };
+    std::replace_if(text.begin(), text.end(), is_control, ' ');
     return text;
 }
 

@@ -151,6 +151,8 @@ Result<Curve> AnimationWriter::readCurve(const GltfAnimationSampler& sampler, An
     HEARTH_ASSIGN_OR_RETURN(curve.values, accessors_.floats(sampler.output));
     if (!allFinite(curve.times))
         return accessors_.error(sampler.input, Issue::gltf_data, "a time is not finite");
+    if (std::any_of(curve.times.begin(), curve.times.end(), [](float time) { return time < 0; }))
+        return accessors_.error(sampler.input, Issue::gltf_data, "a time is negative");
     if (!allFinite(curve.values))
         return accessors_.error(sampler.output, Issue::gltf_data, "an animated value is not finite");
     if (!keepIncreasing(curve))

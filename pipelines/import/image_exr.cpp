@@ -115,8 +115,6 @@ Result<DecodedImage> decode(const EncodedImage& source)
         return source.unsupported("EXR images without a channel R, G, B or Y are not read");
     HEARTH_ASSIGN_OR_RETURN(DecodedImage image,
                             allocateImage(source, display.width(), display.height(), true));
-    if (!file.isComplete())
-        return source.malformed("EXR: parts of the image are missing");
     if ((file.channels() & Imf::WRITE_A) == 0)
     {
         const uint16_t opaque[4] = {0, 0, 0, half(1.0f).bits()};
