@@ -156,10 +156,10 @@ Result<Curve> AnimationWriter::readCurve(const GltfAnimationSampler& sampler, An
     if (!allFinite(curve.values))
         return accessors_.error(sampler.output, Issue::gltf_data, "an animated value is not finite");
     if (!keepIncreasing(curve))
-        tally_.repaired("animation keys whose time does not grow", where_);
+        tally_.repaired("animation keys whose time does not grow were left out", where_);
     if (path == AnimationPath::rotation &&
         !normalizeRotations(curve.values, per_key == 3 ? 4 : 0, 4 * per_key))
-        tally_.repaired("animated rotations whose length is not 1", where_);
+        tally_.repaired("animated rotations whose length is not 1 were scaled", where_);
     return curve;
 }
 
@@ -194,7 +194,7 @@ Status AnimationWriter::writeChannel(const GltfAnimationChannel& channel)
         components = mesh == kNone ? 0 : morphTargetCount(model_.meshes[mesh]);
     if (components == 0)
     {
-        tally_.dropped("animation of morph weights of a node without morph targets", where_);
+        tally_.dropped("animation of morph weights without morph targets is not kept", where_);
         return success();
     }
     if (!model_.nodes[channel.node].has_trs && channel.path != AnimationPath::weights)

@@ -123,8 +123,9 @@ void GltfImages::reportUnused() const
 {
     for (uint32_t image = 0; image < model_.images.size(); ++image)
         if (!asked_for_.contains(image))
-            context_.part.warn(Issue::dropped, fmt::format("/images/{}", image),
-                               fmt::format("image \"{}\", which no material uses", nameOf(image)));
+            context_.part.warn(
+                Issue::dropped, fmt::format("/images/{}", image),
+                fmt::format("image \"{}\", which no material uses, is not kept", nameOf(image)));
 }
 
 } // namespace hearth::import

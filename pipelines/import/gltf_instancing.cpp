@@ -79,7 +79,7 @@ Result<std::vector<Transform>> readInstancing(const GltfNode& node, uint32_t ind
     {
         if (std::find(std::begin(kNames), std::end(kNames), attribute.semantic) == std::end(kNames))
         {
-            tally.dropped(fmt::format("instance attribute {}", attribute.semantic), where);
+            tally.dropped(fmt::format("instance attribute {} is not kept", attribute.semantic), where);
             continue;
         }
         count = count.value_or(accessors.accessor(attribute.accessor).count);

@@ -86,7 +86,7 @@ Result<TextureRef> MaterialWriter::reference(const GltfTextureUse& use, ImagePur
     if (use.uv_set >= mesh::kUvSetCount)
     {
         context_.part.warn(Issue::dropped, where_,
-                           fmt::format("{}: there is no UV set {}", name, use.uv_set));
+                           fmt::format("{} is not kept: there is no UV set {}", name, use.uv_set));
         return kNoTexture;
     }
     HEARTH_ASSIGN_OR_RETURN(const uint32_t image,

@@ -76,9 +76,9 @@ Result<mesh::SourceMesh> GltfMeshReader::read(uint32_t mesh_index, std::span<con
         const GltfPrimitive& primitive = mesh.primitives[i];
         const std::string where = fmt::format("/meshes/{}/primitives/{}", mesh_index, i);
         if (primitive.mode < PrimitiveMode::triangles)
-            tally_.dropped(fmt::format("primitive of {}", modeName(primitive.mode)), where);
+            tally_.dropped(fmt::format("primitive of {} is not kept", modeName(primitive.mode)), where);
         else if (findAttribute(primitive.attributes, "POSITION") == kNone)
-            tally_.dropped("primitive without POSITION", where);
+            tally_.dropped("primitive without POSITION is not kept", where);
         else
         {
             HEARTH_ASSIGN_OR_RETURN(const uint32_t piece, pieceOf(primitive, where));
@@ -167,7 +167,7 @@ Status GltfMeshReader::addTriangles(const GltfPrimitive& primitive, const std::s
     const std::vector<uint32_t> triangles = triangulated(std::move(indices), mode);
     const bool whole = mode == PrimitiveMode::triangles ? index_count % 3 == 0 : index_count >= 3;
     if (!whole)
-        tally_.dropped("indices that make no whole triangle", where);
+        tally_.dropped("indices that make no whole triangle are not kept", where);
 
     mesh::SourceMesh& mesh = piece.vertices.mesh;
     if (triangles.size() / 3 > context_.options.limits.max_triangles - mesh.triangleCount())
@@ -203,7 +203,7 @@ void GltfMeshReader::finishTangents(Piece& piece)
     if (material == mesh.triangle_materials.end())
     {
         if (!mesh.tangents.empty())
-            tally_.dropped("TANGENT that no normal texture uses", piece.where);
+            tally_.dropped("TANGENT that no normal texture uses is not kept", piece.where);
         mesh.tangents.clear();
         return;
     }

@@ -128,7 +128,7 @@ void checkExtensions(const GltfObject& root)
     collectExtensions(root.json(), names);
     for (const std::string& name : names)
         if (!isSupported(name))
-            root.problems().warn(Issue::dropped, root.json(), fmt::format("extension {}", name));
+            root.problems().warn(Issue::dropped, root.json(), fmt::format("extension {} is not kept", name));
 }
 
 } // namespace

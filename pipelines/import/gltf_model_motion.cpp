@@ -41,7 +41,8 @@ std::optional<GltfAnimationChannel> readChannel(const GltfObject& object, size_t
         std::find_if(std::begin(kPaths), std::end(kPaths), [&](const Choice& c) { return c.name == path; });
     if (known == std::end(kPaths))
     {
-        object.problems().warn(Issue::dropped, object.json(), fmt::format("animation of \"{}\"", path));
+        object.problems().warn(Issue::dropped, object.json(),
+                               fmt::format("animation of \"{}\" is not kept", path));
         return std::nullopt;
     }
     channel.path = static_cast<formats::AnimationPath>(known->value);

@@ -60,8 +60,9 @@ std::vector<bool> findDrawn(const GltfModel& model, const GltfContext& context)
     }
     const uint32_t scene = model.scene == kNone ? 0 : model.scene;
     if (model.scenes.size() > 1)
-        context.part.warn(Issue::dropped, "/scenes",
-                          fmt::format("{} scenes beside scene {}", model.scenes.size() - 1, scene));
+        context.part.warn(
+            Issue::dropped, "/scenes",
+            fmt::format("scenes beside scene {} are not drawn: {}", scene, model.scenes.size() - 1));
     const std::string where = fmt::format("/scenes/{}", scene);
     std::vector<uint32_t> open;
     for (const uint32_t root : model.scenes[scene].nodes)

@@ -176,7 +176,8 @@ Status VertexReader::decodeCompressed(const GltfModel& model, const GltfBuffers&
             return context.error(Issue::gltf_value, where, fmt::format("{} has no data", attribute.semantic));
     }
     if (mesh.vertex_count != model.accessors[findAttribute(primitive_.attributes, "POSITION")].count)
-        tally_.repaired("accessor counts that differ from the vertices that Draco decodes", where_);
+        tally_.repaired("accessor counts that differ from the vertices that Draco decodes were replaced",
+                        where_);
     for (size_t i = 0; i < semantics.size(); ++i)
         decompressed_.emplace(semantics[i], std::move(mesh.attributes[i]));
     result.draco_indices = std::move(mesh.indices);
@@ -243,7 +244,7 @@ Status VertexReader::readFrame()
     if (!has("NORMAL"))
     {
         if (has("TANGENT"))
-            tally_.dropped("TANGENT of a primitive without NORMAL", where_);
+            tally_.dropped("TANGENT without NORMAL is not kept", where_);
         return success();
     }
     HEARTH_ASSIGN_OR_RETURN(result.mesh.normals, vectors<Float3>("NORMAL"));
@@ -257,7 +258,7 @@ Status VertexReader::readFrame()
         normal = usable ? normal / length(normal) : Float3{};
     }
     if (mended)
-        tally_.repaired("normals without a direction", where_);
+        tally_.repaired("normals without a direction were replaced", where_);
     if (!has("TANGENT"))
         return success();
 
@@ -273,7 +274,7 @@ Status VertexReader::readFrame()
         tangent = {unit.x, unit.y, unit.z, tangent.w < 0 ? -1.0f : 1.0f};
     }
     if (mended)
-        tally_.repaired("tangents without a direction", where_);
+        tally_.repaired("tangents without a direction were replaced", where_);
     return success();
 }
 
@@ -293,7 +294,7 @@ Status VertexReader::readUvs()
                 mended = true;
             }
         if (mended)
-            tally_.repaired("texture coordinates that are not finite", where_);
+            tally_.repaired("texture coordinates that are not finite were set to 0", where_);
     }
     return success();
 }
@@ -321,7 +322,7 @@ Status VertexReader::readColors()
         result.mesh.colors.push_back(
             {channel(i), channel(i + 1), channel(i + 2), components == 4 ? channel(i + 3) : 1.0f});
     if (mended)
-        tally_.repaired("vertex colours outside 0 to 1", where_);
+        tally_.repaired("vertex colours outside 0 to 1 were clamped", where_);
     return success();
 }
 
@@ -344,9 +345,9 @@ Status VertexReader::readInfluences()
     }
     const InfluenceRepair repair = normalizeInfluences(result.mesh);
     if (repair == InfluenceRepair::invalid)
-        tally_.repaired("joint weights that are negative, not finite or all zero", where_);
+        tally_.repaired("joint weights that are negative, not finite or all zero were replaced", where_);
     else if (repair == InfluenceRepair::sum)
-        tally_.repaired("joint weights whose sum is not 1", where_);
+        tally_.repaired("joint weights whose sum is not 1 were scaled", where_);
     return success();
 }
 
@@ -378,7 +379,8 @@ Status VertexReader::readTargets()
         for (const GltfAttribute& attribute : target)
             if (attribute.semantic != "POSITION" && attribute.semantic != "NORMAL" &&
                 attribute.semantic != "TANGENT")
-                tally_.dropped(fmt::format("morph target attribute {}", attribute.semantic), where_);
+                tally_.dropped(fmt::format("morph target attribute {} is not kept", attribute.semantic),
+                               where_);
     }
     return success();
 }
@@ -396,7 +398,7 @@ void VertexReader::reportOthers() const
         for (size_t set = 0; set < sets; ++set)
             taken = taken || name == fmt::format("JOINTS_{}", set) || name == fmt::format("WEIGHTS_{}", set);
         if (!taken)
-            tally_.dropped(fmt::format("attribute {}", name), where_);
+            tally_.dropped(fmt::format("attribute {} is not kept", name), where_);
     }
 }
 

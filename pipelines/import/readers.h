@@ -49,10 +49,11 @@ Result<DecodedImage> decodeImage(std::span<const std::byte> bytes, const std::st
 bool looksLikeImage(const std::string& path, std::span<const std::byte> bytes);
 
 /// Fill in what the source leaves out: area-weighted smooth normals with a crease angle (vertices are split where
-/// needed, all attributes, influences and morph targets with them).
+/// needed, all attributes, influences and morph targets with them; vertices that no triangle uses are left out).
 void generateNormals(mesh::SourceMesh& mesh, float crease_angle_rad);
 
-/// Tangents from UV set `uv_set` for the triangles; vertices are split where the UVs are mirrored.
+/// Tangents from UV set `uv_set`, whose v runs down the image, for a mesh that has normals (asserted); vertices are
+/// split where the UVs are mirrored.
 void generateTangents(mesh::SourceMesh& mesh, uint32_t uv_set);
 
 } // namespace hearth::import
