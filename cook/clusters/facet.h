@@ -54,19 +54,40 @@ inline Lanes allLanes(float x)
 {
     return Lanes{x, x, x, x};
 }
-inline Lanes minimum(Lanes a, Lanes b) { return a < b ? a : b; }
-inline Lanes maximum(Lanes a, Lanes b) { return a > b ? a : b; }
+inline Lanes minimum(Lanes a, Lanes b)
+{
+    return a < b ? a : b;
+}
+inline Lanes maximum(Lanes a, Lanes b)
+{
+    return a > b ? a : b;
+}
 /// NaN becomes 0.
-inline Lanes clampToUnit(Lanes x) { return minimum(maximum(x, allLanes(0)), allLanes(1)); }
+inline Lanes clampToUnit(Lanes x)
+{
+    return minimum(maximum(x, allLanes(0)), allLanes(1));
+}
 
 struct LaneVector
 {
     Lanes x, y, z;
 };
-inline LaneVector operator-(LaneVector a, LaneVector b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-inline LaneVector operator*(LaneVector a, Lanes s) { return {a.x * s, a.y * s, a.z * s}; }
-inline Lanes dot(LaneVector a, LaneVector b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-inline LaneVector allLanes(Float3 p) { return {allLanes(p.x), allLanes(p.y), allLanes(p.z)}; }
+inline LaneVector operator-(LaneVector a, LaneVector b)
+{
+    return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+inline LaneVector operator*(LaneVector a, Lanes s)
+{
+    return {a.x * s, a.y * s, a.z * s};
+}
+inline Lanes dot(LaneVector a, LaneVector b)
+{
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+inline LaneVector allLanes(Float3 p)
+{
+    return {allLanes(p.x), allLanes(p.y), allLanes(p.z)};
+}
 
 /// Facets side by side.
 struct FacetBlock
@@ -119,8 +140,10 @@ inline FacetRow transpose(const std::array<const Facet*, kLanes>& facets, size_t
     const Lanes high01 = __builtin_shufflevector(r[0], r[1], 2, 6, 3, 7);
     const Lanes low23 = __builtin_shufflevector(r[2], r[3], 0, 4, 1, 5);
     const Lanes high23 = __builtin_shufflevector(r[2], r[3], 2, 6, 3, 7);
-    return {{__builtin_shufflevector(low01, low23, 0, 1, 4, 5), __builtin_shufflevector(low01, low23, 2, 3, 6, 7),
-             __builtin_shufflevector(high01, high23, 0, 1, 4, 5), __builtin_shufflevector(high01, high23, 2, 3, 6, 7)}};
+    return {{__builtin_shufflevector(low01, low23, 0, 1, 4, 5),
+             __builtin_shufflevector(low01, low23, 2, 3, 6, 7),
+             __builtin_shufflevector(high01, high23, 0, 1, 4, 5),
+             __builtin_shufflevector(high01, high23, 2, 3, 6, 7)}};
 }
 
 inline FacetBlock makeBlock(const std::array<const Facet*, kLanes>& facets)
