@@ -1,6 +1,7 @@
 # Compiler settings that hold for every target of the project.
 option(HEARTH_BUILD_TESTS "Build tests and benchmarks" ${PROJECT_IS_TOP_LEVEL})
 option(HEARTH_HARDENED "Turn on the standard library's own checks" OFF)
+option(HEARTH_FUZZ "Build the libFuzzer targets (clang only)" OFF)
 set(HEARTH_SANITIZE "" CACHE STRING "Sanitizers to build with, as for -fsanitize")
 
 set(CMAKE_CXX_STANDARD 20)
@@ -25,6 +26,13 @@ add_library(hearth_settings INTERFACE)
 # One result on every machine: no contraction into fused multiply-adds, no reassociation.
 target_compile_options(hearth_settings INTERFACE -ffp-contract=off -fvisibility=hidden -fvisibility-inlines-hidden)
 target_include_directories(hearth_settings INTERFACE ${PROJECT_SOURCE_DIR})
+if(HEARTH_FUZZ)
+  if(NOT CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
+    message(FATAL_ERROR "HEARTH_FUZZ needs clang: libFuzzer is part of it")
+  endif()
+  set(HEARTH_SANITIZE "address,undefined,fuzzer-no-link")
+  set(HEARTH_HARDENED ON)
+endif()
 if(HEARTH_HARDENED)
   target_compile_definitions(hearth_settings INTERFACE _GLIBCXX_ASSERTIONS)
 endif()

@@ -58,8 +58,8 @@ private:
 };
 
 /// The part [offset, offset + count * stride) of `bytes`, or nullopt where it does not lie inside.
-inline std::optional<std::span<const std::byte>> checkedPart(std::span<const std::byte> bytes, uint64_t offset,
-                                                             uint64_t count, uint64_t stride = 1)
+inline std::optional<std::span<const std::byte>>
+checkedPart(std::span<const std::byte> bytes, uint64_t offset, uint64_t count, uint64_t stride = 1)
 {
     if (offset > bytes.size())
         return std::nullopt;

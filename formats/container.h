@@ -21,8 +21,8 @@ constexpr uint32_t fourCC(const char (&text)[5])
 }
 
 /// The control characters catch a transfer in text mode, as in PNG and KTX2.
-inline constexpr uint8_t kMagic[16] = {'H', 'R', 'T', 'H', 0xAB, 'P', 'A', 'C',
-                                       'K', 0xBB, '\r', '\n', 0x1A, '\n', 0, 0};
+inline constexpr uint8_t kMagic[16] = {'H', 'R',  'T',  'H',  0xAB, 'P',  'A', 'C',
+                                       'K', 0xBB, '\r', '\n', 0x1A, '\n', 0,   0};
 inline constexpr uint32_t kVersionMajor = 1;
 inline constexpr uint32_t kVersionMinor = 0;
 inline constexpr uint32_t kEndianMark = 0x01020304;
@@ -97,26 +97,28 @@ HEARTH_RECORD(hearth::formats::StringRef, 8,
               HEARTH_FIELD(hearth::formats::StringRef, offset, "first byte in chunk STRS"),
               HEARTH_FIELD(hearth::formats::StringRef, length, "bytes of UTF-8 text, no terminator"));
 
-HEARTH_RECORD(hearth::formats::Range, 8,
-              HEARTH_FIELD(hearth::formats::Range, first, "first record"),
+HEARTH_RECORD(hearth::formats::Range, 8, HEARTH_FIELD(hearth::formats::Range, first, "first record"),
               HEARTH_FIELD(hearth::formats::Range, count, "number of records"));
 
-HEARTH_RECORD(
-    hearth::formats::FileHeader, 128,
-    HEARTH_FIELD(hearth::formats::FileHeader, magic, "\"HRTH\" AB \"PACK\" BB 0D 0A 1A 0A 00 00"),
-    HEARTH_FIELD(hearth::formats::FileHeader, version_major, "readers refuse a greater one"),
-    HEARTH_FIELD(hearth::formats::FileHeader, version_minor, "greater ones only add chunks and fields"),
-    HEARTH_FIELD(hearth::formats::FileHeader, endian_mark, "0x01020304, little-endian"),
-    HEARTH_FIELD(hearth::formats::FileHeader, header_size, "size of this header: 128"),
-    HEARTH_FIELD(hearth::formats::FileHeader, kind, "FourCC PART or PACK"),
-    HEARTH_FIELD(hearth::formats::FileHeader, chunk_count, "entries of the chunk table"),
-    HEARTH_FIELD(hearth::formats::FileHeader, file_size, "bytes of the whole file"),
-    HEARTH_FIELD(hearth::formats::FileHeader, table_offset, "first byte of the chunk table, which ends the file"),
-    HEARTH_FIELD(hearth::formats::FileHeader, table_hash, "XXH3-64 of the chunk table"),
-    HEARTH_FIELD(hearth::formats::FileHeader, required_features, "bits; readers refuse a file with one they lack"),
-    HEARTH_FIELD(hearth::formats::FileHeader, optional_features, "bits; readers may ignore them"),
-    HEARTH_FIELD(hearth::formats::FileHeader, reserved, "0"),
-    HEARTH_FIELD(hearth::formats::FileHeader, header_hash, "XXH3-64 of the header's bytes before this field"));
+HEARTH_RECORD(hearth::formats::FileHeader, 128,
+              HEARTH_FIELD(hearth::formats::FileHeader, magic, "\"HRTH\" AB \"PACK\" BB 0D 0A 1A 0A 00 00"),
+              HEARTH_FIELD(hearth::formats::FileHeader, version_major, "readers refuse another one"),
+              HEARTH_FIELD(hearth::formats::FileHeader, version_minor,
+                           "greater ones only add chunks and fields"),
+              HEARTH_FIELD(hearth::formats::FileHeader, endian_mark, "0x01020304, little-endian"),
+              HEARTH_FIELD(hearth::formats::FileHeader, header_size, "size of this header: 128"),
+              HEARTH_FIELD(hearth::formats::FileHeader, kind, "FourCC PART or PACK"),
+              HEARTH_FIELD(hearth::formats::FileHeader, chunk_count, "entries of the chunk table"),
+              HEARTH_FIELD(hearth::formats::FileHeader, file_size, "bytes of the whole file"),
+              HEARTH_FIELD(hearth::formats::FileHeader, table_offset,
+                           "first byte of the chunk table, which ends the file"),
+              HEARTH_FIELD(hearth::formats::FileHeader, table_hash, "XXH3-64 of the chunk table"),
+              HEARTH_FIELD(hearth::formats::FileHeader, required_features,
+                           "bits; readers refuse a file with one they lack"),
+              HEARTH_FIELD(hearth::formats::FileHeader, optional_features, "bits; readers may ignore them"),
+              HEARTH_FIELD(hearth::formats::FileHeader, reserved, "0"),
+              HEARTH_FIELD(hearth::formats::FileHeader, header_hash,
+                           "XXH3-64 of the header's bytes before this field"));
 
 HEARTH_RECORD(
     hearth::formats::ChunkEntry, 64, HEARTH_FIELD(hearth::formats::ChunkEntry, type, "FourCC"),

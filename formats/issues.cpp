@@ -15,19 +15,22 @@ namespace
 
 constexpr IssueInfo kIssues[] = {
 #define HEARTH_ISSUE_INFO(name, code, kind, summary, hint)                                                   \
-    {Issue::name, #name, IssueClass::kind, summary, hint},
+    {Issue::name, IssueClass::kind, #name, summary, hint},
     HEARTH_ISSUES(HEARTH_ISSUE_INFO)
 #undef HEARTH_ISSUE_INFO
 };
 
 } // namespace
 
-std::span<const IssueInfo> allIssues() { return kIssues; }
+std::span<const IssueInfo> allIssues()
+{
+    return kIssues;
+}
 
 const IssueInfo& issueInfo(Issue issue)
 {
-    const auto* found =
-        std::find_if(std::begin(kIssues), std::end(kIssues), [&](const IssueInfo& i) { return i.issue == issue; });
+    const auto* found = std::find_if(std::begin(kIssues), std::end(kIssues),
+                                     [&](const IssueInfo& i) { return i.issue == issue; });
     HEARTH_ASSERT(found != std::end(kIssues));
     return *found;
 }
@@ -47,7 +50,8 @@ std::string formatMessage(const Error& error)
     if (!info.hint.empty())
         text += " hint: " + std::string(info.hint);
     // one message is one line, whatever a hostile file put into a name
-    std::replace_if(text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20; }, ' ');
+    std::replace_if(
+        text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20; }, ' ');
     return text;
 }
 

@@ -14,13 +14,13 @@ namespace hearth
 /// What an issue means for the process: the exit codes of sysexits.h that Hearth uses.
 enum class IssueClass : uint8_t
 {
-    warning,    ///< the work goes on
-    usage,      ///< 2: the command line is wrong
-    malformed,  ///< 65: the input's content is wrong
-    missing,    ///< 66: an input does not exist or cannot be read
-    internal,   ///< 70: a defect of Hearth
-    cannotWrite,///< 73: an output cannot be created
-    io,         ///< 74: reading or writing failed half way
+    warning,     ///< the work goes on
+    usage,       ///< 2: the command line is wrong
+    malformed,   ///< 65: the input's content is wrong
+    missing,     ///< 66: an input does not exist or cannot be read
+    internal,    ///< 70: a defect of Hearth
+    cannotWrite, ///< 73: an output cannot be created
+    io,          ///< 74: reading or writing failed half way
 };
 
 // X(name, code, class, summary, hint)
@@ -50,16 +50,20 @@ enum class IssueClass : uint8_t
     X(uri_outside, 1110, malformed, "a URI leaves the folder of its asset",                                  \
       "put the file beside the asset and use a relative path")                                               \
     X(uri_malformed, 1111, malformed, "a URI cannot be understood", "use a relative path or a data URI")     \
-    X(buffer_missing, 1112, missing, "a buffer file cannot be read", "put the file where the asset expects it") \
+    X(buffer_missing, 1112, missing, "a buffer file cannot be read",                                         \
+      "put the file where the asset expects it")                                                             \
     X(buffer_short, 1113, malformed, "a buffer is shorter than it says",                                     \
       "the file is damaged or was cut off: export it again")                                                 \
     X(codec_failed, 1114, malformed, "compressed geometry cannot be decoded",                                \
       "the file is damaged: export it again")                                                                \
     X(index_out_of_range, 1115, malformed, "an index points outside the vertices", "export the file again")  \
-    X(mesh_syntax, 1200, malformed, "a mesh file is not written as its format asks", "export the file again") \
+    X(mesh_syntax, 1200, malformed, "a mesh file is not written as its format asks",                         \
+      "export the file again")                                                                               \
     X(mesh_counts, 1201, malformed, "a mesh file ends before its counts are met",                            \
       "the file is damaged or was cut off: export it again")                                                 \
     X(mesh_empty, 1202, malformed, "a mesh file has no geometry", "check the export")                        \
+    X(material_missing, 1203, warning, "a material library is missing; its materials are drawn grey",        \
+      "put the file where the asset expects it")                                                             \
     X(image_malformed, 1300, malformed, "an image cannot be decoded", "save the image again")                \
     X(image_unsupported, 1301, malformed, "an image uses a feature that is not supported",                   \
       "save the image as PNG, JPEG, WebP, HDR or EXR")                                                       \
@@ -95,7 +99,8 @@ enum class IssueClass : uint8_t
     X(meaning_range, 3000, malformed, "a range points outside its table", "cook the asset again")            \
     X(meaning_reference, 3001, malformed, "an index points outside its table", "cook the asset again")       \
     X(meaning_value, 3002, malformed, "a value is not allowed", "cook the asset again")                      \
-    X(meaning_monotone, 3003, malformed, "errors or spheres shrink towards the root", "cook the asset again") \
+    X(meaning_monotone, 3003, malformed, "errors or spheres shrink towards the root",                        \
+      "cook the asset again")                                                                                \
     X(meaning_bounds, 3004, malformed, "a bound does not contain what it claims", "cook the asset again")    \
     X(meaning_order, 3005, malformed, "records are not in the order that the format asks",                   \
       "cook the asset again")                                                                                \
@@ -103,18 +108,20 @@ enum class IssueClass : uint8_t
     X(meaning_text, 3007, malformed, "a text is not valid UTF-8", "cook the asset again")                    \
     X(meaning_padding, 3008, malformed, "bytes that must be zero are not", "cook the asset again")           \
     X(meaning_tree, 3009, malformed, "records do not form a tree", "cook the asset again")                   \
-    X(cannot_write, 4000, cannotWrite, "an output cannot be written", "check the folder, its rights and the space left") \
+    X(cannot_write, 4000, cannotWrite, "an output cannot be written",                                        \
+      "check the folder, its rights and the space left")                                                     \
     X(read_failed, 4001, io, "reading failed", "check the disk")                                             \
     X(device, 4002, internal, "no usable graphics device", "install a Vulkan driver (mesa-vulkan-drivers)")  \
-    X(device_failed, 4003, internal, "the graphics device failed", "close other programs, or choose another --device") \
+    X(device_failed, 4003, internal, "the graphics device failed",                                           \
+      "close other programs, or choose another --device")                                                    \
     X(device_limit, 4004, internal, "the scene does not fit the graphics device",                            \
-      "split the scene, or use a device with higher limits")                                                  \
+      "split the scene, or use a device with higher limits")                                                 \
     X(child_failed, 7001, internal, "a cooker ended abnormally", "report it, with the input")                \
     X(internal, 7000, internal, "Hearth has a defect", "report it, with the input")
 
 enum class Issue : uint16_t
 {
-#define HEARTH_ISSUE_ENUM(name, code, kind, summary, hint) name = code,
+#define HEARTH_ISSUE_ENUM(name, code, kind, summary, hint) name = (code),
     HEARTH_ISSUES(HEARTH_ISSUE_ENUM)
 #undef HEARTH_ISSUE_ENUM
 };
@@ -122,8 +129,8 @@ enum class Issue : uint16_t
 struct IssueInfo
 {
     Issue issue;
-    std::string_view name;
     IssueClass kind;
+    std::string_view name;
     std::string_view summary;
     std::string_view hint;
 };

@@ -32,6 +32,8 @@ struct Float4
     friend bool operator==(const Float4&, const Float4&) = default;
 };
 
+// one line each: they read as a table
+// clang-format off
 inline Float2 operator+(Float2 a, Float2 b) { return {a.x + b.x, a.y + b.y}; }
 inline Float2 operator-(Float2 a, Float2 b) { return {a.x - b.x, a.y - b.y}; }
 inline Float2 operator*(Float2 a, float s) { return {a.x * s, a.y * s}; }
@@ -45,16 +47,32 @@ inline Float3 operator*(Float3 a, Float3 b) { return {a.x * b.x, a.y * b.y, a.z 
 inline Float3 operator/(Float3 a, float s) { return {a.x / s, a.y / s, a.z / s}; }
 inline Float3& operator+=(Float3& a, Float3 b) { return a = a + b; }
 inline Float3& operator-=(Float3& a, Float3 b) { return a = a - b; }
+// clang-format on
 
-inline float dot(Float3 a, Float3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+inline float dot(Float3 a, Float3 b)
+{
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
 inline Float3 cross(Float3 a, Float3 b)
 {
     return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
-inline float length(Float3 a) { return std::sqrt(dot(a, a)); }
-inline Float3 min(Float3 a, Float3 b) { return {std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)}; }
-inline Float3 max(Float3 a, Float3 b) { return {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)}; }
-inline bool isFinite(Float3 a) { return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z); }
+inline float length(Float3 a)
+{
+    return std::sqrt(dot(a, a));
+}
+inline Float3 min(Float3 a, Float3 b)
+{
+    return {std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)};
+}
+inline Float3 max(Float3 a, Float3 b)
+{
+    return {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)};
+}
+inline bool isFinite(Float3 a)
+{
+    return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z);
+}
 
 /// Unit vector along `a`, or `fallback` where `a` is too short to have a direction.
 inline Float3 normalizeOr(Float3 a, Float3 fallback)

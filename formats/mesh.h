@@ -8,15 +8,15 @@
 namespace hearth::formats
 {
 
-inline constexpr uint32_t kChunkMeshes = fourCC("MESH");     ///< MeshRecord[]
-inline constexpr uint32_t kChunkLevels = fourCC("LEVL");     ///< LevelRecord[]
-inline constexpr uint32_t kChunkGroups = fourCC("GRUP");     ///< GroupRecord[]
-inline constexpr uint32_t kChunkClusters = fourCC("CLUS");   ///< ClusterRecord[]
-inline constexpr uint32_t kChunkPageTable = fourCC("PGTB");  ///< PageRecord[]
-inline constexpr uint32_t kChunkPageParents = fourCC("PGPA");///< u32[]: pages that must be resident before a page
-inline constexpr uint32_t kChunkPages = fourCC("PAGE");      ///< the pages, each aligned to 64 bytes
-inline constexpr uint32_t kChunkSourceMesh = fourCC("SMSH"); ///< mesh `index` as imported: SourceArray table + data
-inline constexpr uint32_t kChunkDeformation = fourCC("DEFM");///< joints, weights, morph targets of mesh `index`
+inline constexpr uint32_t kChunkMeshes = fourCC("MESH");      ///< MeshRecord[]
+inline constexpr uint32_t kChunkLevels = fourCC("LEVL");      ///< LevelRecord[]
+inline constexpr uint32_t kChunkGroups = fourCC("GRUP");      ///< GroupRecord[]
+inline constexpr uint32_t kChunkClusters = fourCC("CLUS");    ///< ClusterRecord[]
+inline constexpr uint32_t kChunkPageTable = fourCC("PGTB");   ///< PageRecord[]
+inline constexpr uint32_t kChunkPageParents = fourCC("PGPA"); ///< u32[]: what a page needs
+inline constexpr uint32_t kChunkPages = fourCC("PAGE");       ///< the pages, each aligned to 64 bytes
+inline constexpr uint32_t kChunkSourceMesh = fourCC("SMSH");  ///< mesh `index` as imported
+inline constexpr uint32_t kChunkDeformation = fourCC("DEFM"); ///< joints, weights, morphs
 
 inline constexpr uint32_t kClusterMaxTriangles = 128;
 inline constexpr uint32_t kClusterMaxVertices = 256;
@@ -27,7 +27,7 @@ inline constexpr uint32_t kPageMaxBytes = 65536;
 enum VertexAttributes : uint32_t
 {
     kVertexNormal = 1,  ///< 1 word: octahedral, 2 x snorm16 (x in the low half)
-    kVertexTangent = 2, ///< 1 word: octahedral, 2 x snorm16, the lowest bit of y is 1 where the bitangent is flipped
+    kVertexTangent = 2, ///< 1 word: the same; lowest bit of y: the bitangent is flipped
     kVertexUv0 = 4,     ///< 2 floats each
     kVertexUv1 = 8,
     kVertexUv2 = 16,
@@ -130,18 +130,18 @@ struct PageRecord
 
 enum class SourceSemantic : uint32_t
 {
-    position = 0,           ///< f32 x 3
-    normal = 1,             ///< f32 x 3, unit
-    tangent = 2,            ///< f32 x 4, w = +-1: sign of the bitangent
-    uv = 3,                 ///< f32 x 2, set 0..3
-    color = 4,              ///< f32 x 4, linear
-    joints = 5,             ///< u16 x 4, set 0..; joint of the skin
-    weights = 6,            ///< f32 x 4, set 0..; sum over the sets is 1
-    index = 7,              ///< u32 x 3 for each triangle
-    triangle_material = 8,  ///< u32 for each triangle, or none
-    morph_position = 9,     ///< f32 x 3 deltas, set = target
-    morph_normal = 10,      ///< f32 x 3 deltas, set = target
-    morph_tangent = 11,     ///< f32 x 3 deltas, set = target
+    position = 0,          ///< f32 x 3
+    normal = 1,            ///< f32 x 3, unit
+    tangent = 2,           ///< f32 x 4, w = +-1: sign of the bitangent
+    uv = 3,                ///< f32 x 2, set 0..3
+    color = 4,             ///< f32 x 4, linear
+    joints = 5,            ///< u16 x 4, set 0..; joint of the skin
+    weights = 6,           ///< f32 x 4, set 0..; sum over the sets is 1
+    index = 7,             ///< u32 x 3 for each triangle
+    triangle_material = 8, ///< u32 for each triangle, or none
+    morph_position = 9,    ///< f32 x 3 deltas, set = target
+    morph_normal = 10,     ///< f32 x 3 deltas, set = target
+    morph_tangent = 11,    ///< f32 x 3 deltas, set = target
 };
 
 /// Chunks SMSH and DEFM: SourceMeshHeader, then array_count SourceArrays, then the data, each array 16-aligned.
@@ -168,29 +168,34 @@ struct SourceArray
 
 } // namespace hearth::formats
 
-HEARTH_RECORD(hearth::formats::MeshRecord, 96, HEARTH_FIELD(hearth::formats::MeshRecord, name, "may be empty"),
-              HEARTH_FIELD(hearth::formats::MeshRecord, attributes, "bits of the vertex layout"),
-              HEARTH_FIELD(hearth::formats::MeshRecord, source_faces, "polygons before triangulation"),
-              HEARTH_FIELD(hearth::formats::MeshRecord, source_triangles, "triangles of the source"),
-              HEARTH_FIELD(hearth::formats::MeshRecord, source_vertices, "vertices as the source counts them"),
-              HEARTH_FIELD(hearth::formats::MeshRecord, degenerate_triangles, "source triangles without area, not kept"),
-              HEARTH_FIELD(hearth::formats::MeshRecord, lod_count, "number of levels"),
-              HEARTH_FIELD(hearth::formats::MeshRecord, levels, "chunk LEVL, finest first"),
-              HEARTH_FIELD(hearth::formats::MeshRecord, groups, "chunk GRUP"),
-              HEARTH_FIELD(hearth::formats::MeshRecord, clusters, "chunk CLUS"),
-              HEARTH_FIELD(hearth::formats::MeshRecord, pages, "chunk PGTB; the first holds the coarsest level"),
-              HEARTH_FIELD(hearth::formats::MeshRecord, box_min, "object space"),
-              HEARTH_FIELD(hearth::formats::MeshRecord, box_max, "object space"),
-              HEARTH_FIELD(hearth::formats::MeshRecord, skinned, "1: chunk DEFM has joints and weights"),
-              HEARTH_FIELD(hearth::formats::MeshRecord, morph_target_count, "targets in chunk DEFM"));
+HEARTH_RECORD(
+    hearth::formats::MeshRecord, 96, HEARTH_FIELD(hearth::formats::MeshRecord, name, "may be empty"),
+    HEARTH_FIELD(hearth::formats::MeshRecord, attributes, "bits of the vertex layout"),
+    HEARTH_FIELD(hearth::formats::MeshRecord, source_faces, "polygons before triangulation"),
+    HEARTH_FIELD(hearth::formats::MeshRecord, source_triangles, "triangles of the source"),
+    HEARTH_FIELD(hearth::formats::MeshRecord, source_vertices, "vertices as the source counts them"),
+    HEARTH_FIELD(hearth::formats::MeshRecord, degenerate_triangles,
+                 "source triangles without area, not kept"),
+    HEARTH_FIELD(hearth::formats::MeshRecord, lod_count, "number of levels"),
+    HEARTH_FIELD(hearth::formats::MeshRecord, levels, "chunk LEVL, finest first"),
+    HEARTH_FIELD(hearth::formats::MeshRecord, groups, "chunk GRUP"),
+    HEARTH_FIELD(hearth::formats::MeshRecord, clusters, "chunk CLUS"),
+    HEARTH_FIELD(hearth::formats::MeshRecord, pages, "chunk PGTB; the first holds the coarsest level"),
+    HEARTH_FIELD(hearth::formats::MeshRecord, box_min, "object space"),
+    HEARTH_FIELD(hearth::formats::MeshRecord, box_max, "object space"),
+    HEARTH_FIELD(hearth::formats::MeshRecord, skinned, "1: chunk DEFM has joints and weights"),
+    HEARTH_FIELD(hearth::formats::MeshRecord, morph_target_count, "targets in chunk DEFM"));
 HEARTH_RECORD(hearth::formats::LevelRecord, 16,
               HEARTH_FIELD(hearth::formats::LevelRecord, clusters, "chunk CLUS"),
               HEARTH_FIELD(hearth::formats::LevelRecord, triangle_count, ""),
-              HEARTH_FIELD(hearth::formats::LevelRecord, max_error, "largest error of its clusters, object space"));
+              HEARTH_FIELD(hearth::formats::LevelRecord, max_error,
+                           "largest error of its clusters, object space"));
 HEARTH_RECORD(hearth::formats::GroupRecord, 48,
               HEARTH_FIELD(hearth::formats::GroupRecord, sphere_center, "object space"),
-              HEARTH_FIELD(hearth::formats::GroupRecord, sphere_radius, "contains the spheres of all refined groups"),
-              HEARTH_FIELD(hearth::formats::GroupRecord, error, "object space; of what replaces it; infinity for a root"),
+              HEARTH_FIELD(hearth::formats::GroupRecord, sphere_radius,
+                           "contains the spheres of all refined groups"),
+              HEARTH_FIELD(hearth::formats::GroupRecord, error,
+                           "object space; of what replaces it; infinity for a root"),
               HEARTH_FIELD(hearth::formats::GroupRecord, level, "of its clusters"),
               HEARTH_FIELD(hearth::formats::GroupRecord, clusters, "chunk CLUS"),
               HEARTH_FIELD(hearth::formats::GroupRecord, page, "that holds all its clusters"),
@@ -207,9 +212,11 @@ HEARTH_RECORD(hearth::formats::ClusterRecord, 112,
                            "sine of the half-angle, rounded up; 1: the cone never culls"),
               HEARTH_FIELD(hearth::formats::ClusterRecord, cone_apex,
                            "every triangle's plane has it on or behind its front side"),
-              HEARTH_FIELD(hearth::formats::ClusterRecord, page_offset, "first byte of its data in the decoded page"),
+              HEARTH_FIELD(hearth::formats::ClusterRecord, page_offset,
+                           "first byte of its data in the decoded page"),
               HEARTH_FIELD(hearth::formats::ClusterRecord, group, "group that it is simplified in"),
-              HEARTH_FIELD(hearth::formats::ClusterRecord, refined_group, "group that it was made from, none at level 0"),
+              HEARTH_FIELD(hearth::formats::ClusterRecord, refined_group,
+                           "group that it was made from, none at level 0"),
               HEARTH_FIELD(hearth::formats::ClusterRecord, vertex_count, "1 to 256"),
               HEARTH_FIELD(hearth::formats::ClusterRecord, triangle_count, "1 to 128"),
               HEARTH_FIELD(hearth::formats::ClusterRecord, error, "of refined_group, 0 at level 0"),
@@ -217,7 +224,8 @@ HEARTH_RECORD(hearth::formats::ClusterRecord, 112,
               HEARTH_FIELD(hearth::formats::ClusterRecord, mesh, "mesh"),
               HEARTH_FIELD(hearth::formats::ClusterRecord, reserved, "0"));
 HEARTH_RECORD(hearth::formats::PageRecord, 56,
-              HEARTH_FIELD(hearth::formats::PageRecord, offset, "from the start of chunk PAGE; a multiple of 64"),
+              HEARTH_FIELD(hearth::formats::PageRecord, offset,
+                           "from the start of chunk PAGE; a multiple of 64"),
               HEARTH_FIELD(hearth::formats::PageRecord, stored_size, "bytes in the file"),
               HEARTH_FIELD(hearth::formats::PageRecord, size, "bytes after decompression, at most 65536"),
               HEARTH_FIELD(hearth::formats::PageRecord, codec, "0 none, 1 zstd"),
@@ -232,12 +240,15 @@ HEARTH_RECORD(hearth::formats::SourceMeshHeader, 32,
               HEARTH_FIELD(hearth::formats::SourceMeshHeader, face_count, "polygons before triangulation"),
               HEARTH_FIELD(hearth::formats::SourceMeshHeader, vertex_count, "of the arrays that follow"),
               HEARTH_FIELD(hearth::formats::SourceMeshHeader, triangle_count, ""),
-              HEARTH_FIELD(hearth::formats::SourceMeshHeader, source_vertex_count, "vertices as the source counts them"),
+              HEARTH_FIELD(hearth::formats::SourceMeshHeader, source_vertex_count,
+                           "vertices as the source counts them"),
               HEARTH_FIELD(hearth::formats::SourceMeshHeader, name, "may be empty"),
               HEARTH_FIELD(hearth::formats::SourceMeshHeader, reserved, "0"));
-HEARTH_RECORD(hearth::formats::SourceArray, 32, HEARTH_FIELD(hearth::formats::SourceArray, semantic, "what it holds"),
+HEARTH_RECORD(hearth::formats::SourceArray, 32,
+              HEARTH_FIELD(hearth::formats::SourceArray, semantic, "what it holds"),
               HEARTH_FIELD(hearth::formats::SourceArray, set, "UV set, influence set or morph target"),
-              HEARTH_FIELD(hearth::formats::SourceArray, offset, "from the start of the chunk; a multiple of 16"),
+              HEARTH_FIELD(hearth::formats::SourceArray, offset,
+                           "from the start of the chunk; a multiple of 16"),
               HEARTH_FIELD(hearth::formats::SourceArray, count, "elements"),
               HEARTH_FIELD(hearth::formats::SourceArray, element_size, "bytes of one element"),
               HEARTH_FIELD(hearth::formats::SourceArray, reserved, "0"));

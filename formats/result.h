@@ -77,7 +77,10 @@ struct Nothing
 {
 };
 using Status = Result<Nothing>;
-inline Status success() { return Nothing{}; }
+inline Status success()
+{
+    return Nothing{};
+}
 
 } // namespace hearth
 
@@ -96,4 +99,5 @@ inline Status success() { return Nothing{}; }
     auto HEARTH_CONCAT(hearth_result_, __LINE__) = (expression);                                             \
     if (!HEARTH_CONCAT(hearth_result_, __LINE__).ok())                                                       \
         return std::move(HEARTH_CONCAT(hearth_result_, __LINE__)).error();                                   \
-    declaration = std::move(HEARTH_CONCAT(hearth_result_, __LINE__)).value()
+    declaration /* NOLINT(bugprone-macro-parentheses) */ =                                                   \
+        std::move(HEARTH_CONCAT(hearth_result_, __LINE__)).value()

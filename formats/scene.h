@@ -8,21 +8,21 @@
 namespace hearth::formats
 {
 
-inline constexpr uint32_t kChunkMeta = fourCC("META");       ///< provenance and import report, JSON text
-inline constexpr uint32_t kChunkStrings = fourCC("STRS");    ///< string table, bytes
-inline constexpr uint32_t kChunkNodes = fourCC("NODE");      ///< NodeRecord[]
-inline constexpr uint32_t kChunkInstances = fourCC("INST");  ///< InstanceRecord[]
-inline constexpr uint32_t kChunkCameras = fourCC("CAMR");    ///< CameraRecord[]
-inline constexpr uint32_t kChunkLights = fourCC("LGHT");     ///< LightRecord[]
-inline constexpr uint32_t kChunkMaterials = fourCC("MATL");  ///< MaterialRecord[]
-inline constexpr uint32_t kChunkImages = fourCC("IMGR");     ///< ImageRecord[]
-inline constexpr uint32_t kChunkImageData = fourCC("IMGD");  ///< texels of image `index`, all mips, finest first
-inline constexpr uint32_t kChunkSkins = fourCC("SKIN");      ///< SkinRecord[]
-inline constexpr uint32_t kChunkJoints = fourCC("JOIN");     ///< JointRecord[]
-inline constexpr uint32_t kChunkAnimations = fourCC("ANIM"); ///< AnimationRecord[]
-inline constexpr uint32_t kChunkChannels = fourCC("ACHN");   ///< AnimationChannelRecord[]
-inline constexpr uint32_t kChunkKeys = fourCC("AKEY");       ///< f32[]: times and values of all channels
-inline constexpr uint32_t kChunkMorphWeights = fourCC("MWGT"); ///< f32[]: rest weights of nodes with morph targets
+inline constexpr uint32_t kChunkMeta = fourCC("META");         ///< provenance and import report, JSON text
+inline constexpr uint32_t kChunkStrings = fourCC("STRS");      ///< string table, bytes
+inline constexpr uint32_t kChunkNodes = fourCC("NODE");        ///< NodeRecord[]
+inline constexpr uint32_t kChunkInstances = fourCC("INST");    ///< InstanceRecord[]
+inline constexpr uint32_t kChunkCameras = fourCC("CAMR");      ///< CameraRecord[]
+inline constexpr uint32_t kChunkLights = fourCC("LGHT");       ///< LightRecord[]
+inline constexpr uint32_t kChunkMaterials = fourCC("MATL");    ///< MaterialRecord[]
+inline constexpr uint32_t kChunkImages = fourCC("IMGR");       ///< ImageRecord[]
+inline constexpr uint32_t kChunkImageData = fourCC("IMGD");    ///< texels of image `index`, finest mip first
+inline constexpr uint32_t kChunkSkins = fourCC("SKIN");        ///< SkinRecord[]
+inline constexpr uint32_t kChunkJoints = fourCC("JOIN");       ///< JointRecord[]
+inline constexpr uint32_t kChunkAnimations = fourCC("ANIM");   ///< AnimationRecord[]
+inline constexpr uint32_t kChunkChannels = fourCC("ACHN");     ///< AnimationChannelRecord[]
+inline constexpr uint32_t kChunkKeys = fourCC("AKEY");         ///< f32[]: times and values of all channels
+inline constexpr uint32_t kChunkMorphWeights = fourCC("MWGT"); ///< f32[]: rest weights of morph targets
 
 /// Nodes keep their order and index of the source. A parent may stand after its child; there are no cycles.
 struct NodeRecord
@@ -231,7 +231,8 @@ HEARTH_RECORD(hearth::formats::NodeRecord, 120,
               HEARTH_FIELD(hearth::formats::NodeRecord, parent, "node, or none for a root"),
               HEARTH_FIELD(hearth::formats::NodeRecord, mesh, "mesh, or none"),
               HEARTH_FIELD(hearth::formats::NodeRecord, skin, "skin, or none"),
-              HEARTH_FIELD(hearth::formats::NodeRecord, has_trs, "1: the next three fields hold; 0: only the matrix"),
+              HEARTH_FIELD(hearth::formats::NodeRecord, has_trs,
+                           "1: the next three fields hold; 0: only the matrix"),
               HEARTH_FIELD(hearth::formats::NodeRecord, translation, "metres"),
               HEARTH_FIELD(hearth::formats::NodeRecord, rotation, "unit quaternion x y z w"),
               HEARTH_FIELD(hearth::formats::NodeRecord, scale, ""),
@@ -244,17 +245,17 @@ HEARTH_RECORD(hearth::formats::InstanceRecord, 64,
               HEARTH_FIELD(hearth::formats::InstanceRecord, flags, "1 mirrored"),
               HEARTH_FIELD(hearth::formats::InstanceRecord, scale_max,
                            "at least the largest singular value of world_from_object"));
-HEARTH_RECORD(hearth::formats::CameraRecord, 88,
-              HEARTH_FIELD(hearth::formats::CameraRecord, name, "may be empty"),
-              HEARTH_FIELD(hearth::formats::CameraRecord, type, "0 perspective, 1 orthographic"),
-              HEARTH_FIELD(hearth::formats::CameraRecord, node, "node it came from"),
-              HEARTH_FIELD(hearth::formats::CameraRecord, y_fov_rad, "full vertical angle; 0 if orthographic"),
-              HEARTH_FIELD(hearth::formats::CameraRecord, aspect, "width / height; 0: that of the window"),
-              HEARTH_FIELD(hearth::formats::CameraRecord, x_magnification, "half width in metres if orthographic"),
-              HEARTH_FIELD(hearth::formats::CameraRecord, y_magnification, "half height in metres if orthographic"),
-              HEARTH_FIELD(hearth::formats::CameraRecord, z_near, "metres"),
-              HEARTH_FIELD(hearth::formats::CameraRecord, z_far, "metres; 0: infinite"),
-              HEARTH_FIELD(hearth::formats::CameraRecord, world_from_camera, "row-major 3x4; looks along -Z"));
+HEARTH_RECORD(
+    hearth::formats::CameraRecord, 88, HEARTH_FIELD(hearth::formats::CameraRecord, name, "may be empty"),
+    HEARTH_FIELD(hearth::formats::CameraRecord, type, "0 perspective, 1 orthographic"),
+    HEARTH_FIELD(hearth::formats::CameraRecord, node, "node it came from"),
+    HEARTH_FIELD(hearth::formats::CameraRecord, y_fov_rad, "full vertical angle; 0 if orthographic"),
+    HEARTH_FIELD(hearth::formats::CameraRecord, aspect, "width / height; 0: that of the window"),
+    HEARTH_FIELD(hearth::formats::CameraRecord, x_magnification, "half width in metres if orthographic"),
+    HEARTH_FIELD(hearth::formats::CameraRecord, y_magnification, "half height in metres if orthographic"),
+    HEARTH_FIELD(hearth::formats::CameraRecord, z_near, "metres"),
+    HEARTH_FIELD(hearth::formats::CameraRecord, z_far, "metres; 0: infinite"),
+    HEARTH_FIELD(hearth::formats::CameraRecord, world_from_camera, "row-major 3x4; looks along -Z"));
 HEARTH_RECORD(hearth::formats::LightRecord, 96,
               HEARTH_FIELD(hearth::formats::LightRecord, name, "may be empty"),
               HEARTH_FIELD(hearth::formats::LightRecord, type, "0 directional, 1 point, 2 spot"),
@@ -269,33 +270,36 @@ HEARTH_RECORD(hearth::formats::LightRecord, 96,
 HEARTH_RECORD(hearth::formats::TextureRef, 32,
               HEARTH_FIELD(hearth::formats::TextureRef, image, "image, or none"),
               HEARTH_FIELD(hearth::formats::TextureRef, uv_set, "0 to 3"),
-              HEARTH_FIELD(hearth::formats::TextureRef, wrap_u, "0 repeat, 1 mirrored repeat, 2 clamp to edge"),
+              HEARTH_FIELD(hearth::formats::TextureRef, wrap_u,
+                           "0 repeat, 1 mirrored repeat, 2 clamp to edge"),
               HEARTH_FIELD(hearth::formats::TextureRef, wrap_v, "the same"),
               HEARTH_FIELD(hearth::formats::TextureRef, nearest, "1: magnified without filtering"),
               HEARTH_FIELD(hearth::formats::TextureRef, uv_transform, "row-major 2x3, applied to (u, v, 1)"));
-HEARTH_RECORD(hearth::formats::MaterialRecord, 224,
-              HEARTH_FIELD(hearth::formats::MaterialRecord, name, "may be empty"),
-              HEARTH_FIELD(hearth::formats::MaterialRecord, flags, "1 double-sided, 2 unlit"),
-              HEARTH_FIELD(hearth::formats::MaterialRecord, alpha_mode, "0 opaque, 1 mask, 2 blend"),
-              HEARTH_FIELD(hearth::formats::MaterialRecord, base_color, "linear RGBA factor"),
-              HEARTH_FIELD(hearth::formats::MaterialRecord, emissive, "linear factor times emissive strength"),
-              HEARTH_FIELD(hearth::formats::MaterialRecord, alpha_cutoff, "used by mode mask"),
-              HEARTH_FIELD(hearth::formats::MaterialRecord, metallic, "factor 0..1"),
-              HEARTH_FIELD(hearth::formats::MaterialRecord, roughness, "factor 0..1"),
-              HEARTH_FIELD(hearth::formats::MaterialRecord, normal_scale, ""),
-              HEARTH_FIELD(hearth::formats::MaterialRecord, occlusion_strength, "0..1"),
-              HEARTH_FIELD(hearth::formats::MaterialRecord, base_color_texture, ""),
-              HEARTH_FIELD(hearth::formats::MaterialRecord, metallic_roughness_texture, "G roughness, B metallic"),
-              HEARTH_FIELD(hearth::formats::MaterialRecord, normal_texture, "tangent space, +Y up"),
-              HEARTH_FIELD(hearth::formats::MaterialRecord, occlusion_texture, "R"),
-              HEARTH_FIELD(hearth::formats::MaterialRecord, emissive_texture, ""));
+HEARTH_RECORD(
+    hearth::formats::MaterialRecord, 224, HEARTH_FIELD(hearth::formats::MaterialRecord, name, "may be empty"),
+    HEARTH_FIELD(hearth::formats::MaterialRecord, flags, "1 double-sided, 2 unlit"),
+    HEARTH_FIELD(hearth::formats::MaterialRecord, alpha_mode, "0 opaque, 1 mask, 2 blend"),
+    HEARTH_FIELD(hearth::formats::MaterialRecord, base_color, "linear RGBA factor"),
+    HEARTH_FIELD(hearth::formats::MaterialRecord, emissive, "linear factor times emissive strength"),
+    HEARTH_FIELD(hearth::formats::MaterialRecord, alpha_cutoff, "used by mode mask"),
+    HEARTH_FIELD(hearth::formats::MaterialRecord, metallic, "factor 0..1"),
+    HEARTH_FIELD(hearth::formats::MaterialRecord, roughness, "factor 0..1"),
+    HEARTH_FIELD(hearth::formats::MaterialRecord, normal_scale, ""),
+    HEARTH_FIELD(hearth::formats::MaterialRecord, occlusion_strength, "0..1"),
+    HEARTH_FIELD(hearth::formats::MaterialRecord, base_color_texture, ""),
+    HEARTH_FIELD(hearth::formats::MaterialRecord, metallic_roughness_texture, "G roughness, B metallic"),
+    HEARTH_FIELD(hearth::formats::MaterialRecord, normal_texture, "tangent space, +Y up"),
+    HEARTH_FIELD(hearth::formats::MaterialRecord, occlusion_texture, "R"),
+    HEARTH_FIELD(hearth::formats::MaterialRecord, emissive_texture, ""));
 HEARTH_RECORD(hearth::formats::ImageRecord, 32,
               HEARTH_FIELD(hearth::formats::ImageRecord, name, "file name or name in the source"),
               HEARTH_FIELD(hearth::formats::ImageRecord, width, "texels"),
               HEARTH_FIELD(hearth::formats::ImageRecord, height, "texels"),
               HEARTH_FIELD(hearth::formats::ImageRecord, mip_count, ""),
-              HEARTH_FIELD(hearth::formats::ImageRecord, format, "0 RGBA8 sRGB, 1 RGBA8 unorm, 2 RGBA16 float"),
-              HEARTH_FIELD(hearth::formats::ImageRecord, flags, "1 placeholder, 2 normal map, 4 alpha-tested"),
+              HEARTH_FIELD(hearth::formats::ImageRecord, format,
+                           "0 RGBA8 sRGB, 1 RGBA8 unorm, 2 RGBA16 float"),
+              HEARTH_FIELD(hearth::formats::ImageRecord, flags,
+                           "1 placeholder, 2 normal map, 4 alpha-tested"),
               HEARTH_FIELD(hearth::formats::ImageRecord, alpha_cutoff, "that the mips keep the coverage of"));
 HEARTH_RECORD(hearth::formats::SkinRecord, 24,
               HEARTH_FIELD(hearth::formats::SkinRecord, name, "may be empty"),
@@ -304,19 +308,23 @@ HEARTH_RECORD(hearth::formats::SkinRecord, 24,
               HEARTH_FIELD(hearth::formats::SkinRecord, reserved, "0"));
 HEARTH_RECORD(hearth::formats::JointRecord, 64, HEARTH_FIELD(hearth::formats::JointRecord, node, "node"),
               HEARTH_FIELD(hearth::formats::JointRecord, reserved, "0"),
-              HEARTH_FIELD(hearth::formats::JointRecord, joint_from_bind, "inverse bind matrix, row-major 3x4"));
+              HEARTH_FIELD(hearth::formats::JointRecord, joint_from_bind,
+                           "inverse bind matrix, row-major 3x4"));
 HEARTH_RECORD(hearth::formats::AnimationRecord, 24,
               HEARTH_FIELD(hearth::formats::AnimationRecord, name, "may be empty"),
               HEARTH_FIELD(hearth::formats::AnimationRecord, channels, "records of chunk ACHN"),
-              HEARTH_FIELD(hearth::formats::AnimationRecord, duration, "seconds: the last key of all channels"),
+              HEARTH_FIELD(hearth::formats::AnimationRecord, duration,
+                           "seconds: the last key of all channels"),
               HEARTH_FIELD(hearth::formats::AnimationRecord, reserved, "0"));
 HEARTH_RECORD(hearth::formats::AnimationChannelRecord, 32,
               HEARTH_FIELD(hearth::formats::AnimationChannelRecord, node, "node that moves"),
               HEARTH_FIELD(hearth::formats::AnimationChannelRecord, path,
                            "0 translation, 1 rotation, 2 scale, 3 morph weights"),
-              HEARTH_FIELD(hearth::formats::AnimationChannelRecord, interpolation, "0 step, 1 linear, 2 cubic spline"),
+              HEARTH_FIELD(hearth::formats::AnimationChannelRecord, interpolation,
+                           "0 step, 1 linear, 2 cubic spline"),
               HEARTH_FIELD(hearth::formats::AnimationChannelRecord, components, "floats of one value"),
               HEARTH_FIELD(hearth::formats::AnimationChannelRecord, key_count, ""),
-              HEARTH_FIELD(hearth::formats::AnimationChannelRecord, first_time, "float of chunk AKEY; key_count times"),
+              HEARTH_FIELD(hearth::formats::AnimationChannelRecord, first_time,
+                           "float of chunk AKEY; key_count times"),
               HEARTH_FIELD(hearth::formats::AnimationChannelRecord, first_value, "float of chunk AKEY"),
               HEARTH_FIELD(hearth::formats::AnimationChannelRecord, reserved, "0"));

@@ -52,7 +52,7 @@ inline float dequantizeSnorm16(int32_t q)
 /// Nearest unorm16; values outside [0, 1] are clamped.
 inline uint32_t quantizeUnorm16(float value)
 {
-    return static_cast<uint32_t>(std::clamp(value, 0.0f, 1.0f) * kUnorm16Max + 0.5f);
+    return static_cast<uint32_t>(std::lround(std::clamp(value, 0.0f, 1.0f) * kUnorm16Max));
 }
 
 inline float dequantizeUnorm16(uint32_t q)

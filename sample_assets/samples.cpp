@@ -4,8 +4,10 @@
 #include "sample_assets/character.h"
 #include "sample_assets/grass.h"
 #include "sample_assets/hearth_scene.h"
+#include "sample_assets/noise.h"
 #include "sample_assets/rock.h"
 #include "sample_assets/room.h"
+#include "sample_assets/sample_math.h"
 #include "sample_assets/terrain.h"
 
 #include <array>
@@ -90,6 +92,33 @@ Document generateCharacter(const SampleOptions& options)
     return document;
 }
 
+/// A small rock under nodes that mirror, stretch and, nested, shear it: what culling by bounds likes to get wrong.
+Document generateTransforms(const SampleOptions& options)
+{
+    Document document;
+    const int material = addRockMaterial(document, textureSizeOr(options, 64));
+    const TriangleMesh rock = makeRock(trianglesOr(options, 3000), 5, 2.0f);
+    const int mesh = add(document.meshes, Mesh{"rock", {{rock, material}}});
+    for (uint32_t i = 0; i < 12; ++i)
+    {
+        const auto random = [&](uint32_t which) { return randomUnit(i * 16 + which, 71); };
+        Node inner;
+        inner.name = "inner_" + std::to_string(i);
+        inner.mesh = mesh;
+        inner.placement.rotation = rotationAbout(normalize({random(0), random(1), random(2)}), 3 * random(3));
+        inner.placement.scale = {i % 2 ? -1.0f : 1.0f, 0.3f + random(4), 0.3f + random(5)};
+        Node outer;
+        outer.name = "outer_" + std::to_string(i);
+        outer.children = {add(document.nodes, inner)};
+        outer.placement.translation = {static_cast<float>(i % 4) * 3 - 4.5f, 0,
+                                       static_cast<float>(i / 4) * 3 - 3};
+        outer.placement.rotation = rotationAbout({0, 0, 1}, 2 * random(6));
+        outer.placement.scale = {0.4f + random(7), i % 3 ? 0.8f : -0.8f, 0.4f + random(8)};
+        addRoot(document, outer);
+    }
+    return document;
+}
+
 Document generateScene(const SampleOptions& options)
 {
     return makeHearthScene(trianglesOr(options, 2000000), textureSizeOr(options, 2048));
@@ -104,6 +133,7 @@ constexpr std::array kKinds{
                generateRoom},
     SampleKind{"character", "a skinned mannequin of seventeen joints with a walk and a wave",
                generateCharacter},
+    SampleKind{"transforms", "a small rock, mirrored, stretched and sheared", generateTransforms},
     SampleKind{"scene", "the demo: a campfire at dusk before a boulder of 2 million triangles",
                generateScene},
 };

@@ -47,7 +47,8 @@ public:
         }
         std::vector<std::byte> bytes(end);
         std::memcpy(bytes.data(), &header, sizeof(header));
-        std::memcpy(bytes.data() + sizeof(header), arrays_.data(), arrays_.size() * sizeof(SourceArray));
+        if (!arrays_.empty())
+            std::memcpy(bytes.data() + sizeof(header), arrays_.data(), arrays_.size() * sizeof(SourceArray));
         for (size_t i = 0; i < arrays_.size(); ++i)
             std::memcpy(bytes.data() + arrays_[i].offset, contents_[i].data(), contents_[i].size());
         return bytes;

@@ -4,6 +4,7 @@
 
 #include "formats/mesh.h"
 #include "formats/scene.h"
+#include "formats/shared/records.h"
 
 #define HEARTH_SAME_OFFSET(shared_type, shared_member, record_type, record_member)                           \
     static_assert(offsetof(hearth::shared::shared_type, shared_member) ==                                    \

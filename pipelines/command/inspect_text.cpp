@@ -2,6 +2,7 @@
 #include "pipelines/command/inspect.h"
 #include "pipelines/command/terminal.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 
 namespace hearth::command
@@ -12,18 +13,28 @@ using namespace formats;
 namespace
 {
 
+/// A name from a file, without what would steer a terminal.
+std::string printable(std::string_view name)
+{
+    std::string text(name);
+    std::replace_if(
+        text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; },
+        '?');
+    return text;
+}
+
 std::string headText(const PackView& pack, const PackSummary& summary)
 {
     const FileHeader& header = pack.container().header();
-    std::string text = fmt::format("{}: {} {}.{}, {}, {} meshes, {} instances\n", pack.name(),
+    std::string text = fmt::format("{}: {} {}.{}, {}, {} meshes, {} instances\n", printable(pack.name()),
                                    pack.container().kind() == ContainerKind::pack ? "pack" : "part",
                                    header.version_major, header.version_minor, readableSize(header.file_size),
                                    pack.meshes().size(), pack.instances().size());
     for (const SourceSummary& source : summary.meta.sources)
-        text += fmt::format("source     {} ({})\n", source.name, readableSize(source.bytes));
+        text += fmt::format("source     {} ({})\n", printable(source.name), readableSize(source.bytes));
     text += "counts    ";
     for (const auto& [name, count] : summary.meta.counts)
-        text += fmt::format(" {} {}", count, name);
+        text += fmt::format(" {} {}", count, printable(name));
     return text + "\n";
 }
 
@@ -40,8 +51,8 @@ std::string sceneText(const PackView& pack, const PackSummary& summary)
 std::string meshText(const MeshSummary& mesh, size_t index)
 {
     std::string text = fmt::format("\nmesh {} \"{}\": {} triangles, {} vertices, {} faces; {}\n", index,
-                                   mesh.name, mesh.source_triangles, mesh.source_vertices, mesh.source_faces,
-                                   attributeNames(mesh.attributes));
+                                   printable(mesh.name), mesh.source_triangles, mesh.source_vertices,
+                                   mesh.source_faces, attributeNames(mesh.attributes));
     if (mesh.degenerate_triangles > 0)
         text += fmt::format("  {} triangles without area are left out\n", mesh.degenerate_triangles);
     if (mesh.skinned || mesh.morph_targets > 0)
@@ -71,10 +82,11 @@ std::string imagesText(const PackView& pack)
     {
         const ImageRecord& image = pack.images()[i];
         const ChunkEntry* data = pack.container().find(kChunkImageData, i);
-        text += fmt::format("image {} \"{}\": {} x {}, {} mips, {}, {}{}\n", i, pack.text(image.name),
-                            image.width, image.height, image.mip_count, texelFormatName(image.format),
-                            readableSize(data == nullptr ? 0 : data->stored_size),
-                            (image.flags & kImagePlaceholder) != 0 ? ", placeholder" : "");
+        text +=
+            fmt::format("image {} \"{}\": {} x {}, {} mips, {}, {}{}\n", i, printable(pack.text(image.name)),
+                        image.width, image.height, image.mip_count, texelFormatName(image.format),
+                        readableSize(data == nullptr ? 0 : data->stored_size),
+                        (image.flags & kImagePlaceholder) != 0 ? ", placeholder" : "");
     }
     return text.empty() ? text : "\n" + text;
 }
@@ -83,8 +95,9 @@ std::string messagesText(const MetaSummary& meta)
 {
     std::string text;
     for (const MessageSummary& message : meta.messages)
-        text += fmt::format("{} {}{}{}: {}\n", message.code, message.source, message.where.empty() ? "" : "|",
-                            message.where, message.text);
+        text +=
+            fmt::format("{} {}{}{}: {}\n", printable(message.code), printable(message.source),
+                        message.where.empty() ? "" : "|", printable(message.where), printable(message.text));
     return text.empty() ? text : "\n" + text;
 }
 

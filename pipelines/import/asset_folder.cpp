@@ -119,7 +119,7 @@ Result<std::string> AssetFolder::locate(std::string_view relative_path) const
     if (!real)
         return failure(Issue::input_missing, std::strerror(errno));
     const std::optional<std::string> root = resolved(folder_);
-    if (!root || !(real->starts_with(*root == "/" ? *root : *root + "/")))
+    if (!root || !(*real + "/").starts_with(*root == "/" ? *root : *root + "/"))
         return failure(Issue::uri_outside, "a symbolic link leads out of the folder of the asset");
     struct stat info = {};
     if (::stat(real->c_str(), &info) != 0 || !S_ISREG(info.st_mode))

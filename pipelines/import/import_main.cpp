@@ -91,6 +91,6 @@ int main(int argc, char** argv)
     const Status status = run(arguments);
     if (status.ok())
         return 0;
-    std::fprintf(stderr, "%s\n", formatMessage(status.error()).c_str());
+    std::fprintf(stderr, "%s\n", formatMessage(import::shortened(status.error())).c_str());
     return exitCode(status.error());
 }

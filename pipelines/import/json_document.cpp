@@ -151,6 +151,8 @@ Result<JsonDocument> JsonDocument::parse(std::string_view text, const std::strin
     if (text.size() > kMaxTextBytes)
         return Error{Issue::input_too_large, file, "",
                      "the JSON text has " + std::to_string(text.size()) + " bytes"};
+    if (text.starts_with("\xEF\xBB\xBF"))
+        return Error{Issue::json_syntax, file, "", "the JSON text starts with a byte-order mark"};
     JsonDocument document;
     JsonBuilder builder(document, text, file);
     if (!nlohmann::json::sax_parse(text.begin(), text.end(), &builder))

@@ -60,7 +60,7 @@ private:
 class JsonDocument
 {
 public:
-    /// Parse strictly (RFC 8259, UTF-8), except that equal names in an object and a byte-order mark are tolerated.
+    /// Parse strictly (RFC 8259, UTF-8), except that equal names in an object are tolerated.
     /// `file` stands in messages. errors: json_syntax (also for more than 128 levels), input_too_large.
     static Result<JsonDocument> parse(std::string_view text, const std::string& file);
 

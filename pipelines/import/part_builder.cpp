@@ -70,7 +70,21 @@ std::string countsJson(const SourceCounts& counts, size_t meshes, size_t images,
                        counts.materials, counts.joints, counts.animations, counts.morph_targets);
 }
 
+void cut(std::string& text)
+{
+    constexpr size_t kMaxLength = 300;
+    if (text.size() > kMaxLength)
+        text = text.substr(0, kMaxLength) + "...";
+}
+
 } // namespace
+
+Error shortened(Error error)
+{
+    cut(error.where);
+    cut(error.detail);
+    return error;
+}
 
 PartBuilder::PartBuilder(ContainerWriter writer, std::string source_name)
     : writer_(std::move(writer)), source_name_(std::move(source_name))
@@ -122,7 +136,7 @@ void PartBuilder::warn(Issue issue, std::string where, std::string detail)
 {
     HEARTH_ASSERT(issueInfo(issue).kind == IssueClass::warning);
     if (warnings_.size() < kMaxWarnings)
-        warnings_.push_back({issue, source_name_, std::move(where), std::move(detail)});
+        warnings_.push_back(shortened({issue, source_name_, std::move(where), std::move(detail)}));
     else
         ++warnings_left_out_;
 }

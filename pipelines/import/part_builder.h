@@ -35,6 +35,9 @@ struct SourceCounts
     uint64_t morph_targets = 0;
 };
 
+/// The error with its texts cut to what a person reads: names in a hostile file can be megabytes long.
+Error shortened(Error error);
+
 /// The import part being written. Small records collect in the public vectors; meshes and images go to the file
 /// at once, so that one mesh and one image are in memory at a time.
 class PartBuilder

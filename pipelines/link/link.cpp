@@ -36,7 +36,7 @@ Result<PackView> openPart(const std::string& path)
     // every chunk is hashed when it is read or copied: no need to read the file once more before that
     HEARTH_ASSIGN_OR_RETURN(ContainerReader reader, ContainerReader::open(path, Check::structure));
     if (reader.kind() != ContainerKind::part)
-        return Error{Issue::meaning_value, path, "", "is a pack, not a part"};
+        return Error{Issue::container_kind, path, "", "this is a pack, not a part"};
     return PackView::read(std::move(reader));
 }
 
@@ -253,14 +253,20 @@ Status linkPack(std::span<const SourceParts> sources, const std::string& output)
     HEARTH_TRY(placeSources(opened, output));
 
     const std::string unchecked = output + ".unchecked-" + std::to_string(::getpid());
-    HEARTH_TRY(writePack(unchecked, opened));
-    Status status = checkWritten(unchecked);
+    Status status = writePack(unchecked, opened);
+    if (status.ok())
+        status = checkWritten(unchecked);
     if (status.ok() && ::rename(unchecked.c_str(), output.c_str()) != 0)
         status =
             Error{Issue::cannot_write, output, "", std::string("cannot rename: ") + std::strerror(errno)};
-    if (!status.ok())
-        ::unlink(unchecked.c_str());
-    return status;
+    if (status.ok())
+        return success();
+
+    ::unlink(unchecked.c_str());
+    Error error = std::move(status).error();
+    if (error.file == unchecked)
+        error.file = output; // the name that the user gave
+    return error;
 }
 
 } // namespace hearth::link

@@ -109,9 +109,9 @@ private:
     std::map<std::tuple<uint8_t, uint8_t, uint8_t>, VkSampler> samplers_;
 };
 
-Status createMaterialSet(const Device& device, const DrawLayouts& layouts,
-                         const formats::MaterialRecord& material, VkDeviceSize offset, SamplerCache& samplers,
-                         Scene& scene)
+Result<VkDescriptorSet> createMaterialSet(const Device& device, const DrawLayouts& layouts,
+                                          const formats::MaterialRecord& material, VkDeviceSize offset,
+                                          SamplerCache& samplers, Scene& scene)
 {
     HEARTH_ASSIGN_OR_RETURN(const VkDescriptorSet set,
                             allocateSet(device, scene.pool.get(), layouts.material.get()));
@@ -127,8 +127,7 @@ Status createMaterialSet(const Device& device, const DrawLayouts& layouts,
         writer.texture(1 + slot, image.view.get(), sampler);
     }
     writer.write(device);
-    scene.material_sets.push_back(set);
-    return success();
+    return set;
 }
 
 } // namespace
@@ -164,7 +163,14 @@ Status uploadMaterials(const Device& device, const DrawLayouts& layouts, const f
     {
         const shared::Material material = makeMaterial(materials[row]);
         std::memcpy(mapped.data() + row * stride, &material, sizeof(material));
-        HEARTH_TRY(createMaterialSet(device, layouts, materials[row], row * stride, samplers, scene));
+        SceneMaterial entry;
+        entry.variant = {.used_slices = scene.used_slices,
+                         .textures = material.textures,
+                         .uv_sets = material.uv_sets,
+                         .unlit = (material.flags & formats::kMaterialUnlit) != 0 ? 1u : 0u};
+        HEARTH_ASSIGN_OR_RETURN(
+            entry.set, createMaterialSet(device, layouts, materials[row], row * stride, samplers, scene));
+        scene.materials.push_back(entry);
     }
     return success();
 }

@@ -17,9 +17,11 @@ Result<UniqueShaderModule> createModule(const Device& device, std::span<const ui
     return UniqueShaderModule(device, module);
 }
 
-VkPipelineShaderStageCreateInfo stageInfo(VkShaderStageFlagBits stage, VkShaderModule module)
+VkPipelineShaderStageCreateInfo stageInfo(VkShaderStageFlagBits stage, VkShaderModule module,
+                                          const VkSpecializationInfo* constants)
 {
-    return {VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO, nullptr, 0, stage, module, "main", nullptr};
+    return {
+        VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO, nullptr, 0, stage, module, "main", constants};
 }
 
 } // namespace
@@ -70,7 +72,7 @@ Result<ComputePipeline> createComputePipeline(const Device& device, std::span<co
 
     VkComputePipelineCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO;
-    info.stage = stageInfo(VK_SHADER_STAGE_COMPUTE_BIT, module.get());
+    info.stage = stageInfo(VK_SHADER_STAGE_COMPUTE_BIT, module.get(), nullptr);
     info.layout = result.layout.get();
     VkPipeline pipeline;
     HEARTH_TRY_VK(device.vk.vkCreateComputePipelines(device.handle, device.pipeline_cache, 1, &info,
@@ -84,9 +86,14 @@ Result<UniquePipeline> createGraphicsPipeline(const Device& device, const Graphi
 {
     HEARTH_ASSIGN_OR_RETURN(const UniqueShaderModule vertex, createModule(device, description.vertex));
     HEARTH_ASSIGN_OR_RETURN(const UniqueShaderModule fragment, createModule(device, description.fragment));
+    std::vector<VkSpecializationMapEntry> entries;
+    for (uint32_t i = 0; i < description.constants.size(); ++i)
+        entries.push_back({i, i * uint32_t{sizeof(uint32_t)}, sizeof(uint32_t)});
+    const VkSpecializationInfo constants{static_cast<uint32_t>(entries.size()), entries.data(),
+                                         description.constants.size_bytes(), description.constants.data()};
     const VkPipelineShaderStageCreateInfo stages[] = {
-        stageInfo(VK_SHADER_STAGE_VERTEX_BIT, vertex.get()),
-        stageInfo(VK_SHADER_STAGE_FRAGMENT_BIT, fragment.get())};
+        stageInfo(VK_SHADER_STAGE_VERTEX_BIT, vertex.get(), &constants),
+        stageInfo(VK_SHADER_STAGE_FRAGMENT_BIT, fragment.get(), &constants)};
     VkPipelineVertexInputStateCreateInfo vertex_input{};
     vertex_input.sType = VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO;
     VkPipelineInputAssemblyStateCreateInfo assembly{};

@@ -47,6 +47,7 @@ struct GraphicsDescription
     VkCompareOp depth_compare;
     bool depth_write;
     bool color;
+    std::span<const uint32_t> constants{}; ///< value of specialization constant i, for both stages
 };
 /// Triangles without vertex buffers; viewport and scissor dynamic; at most one colour target, not blended.
 Result<UniquePipeline> createGraphicsPipeline(const Device& device, const GraphicsDescription& description);

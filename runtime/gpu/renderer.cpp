@@ -37,11 +37,15 @@ Result<FrameTargets> Renderer::createTargets(VkExtent2D extent) const
 }
 
 Result<std::unique_ptr<Scene>> Renderer::upload(const formats::PackView& pack, VkCommandBuffer commands,
-                                                const SceneOptions& options) const
+                                                const SceneOptions& options)
 {
     HEARTH_ASSIGN_OR_RETURN(std::unique_ptr<Scene> scene,
                             uploadScene(device_, layouts_, pack, commands, options));
     HEARTH_TRY(cull_.createSets(device_, *scene));
+    for (SceneMaterial& material : scene->materials)
+    {
+        HEARTH_ASSIGN_OR_RETURN(material.pipelines, shading_.prepare(device_, layouts_, material.variant));
+    }
     return scene;
 }
 

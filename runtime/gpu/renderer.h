@@ -43,9 +43,9 @@ public:
     /// errors: device_limit, device_failed.
     Result<FrameTargets> createTargets(VkExtent2D extent) const;
 
-    /// See uploadScene.
+    /// See uploadScene. Also makes the pipelines that the scene's materials need and no scene before had.
     Result<std::unique_ptr<Scene>> upload(const formats::PackView& pack, VkCommandBuffer commands,
-                                          const SceneOptions& options = {}) const;
+                                          const SceneOptions& options = {});
 
     /// Record culling and drawing of one frame, outside a render pass. Clobbers compute and graphics state.
     /// Afterwards targets.visibility() and targets.color() can be copied from.

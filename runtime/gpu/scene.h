@@ -38,6 +38,31 @@ struct CullSets
     VkDescriptorSet instances, clusters, scan_blocks, scan_totals, emit_visible, emit_draws;
 };
 
+/// What of a material is compiled into its shading pipeline: a scene has few different ones.
+struct ShadingVariant
+{
+    uint32_t used_slices = shared::kPoolSlices; ///< of the geometry pool: 1 or all
+    uint32_t textures = 0;                      ///< as shared::Material
+    uint32_t uv_sets = 0;                       ///< as shared::Material
+    uint32_t unlit = 0;
+    friend auto operator<=>(const ShadingVariant&, const ShadingVariant&) = default;
+};
+
+/// Pipelines of the shading pass, which owns them.
+struct ShadingPipelines
+{
+    VkPipeline final_view = VK_NULL_HANDLE;
+    VkPipeline inspection = VK_NULL_HANDLE;
+};
+
+/// A row of the material table.
+struct SceneMaterial
+{
+    VkDescriptorSet set = VK_NULL_HANDLE;
+    ShadingVariant variant;
+    ShadingPipelines pipelines;
+};
+
 /// Frames of one scene must not overlap on the GPU: submit them to one queue.
 struct Scene
 {
@@ -51,15 +76,16 @@ struct Scene
     std::vector<UniqueSampler> samplers;
     UniqueDescriptorPool pool;
     VkDescriptorSet draw_set = VK_NULL_HANDLE;
-    std::vector<VkDescriptorSet> material_sets; ///< for each row of the material table
+    std::vector<SceneMaterial> materials; ///< the rows of the material table
     CullSets cull_sets{};
 
     std::vector<SceneBin> bins;
     uint32_t instance_count = 0;
     uint32_t item_count = 0;
     uint32_t slot_capacity = 0;
-    uint32_t dropped_lights = 0; ///< lights of the pack beyond shared::kMaxLights
-    Box3 bounds;                 ///< world space, empty where there is nothing to draw
+    uint32_t used_slices = shared::kPoolSlices; ///< 1 where the first holds all geometry
+    uint32_t dropped_lights = 0;                ///< lights of the pack beyond shared::kMaxLights
+    Box3 bounds;                                ///< world space, empty where there is nothing to draw
 };
 
 /// Work items that the scan takes together.
@@ -68,14 +94,14 @@ inline uint32_t blockCount(const Scene& scene)
     return (scene.item_count + shared::kScanBlockItems - 1) / shared::kScanBlockItems;
 }
 
-/// Create and fill everything but the descriptor sets of the culling pass; records copies into `commands`, which the
+/// Create and fill everything but what belongs to a pass (cull_sets and the materials' pipelines); records copies into `commands`, which the
 /// caller submits and waits for before it resets `staging`. The pack has been checked (pack::Pack).
 /// errors: device_limit, device_failed, those of reading pages and images.
 Result<std::unique_ptr<Scene>> uploadScene(const Device& device, const DrawLayouts& layouts,
                                            const formats::PackView& pack, VkCommandBuffer commands,
                                            const SceneOptions& options);
 
-/// The images of the materials, and one descriptor set for each row of the material table. Needs scene.pool.
+/// The images of the materials, and one descriptor set for each row of the material table. Needs scene.pool and scene.used_slices.
 Status uploadMaterials(const Device& device, const DrawLayouts& layouts, const formats::PackView& pack,
                        Uploader& uploader, Scene& scene);
 

@@ -94,17 +94,17 @@ Status uploadTables(const formats::PackView& pack, const SceneLayout& layout, Up
 {
     const SceneBuffers& b = scene.buffers;
     HEARTH_TRY(uploader.uploadRecords(b.instances, pack.instances()));
-    HEARTH_TRY(uploader.uploadRecords(b.inverses, std::span(layout.inverses)));
-    HEARTH_TRY(uploader.uploadRecords(b.bounds, std::span(layout.bounds)));
-    HEARTH_TRY(uploader.uploadRecords(b.items, std::span(layout.items)));
-    HEARTH_TRY(uploader.uploadRecords(b.order, std::span(layout.order)));
+    HEARTH_TRY(uploader.uploadRecords(b.inverses, layout.inverses));
+    HEARTH_TRY(uploader.uploadRecords(b.bounds, layout.bounds));
+    HEARTH_TRY(uploader.uploadRecords(b.items, layout.items));
+    HEARTH_TRY(uploader.uploadRecords(b.order, layout.order));
     HEARTH_TRY(uploader.uploadRecords(b.clusters, pack.clusters()));
     HEARTH_TRY(uploader.uploadRecords(b.groups, pack.groups()));
-    HEARTH_TRY(uploader.uploadRecords(b.cluster_draws, std::span(layout.draws)));
+    HEARTH_TRY(uploader.uploadRecords(b.cluster_draws, layout.draws));
     std::vector<shared::Bin> bins;
     for (const SceneBin& bin : layout.bins)
         bins.push_back(bin.items);
-    HEARTH_TRY(uploader.uploadRecords(b.bins, std::span(bins)));
+    HEARTH_TRY(uploader.uploadRecords(b.bins, bins));
 
     const shared::Lighting lighting = makeLighting(pack);
     scene.dropped_lights = static_cast<uint32_t>(pack.lights().size() -
@@ -168,6 +168,7 @@ Result<std::unique_ptr<Scene>> uploadScene(const Device& device, const DrawLayou
     scene->item_count = static_cast<uint32_t>(layout.items.size());
     scene->slot_capacity = static_cast<uint32_t>(std::min<uint64_t>(
         layout.instanced_clusters, std::min(options.max_visible_clusters, shared::kMaxSlots)));
+    scene->used_slices = layout.slice_words[1] == 0 ? 1 : shared::kPoolSlices;
     scene->bounds = sceneBounds(pack);
 
     HEARTH_TRY(createBuffers(device, pack, layout, *scene));

@@ -6,22 +6,51 @@
 namespace hearth::gpu
 {
 
+namespace
+{
+
+GraphicsDescription describe(std::span<const uint32_t> fragment, VkPipelineLayout layout,
+                             VkRenderPass render_pass)
+{
+    return {.vertex = shaders::fullscreen_vert,
+            .fragment = fragment,
+            .layout = layout,
+            .render_pass = render_pass,
+            .subpass = kSubpassShading,
+            .depth_compare = VK_COMPARE_OP_EQUAL,
+            .depth_write = false,
+            .color = true};
+}
+
+} // namespace
+
 Result<ShadingPass> ShadingPass::create(const Device& device, const DrawLayouts& layouts,
                                         VkRenderPass render_pass)
 {
-    GraphicsDescription description{.vertex = shaders::fullscreen_vert,
-                                    .fragment = shaders::sky_frag,
-                                    .layout = layouts.pipeline.get(),
-                                    .render_pass = render_pass,
-                                    .subpass = kSubpassShading,
-                                    .depth_compare = VK_COMPARE_OP_EQUAL,
-                                    .depth_write = false,
-                                    .color = true};
     ShadingPass pass;
-    HEARTH_ASSIGN_OR_RETURN(pass.sky_, createGraphicsPipeline(device, description));
-    description.fragment = shaders::shading_frag;
-    HEARTH_ASSIGN_OR_RETURN(pass.material_, createGraphicsPipeline(device, description));
+    pass.render_pass_ = render_pass;
+    HEARTH_ASSIGN_OR_RETURN(
+        pass.sky_,
+        createGraphicsPipeline(device, describe(shaders::sky_frag, layouts.pipeline.get(), render_pass)));
     return pass;
+}
+
+Result<ShadingPipelines> ShadingPass::prepare(const Device& device, const DrawLayouts& layouts,
+                                              const ShadingVariant& variant)
+{
+    const auto [entry, fresh] = variants_.try_emplace(variant);
+    Variant& pipelines = entry->second;
+    if (fresh)
+    {
+        const uint32_t constants[] = {variant.used_slices, variant.textures, variant.uv_sets, variant.unlit};
+        GraphicsDescription description =
+            describe(shaders::shading_frag, layouts.pipeline.get(), render_pass_);
+        description.constants = constants;
+        HEARTH_ASSIGN_OR_RETURN(pipelines.final_view, createGraphicsPipeline(device, description));
+        description.fragment = shaders::inspect_frag;
+        HEARTH_ASSIGN_OR_RETURN(pipelines.inspection, createGraphicsPipeline(device, description));
+    }
+    return ShadingPipelines{pipelines.final_view.get(), pipelines.inspection.get()};
 }
 
 void ShadingPass::record(const Device& device, VkCommandBuffer commands, const DrawLayouts& layouts,
@@ -38,13 +67,16 @@ void ShadingPass::record(const Device& device, VkCommandBuffer commands, const D
     device.vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, sky_.get());
     device.vk.vkCmdDraw(commands, 3, 1, 0, 0);
 
-    device.vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, material_.get());
-    for (uint32_t row = 0; row < scene.material_sets.size(); ++row)
+    for (uint32_t row = 0; row < scene.materials.size(); ++row)
     {
+        const SceneMaterial& material = scene.materials[row];
+        device.vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS,
+                                    view.shown == shared::kViewFinal ? material.pipelines.final_view
+                                                                     : material.pipelines.inspection);
         const uint32_t number = row + 1; // 0 is the sky
         push.depth = static_cast<float>(number) / 65535.0f;
         device.vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout, 1, 1,
-                                          &scene.material_sets[row], 0, nullptr);
+                                          &material.set, 0, nullptr);
         device.vk.vkCmdPushConstants(commands, layout, kDrawPushStages, 0, sizeof(push), &push);
         // no vertices where the culling pass found no cluster of this material
         device.vk.vkCmdDrawIndirect(commands, scene.buffers.material_draws.handle.get(),

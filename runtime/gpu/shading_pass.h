@@ -6,6 +6,8 @@
 #include "runtime/gpu/frame_targets.h"
 #include "runtime/gpu/scene.h"
 
+#include <map>
+
 namespace hearth::gpu
 {
 
@@ -22,13 +24,23 @@ public:
     static Result<ShadingPass> create(const Device& device, const DrawLayouts& layouts,
                                       VkRenderPass render_pass);
 
+    /// The pipelines of a material; made once for each variant and kept. To be called before frames are recorded.
+    Result<ShadingPipelines> prepare(const Device& device, const DrawLayouts& layouts,
+                                     const ShadingVariant& variant);
+
     /// Inside subpass kSubpassShading, with viewport and scissor set. Clobbers the graphics state.
     void record(const Device& device, VkCommandBuffer commands, const DrawLayouts& layouts,
                 const Scene& scene, const FrameTargets& targets, const ShadingView& view) const;
 
 private:
+    struct Variant
+    {
+        UniquePipeline final_view;
+        UniquePipeline inspection;
+    };
+    VkRenderPass render_pass_ = VK_NULL_HANDLE;
     UniquePipeline sky_;
-    UniquePipeline material_;
+    std::map<ShadingVariant, Variant> variants_;
 };
 
 } // namespace hearth::gpu

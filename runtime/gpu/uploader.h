@@ -22,10 +22,11 @@ public:
     /// The same with the bytes at hand; nothing where there are none.
     Status upload(const Buffer& target, std::span<const std::byte> bytes);
 
-    template <typename T>
-    Status uploadRecords(const Buffer& target, std::span<const T> records)
+    /// The same for a contiguous range of records.
+    template <typename Range>
+    Status uploadRecords(const Buffer& target, const Range& records)
     {
-        return upload(target, std::as_bytes(records));
+        return upload(target, std::as_bytes(std::span(records)));
     }
 
     /// All mips of an image, finest first, tightly packed; leaves it readable by shaders.

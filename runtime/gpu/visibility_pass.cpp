@@ -11,6 +11,16 @@ Result<VisibilityPass> VisibilityPass::create(const Device& device, const DrawLa
                                               VkRenderPass render_pass)
 {
     VisibilityPass pass;
+    HEARTH_TRY(pass.createPipelines(device, layouts, render_pass, 1, pass.opaque_[0], pass.alpha_tested_[0]));
+    HEARTH_TRY(pass.createPipelines(device, layouts, render_pass, shared::kPoolSlices, pass.opaque_[1],
+                                    pass.alpha_tested_[1]));
+    return pass;
+}
+
+Status VisibilityPass::createPipelines(const Device& device, const DrawLayouts& layouts,
+                                       VkRenderPass render_pass, uint32_t used_slices, Pipelines& opaque,
+                                       Pipelines& alpha_tested)
+{
     for (const Facing facing : {Facing::culled, Facing::mirrored, Facing::doubleSided})
     {
         GraphicsDescription description{
@@ -20,19 +30,20 @@ Result<VisibilityPass> VisibilityPass::create(const Device& device, const DrawLa
             .render_pass = render_pass,
             .subpass = kSubpassVisibility,
             .cull =
-                facing == Facing::doubleSided ? VkCullModeFlags{VK_CULL_MODE_NONE} : VK_CULL_MODE_BACK_BIT,
+                VkCullModeFlags(facing == Facing::doubleSided ? VK_CULL_MODE_NONE : VK_CULL_MODE_BACK_BIT),
             .front_face =
                 facing == Facing::mirrored ? VK_FRONT_FACE_CLOCKWISE : VK_FRONT_FACE_COUNTER_CLOCKWISE,
             .depth_compare = VK_COMPARE_OP_GREATER, // reversed: 1 at the near plane, 0 infinitely far away
             .depth_write = true,
-            .color = true};
+            .color = true,
+            .constants = {&used_slices, 1}};
         const auto index = static_cast<size_t>(facing);
-        HEARTH_ASSIGN_OR_RETURN(pass.opaque_[index], createGraphicsPipeline(device, description));
+        HEARTH_ASSIGN_OR_RETURN(opaque[index], createGraphicsPipeline(device, description));
         description.vertex = shaders::visibility_masked_vert;
         description.fragment = shaders::visibility_masked_frag;
-        HEARTH_ASSIGN_OR_RETURN(pass.alpha_tested_[index], createGraphicsPipeline(device, description));
+        HEARTH_ASSIGN_OR_RETURN(alpha_tested[index], createGraphicsPipeline(device, description));
     }
-    return pass;
+    return success();
 }
 
 void VisibilityPass::record(const Device& device, VkCommandBuffer commands, const DrawLayouts& layouts,
@@ -41,15 +52,16 @@ void VisibilityPass::record(const Device& device, VkCommandBuffer commands, cons
     const VkPipelineLayout layout = layouts.pipeline.get();
     device.vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout, 0, 1,
                                       &scene.draw_set, 0, nullptr);
+    const size_t slices = scene.used_slices == 1 ? 0 : 1;
     for (uint32_t i = 0; i < scene.bins.size(); ++i)
     {
         const SceneBin& bin = scene.bins[i];
-        const UniquePipeline* pipelines = bin.alpha_tested ? alpha_tested_ : opaque_;
+        const Pipelines& pipelines = (bin.alpha_tested ? alpha_tested_ : opaque_)[slices];
         device.vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS,
                                     pipelines[static_cast<size_t>(bin.facing)].get());
         if (bin.alpha_tested)
             device.vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout, 1, 1,
-                                              &scene.material_sets[bin.material_row], 0, nullptr);
+                                              &scene.materials[bin.material_row].set, 0, nullptr);
         const DrawPush push{.bin = i};
         device.vk.vkCmdPushConstants(commands, layout, kDrawPushStages, 0, sizeof(push), &push);
         device.vk.vkCmdDrawIndirect(commands, scene.buffers.bin_draws.handle.get(),

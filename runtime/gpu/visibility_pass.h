@@ -18,9 +18,14 @@ public:
                 const Scene& scene) const;
 
 private:
-    // for each Facing
-    UniquePipeline opaque_[3];
-    UniquePipeline alpha_tested_[3];
+    /// For each Facing.
+    using Pipelines = UniquePipeline[3];
+    Status createPipelines(const Device& device, const DrawLayouts& layouts, VkRenderPass render_pass,
+                           uint32_t used_slices, Pipelines& opaque, Pipelines& alpha_tested);
+
+    // [0] for scenes whose geometry lies in one slice of the pool, [1] for all others
+    Pipelines opaque_[2];
+    Pipelines alpha_tested_[2];
 };
 
 } // namespace hearth::gpu

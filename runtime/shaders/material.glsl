@@ -14,10 +14,6 @@ const uint kMaterialUnlit = 2u;
 const uint kAlphaMask = 1u;
 const uint kAlphaBlend = 2u;
 
-bool hasTexture(uint slot) { return (material.textures >> slot & 1u) != 0u; }
-
-uint uvSetOf(uint slot) { return material.uv_sets >> (slot * 4u) & 15u; }
-
 vec2 transformUv(uint slot, vec2 uv)
 {
     vec3 point = vec3(uv, 1.0);

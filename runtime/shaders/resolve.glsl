@@ -67,6 +67,13 @@ struct SurfaceUv
     vec2 dy;
 };
 
+// A triangle seen edge-on has gradients without end, or none: past 64 textures a pixel every mip is the last one.
+vec2 boundedGradient(vec2 gradient)
+{
+    // written so that not-a-number takes the bound as well
+    return vec2(abs(gradient.x) < 64.0 ? gradient.x : 64.0, abs(gradient.y) < 64.0 ? gradient.y : 64.0);
+}
+
 SurfaceUv surfaceUv(Surface s, uint set)
 {
     vec2 a = vertexUv(s.draw, s.vertices[0], set);
@@ -75,8 +82,8 @@ SurfaceUv surfaceUv(Surface s, uint set)
     SurfaceUv r;
     r.uv = a * s.weights.x + b * s.weights.y + c * s.weights.z;
     // differences, so that large coordinates cancel exactly
-    r.dx = (b - a) * s.weights_dx.y + (c - a) * s.weights_dx.z;
-    r.dy = (b - a) * s.weights_dy.y + (c - a) * s.weights_dy.z;
+    r.dx = boundedGradient((b - a) * s.weights_dx.y + (c - a) * s.weights_dx.z);
+    r.dy = boundedGradient((b - a) * s.weights_dy.y + (c - a) * s.weights_dy.z);
     return r;
 }
 

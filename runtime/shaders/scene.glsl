@@ -10,11 +10,14 @@ layout(set = 0, binding = 5, std430) readonly buffer Pool1 { uint pool1[]; };
 layout(set = 0, binding = 6, std430) readonly buffer Pool2 { uint pool2[]; };
 layout(set = 0, binding = 7, std430) readonly buffer Pool3 { uint pool3[]; };
 
+// Slices that the scene uses: 1 or kPoolSlices. Most scenes fit into one, and then no word costs a choice.
+layout(constant_id = 0) const uint kUsedSlices = kPoolSlices;
+
 uint poolWord(uint address)
 {
     uint slice = address >> kPoolSliceBits;
     uint word = address & ((1u << kPoolSliceBits) - 1u);
-    if (slice == 0u)
+    if (kUsedSlices == 1u || slice == 0u)
         return pool0[word];
     if (slice == 1u)
         return pool1[word];

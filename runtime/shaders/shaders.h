@@ -21,6 +21,7 @@ extern const std::span<const uint32_t> visibility_masked_frag;
 extern const std::span<const uint32_t> fullscreen_vert;
 extern const std::span<const uint32_t> material_depth_frag;
 extern const std::span<const uint32_t> shading_frag;
+extern const std::span<const uint32_t> inspect_frag;
 extern const std::span<const uint32_t> sky_frag;
 
 } // namespace hearth::shaders

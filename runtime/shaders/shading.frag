@@ -8,6 +8,7 @@
 #include "scene.glsl"
 #include "material.glsl"
 #include "resolve.glsl"
+#include "surface_textures.glsl"
 #include "brdf.glsl"
 #include "tonemap.glsl"
 
@@ -15,40 +16,15 @@ layout(input_attachment_index = 0, set = 2, binding = 0) uniform usubpassInput v
 layout(set = 0, binding = 9, std140) uniform LightingBlock { Lighting lighting; };
 #include "sky.glsl"
 
-layout(push_constant) uniform Push
-{
-    float depth;
-    uint shown_view;
-    float depth_scale; // metres that the depth view shows as half
-};
+// said aloud because lavapipe else shades every pixel before it tests: five times the time of a frame
+layout(early_fragment_tests) in;
 layout(location = 0) out vec4 out_color;
+
+layout(constant_id = 3) const bool kUnlit = false;
 
 // formats::LightType
 const uint kLightDirectional = 0u;
 const uint kLightSpot = 2u;
-
-// A texture of the material at the surface, (1, 1, 1, 1) where there is none.
-#define SAMPLE(slot, image) (hasTexture(slot) ? sampleSurface(s, slot, image) : vec4(1.0))
-
-vec4 sampleSurface(Surface s, uint slot, sampler2D image)
-{
-    SurfaceUv at = surfaceUv(s, uvSetOf(slot));
-    return textureGrad(image, transformUv(slot, at.uv), transformUvVector(slot, at.dx), transformUvVector(slot, at.dy));
-}
-
-vec3 shadingNormal(Surface s)
-{
-    vec3 normal = smoothNormal(s);
-    if (hasTexture(kTextureNormal))
-    {
-        vec3 mapped = sampleSurface(s, kTextureNormal, normal_texture).xyz * 2.0 - 1.0;
-        mapped.xy *= material.normal_scale;
-        vec3 tangent, bitangent;
-        tangentFrame(s, normal, uvSetOf(kTextureNormal), tangent, bitangent);
-        normal = normalizeOr(tangent * mapped.x + bitangent * mapped.y + normal * mapped.z, normal);
-    }
-    return s.front ? normal : -normal;
-}
 
 // Irradiance of a light on a surface that faces it, and where it comes from. KHR_lights_punctual.
 vec3 irradianceOf(Light light, vec3 position, out vec3 to_light)
@@ -75,9 +51,10 @@ vec3 irradianceOf(Light light, vec3 position, out vec3 to_light)
     return light.intensity * attenuation;
 }
 
-vec3 lit(Surface s, vec3 base, vec3 normal)
+vec3 lit(Surface s, SurfaceUvs uvs, vec3 base)
 {
-    vec4 metallic_roughness = SAMPLE(kTextureMetallicRoughness, metallic_roughness_texture);
+    vec3 normal = shadingNormal(s, uvs);
+    vec4 metallic_roughness = sampleSurface(s, uvs, kTextureMetallicRoughness, metallic_roughness_texture);
     float metallic = clamp(material.metallic * metallic_roughness.b, 0.0, 1.0);
     Shading shading;
     // below 0.045 the highlight of a punctual light is smaller than half floats resolve
@@ -96,55 +73,22 @@ vec3 lit(Surface s, vec3 base, vec3 normal)
         radiance += irradiance * reflected(shading, to_light);
     }
 
-    float occlusion = 1.0;
-    if (hasTexture(kTextureOcclusion))
-        occlusion = mix(1.0, sampleSurface(s, kTextureOcclusion, occlusion_texture).r, material.occlusion_strength);
+    float occlusion =
+        mix(1.0, sampleSurface(s, uvs, kTextureOcclusion, occlusion_texture).r, material.occlusion_strength);
     vec2 scale_bias = specularScaleBias(shading.roughness, shading.n_dot_v);
     vec3 specular = shading.f0 * scale_bias.x + scale_bias.y;
     vec3 mirror = reflect(-shading.to_eye, normal);
     radiance += occlusion * ((1.0 - specular) * shading.diffuse * skyIrradiance(normal) +
                              specular * skyRadiance(mirror, shading.roughness));
-    return radiance + material.emissive * SAMPLE(kTextureEmissive, emissive_texture).rgb;
-}
-
-// A colour that differs much between neighbouring numbers.
-vec3 colorOfNumber(uint number)
-{
-    uint h = number * 2654435761u; // Knuth's multiplicative hash
-    h ^= h >> 15;
-    h *= 2246822519u;
-    h ^= h >> 13;
-    return 0.25 + 0.75 * vec3(h & 255u, h >> 8 & 255u, h >> 16 & 255u) / 255.0;
-}
-
-vec3 colorOfLevel(uint level)
-{
-    // red where the source is drawn, over yellow, green and blue to violet at level 12 and coarser
-    float hue = min(float(level), 12.0) / 12.0 * 0.8;
-    return clamp(abs(fract(hue + vec3(0.0, 2.0 / 3.0, 1.0 / 3.0)) * 6.0 - 3.0) - 1.0, 0.0, 1.0);
+    return radiance + material.emissive * sampleSurface(s, uvs, kTextureEmissive, emissive_texture).rgb;
 }
 
 void main()
 {
     Surface s = resolveSurface(subpassLoad(visibility).x, gl_FragCoord.xy);
-    // debug colours are dimmed by the angle to the eye, so that the shape can be seen
-    float facing = 0.35 + 0.65 * abs(dot(geometricNormal(s), normalizeOr(s.position, vec3(0.0))));
-    vec3 color;
-    if (shown_view == kViewFinal)
-    {
-        vec3 base = material.base_color.rgb * surfaceColor(s).rgb * SAMPLE(kTextureBaseColor, base_color_texture).rgb;
-        // unlit colours are display colours: no light, no tone mapping
-        color = (material.flags & kMaterialUnlit) != 0u ? base : toneMap(lit(s, base, shadingNormal(s)));
-    }
-    else if (shown_view == kViewClusters)
-        color = linearFromSrgb(facing * colorOfNumber(s.slot.cluster * 7919u + s.slot.instance));
-    else if (shown_view == kViewLod)
-        color = linearFromSrgb(facing * (0.15 + 0.85 * colorOfLevel(levelOf(s.draw))));
-    else if (shown_view == kViewTriangles)
-        color = linearFromSrgb(facing * colorOfNumber((s.slot.cluster * 128u + s.triangle) * 31u + s.slot.instance));
-    else if (shown_view == kViewNormals)
-        color = linearFromSrgb(shadingNormal(s) * 0.5 + 0.5);
-    else
-        color = linearFromSrgb(vec3(depth_scale / (depth_scale + s.distance_w)));
-    out_color = vec4(color, 1.0);
+    SurfaceUvs uvs = surfaceUvs(s);
+    vec3 base = material.base_color.rgb * surfaceColor(s).rgb *
+                sampleSurface(s, uvs, kTextureBaseColor, base_color_texture).rgb;
+    // unlit colours are display colours: no light, no tone mapping
+    out_color = vec4(kUnlit ? base : toneMap(lit(s, uvs, base)), 1.0);
 }

@@ -15,6 +15,7 @@ layout(push_constant) uniform Push
     float depth;
     uint shown_view;
 };
+layout(early_fragment_tests) in;
 layout(location = 0) out vec4 out_color;
 
 void main()

@@ -23,7 +23,7 @@ float ditherThreshold(uvec2 pixel)
 void main()
 {
     float alpha = in_alpha;
-    if (hasTexture(kTextureBaseColor))
+    if ((material.textures & 1u) != 0u)
         alpha *= texture(base_color_texture, in_uv).a;
     float threshold =
         material.alpha_mode == kAlphaMask ? material.alpha_cutoff : ditherThreshold(uvec2(gl_FragCoord.xy));

@@ -113,17 +113,19 @@ TEST(ClusterGeometry, readsEveryAttribute)
     const Opened view(smallPack());
     const std::vector<std::byte> page = view->decodePage(1).value();
     const ClusterRecord& cluster = view->clusters()[3];
-    const auto geometry = ClusterGeometry::at(page, cluster, view->meshes()[0].attributes);
-    ASSERT_TRUE(geometry.has_value());
-    EXPECT_EQ(geometry->vertexCount(), 4u);
-    EXPECT_EQ(geometry->triangle(1), (std::array<uint32_t, 3>{0, 2, 3}));
-    EXPECT_EQ(geometry->position(2), (Float3{2, 0, 1}));
-    EXPECT_NEAR(geometry->normal(2).y, 1, 1e-6);
-    EXPECT_NEAR(geometry->tangent(2).x, 1, 1e-6);
-    EXPECT_EQ(geometry->tangent(2).w, -1);
-    EXPECT_EQ(geometry->uv(2, 0), (Float2{0.5f, 1}));
-    EXPECT_NEAR(geometry->color(2).y, 0.5f, 1e-5);
-    EXPECT_EQ(geometry->color(2).w, 1);
+    const auto found = ClusterGeometry::at(page, cluster, view->meshes()[0].attributes);
+    if (!found)
+        FAIL() << "the cluster's geometry was not found";
+    const ClusterGeometry& geometry = *found;
+    EXPECT_EQ(geometry.vertexCount(), 4u);
+    EXPECT_EQ(geometry.triangle(1), (std::array<uint32_t, 3>{0, 2, 3}));
+    EXPECT_EQ(geometry.position(2), (Float3{2, 0, 1}));
+    EXPECT_NEAR(geometry.normal(2).y, 1, 1e-6);
+    EXPECT_NEAR(geometry.tangent(2).x, 1, 1e-6);
+    EXPECT_EQ(geometry.tangent(2).w, -1);
+    EXPECT_EQ(geometry.uv(2, 0), (Float2{0.5f, 1}));
+    EXPECT_NEAR(geometry.color(2).y, 0.5f, 1e-5);
+    EXPECT_EQ(geometry.color(2).w, 1);
 }
 
 TEST(ClusterGeometry, refusesDataOutsideThePage)

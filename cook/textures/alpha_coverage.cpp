@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/textures/alpha_coverage.h"
+
+#include <cmath>
+
+namespace hearth::textures
+{
+
+namespace
+{
+
+// Alphas closer than this count as equal: eight times finer than what 8 bits can tell apart at a scale of 32.
+constexpr size_t kBins = 65536;
+
+/// The smallest 8-bit alpha that passes, above 255 where none does.
+uint32_t leastPassing(float cutoff)
+{
+    uint32_t alpha = 0;
+    while (alpha < 256 && static_cast<float>(alpha) / 255.0f < cutoff)
+        ++alpha;
+    return alpha;
+}
+
+size_t binOf(float alpha)
+{
+    return static_cast<size_t>(std::clamp(alpha, 0.0f, 1.0f) * static_cast<float>(kBins - 1) + 0.5f);
+}
+
+} // namespace
+
+double alphaCoverage(std::span<const std::byte> texels, float cutoff)
+{
+    const uint32_t least = leastPassing(cutoff);
+    size_t passing = 0;
+    for (size_t at = 3; at < texels.size(); at += 4)
+        passing += static_cast<uint32_t>(texels[at]) >= least ? 1u : 0u;
+    return texels.empty() ? 0 : static_cast<double>(passing) / static_cast<double>(texels.size() / 4);
+}
+
+float scaleForCoverage(const FloatImage& image, float cutoff, double coverage)
+{
+    const uint32_t least = leastPassing(cutoff);
+    const auto wanted =
+        static_cast<size_t>(std::llround(coverage * static_cast<double>(image.texels.size())));
+    if (least == 0 || least > 255 || wanted == 0)
+        return 1;
+    std::vector<uint32_t> bins(kBins);
+    for (const Float4& texel : image.texels)
+        ++bins[binOf(texel.w)];
+
+    // stored alpha is rounded: what is half a step below the least value passes too
+    const float threshold = (static_cast<float>(least) - 0.5f) / 255;
+    size_t passing = 0;
+    size_t unscaled = 0;
+    for (size_t bin = binOf(threshold); bin < kBins; ++bin)
+        unscaled += bins[bin];
+    if (unscaled == wanted)
+        return 1;
+
+    // from the most opaque texel down, stop where one bin more brings the count no nearer
+    size_t bin = kBins;
+    while (bin > 1 && passing < wanted)
+    {
+        const size_t next = passing + bins[bin - 1];
+        if (next > wanted && next - wanted >= wanted - passing)
+            break;
+        passing = next;
+        --bin;
+    }
+    // the bin's lower end, so that all of it passes
+    const float edge = (static_cast<float>(bin) - 0.5f) / static_cast<float>(kBins - 1);
+    return threshold / edge;
+}
+
+} // namespace hearth::textures

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/textures/halve.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <array>
+
+namespace hearth::textures
+{
+
+namespace
+{
+
+/// The texels that one texel of the result covers, and how much of each. At most 3 whole ones and parts of 2.
+struct Coverage
+{
+    uint32_t first = 0;
+    uint32_t count = 0;
+    std::array<float, 4> weights{};
+};
+
+/// Texel `target` of `target_size` covers [target, target + 1) * size / target_size. Exact in integers.
+Coverage coverageOf(uint32_t target, uint32_t target_size, uint32_t size)
+{
+    const uint64_t start = uint64_t{target} * size;
+    const uint64_t end = start + size;
+    Coverage coverage;
+    coverage.first = static_cast<uint32_t>(start / target_size);
+    for (uint64_t texel = coverage.first; texel * target_size < end; ++texel)
+    {
+        const uint64_t overlap =
+            std::min(end, (texel + 1) * target_size) - std::max(start, texel * target_size);
+        coverage.weights[coverage.count++] = static_cast<float>(static_cast<double>(overlap) / size);
+    }
+    return coverage;
+}
+
+void addScaled(Float4& sum, const Float4& texel, float weight)
+{
+    sum.x += texel.x * weight;
+    sum.y += texel.y * weight;
+    sum.z += texel.z * weight;
+    sum.w += texel.w * weight;
+}
+
+} // namespace
+
+FloatImage halve(uint32_t width, uint32_t height, const RowReader& readRow)
+{
+    FloatImage result;
+    result.width = std::max(1u, width / 2);
+    result.height = std::max(1u, height / 2);
+    result.texels.resize(size_t{result.width} * result.height);
+
+    std::vector<Coverage> columns(result.width);
+    for (uint32_t x = 0; x < result.width; ++x)
+        columns[x] = coverageOf(x, result.width, width);
+
+    const auto fillRows = [&](const tbb::blocked_range<uint32_t>& rows)
+    {
+        std::vector<Float4> source(width);
+        std::vector<Float4> sum(width);
+        for (uint32_t y = rows.begin(); y < rows.end(); ++y)
+        {
+            const Coverage lines = coverageOf(y, result.height, height);
+            std::fill(sum.begin(), sum.end(), Float4{});
+            for (uint32_t i = 0; i < lines.count; ++i)
+            {
+                readRow(lines.first + i, source);
+                for (uint32_t x = 0; x < width; ++x)
+                    addScaled(sum[x], source[x], lines.weights[i]);
+            }
+            const std::span<Float4> out = result.row(y);
+            for (uint32_t x = 0; x < result.width; ++x)
+                for (uint32_t i = 0; i < columns[x].count; ++i)
+                    addScaled(out[x], sum[columns[x].first + i], columns[x].weights[i]);
+        }
+    };
+    tbb::parallel_for(tbb::blocked_range<uint32_t>(0, result.height), fillRows);
+    return result;
+}
+
+} // namespace hearth::textures

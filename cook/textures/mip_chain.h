@@ -1,0 +1,25 @@
+// The mips of one image.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "formats/scene.h"
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace hearth::textures
+{
+
+/// Mips of an image down to one texel.
+uint32_t fullMipCount(uint32_t width, uint32_t height);
+
+/// All mips, finest first, tightly packed; the finest is `texels` as it is. Every mip stands for the finest one:
+/// nothing is rounded on the way. Same bytes for any number of threads.
+///
+/// image    width, height, format, flags and alpha_cutoff are read; mip_count is not
+/// texels   width * height texels of that format (asserted)
+/// limits   scratch 16 bytes for each texel of the second and third mip
+std::vector<std::byte> buildMipChain(const formats::ImageRecord& image, std::vector<std::byte> texels);
+
+} // namespace hearth::textures

@@ -1,0 +1,42 @@
+// The sRGB transfer function by tables (IEC 61966-2-1). Results are the same on every machine: the tables hold floats
+// rounded from doubles, whose last bits are the only thing that mathematical libraries disagree on.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace hearth::textures
+{
+
+class SrgbTables
+{
+public:
+    static const SrgbTables& get();
+
+    float linear(uint8_t stored) const { return linear_[stored]; }
+
+    /// The stored value whose encoding is nearest; values outside 0..1 and NaN go to the ends.
+    uint8_t stored(float linear) const
+    {
+        if (!(linear > 0))
+            return 0;
+        if (linear >= 1)
+            return 255;
+        uint8_t value = first_of_bucket_[static_cast<size_t>(linear * kBuckets)];
+        while (linear >= upper_[value])
+            ++value;
+        return value;
+    }
+
+private:
+    SrgbTables();
+
+    static constexpr size_t kBuckets = 4096; ///< fine enough that the search above takes two steps at most
+    std::array<float, 256> linear_;
+    std::array<float, 256> upper_; ///< linear value from which on the next stored value is nearer
+    std::array<uint8_t, kBuckets> first_of_bucket_;
+};
+
+} // namespace hearth::textures

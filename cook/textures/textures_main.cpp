@@ -1,0 +1,59 @@
+// hearth-textures: gives the images of an import part their mips.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/textures/texture_part.h"
+
+#include <CLI/CLI.hpp>
+
+#include <cstdio>
+#include <memory>
+
+#include <tbb/global_control.h>
+
+namespace
+{
+
+using namespace hearth;
+
+struct Arguments
+{
+    std::string input;
+    std::string output;
+    size_t jobs = 0;
+};
+
+int run(const Arguments& arguments)
+{
+    std::unique_ptr<tbb::global_control> limit;
+    if (arguments.jobs > 0)
+        limit = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism,
+                                                      arguments.jobs);
+    const Status written = textures::cookTextures(arguments.input, arguments.output);
+    if (written)
+        return 0;
+    std::fprintf(stderr, "%s\n", formatMessage(written.error()).c_str());
+    return exitCode(written.error());
+}
+
+} // namespace
+
+int main(int argc, char** argv)
+{
+    CLI::App app("Gives the images of an import part their mips and writes the textures part.");
+    Arguments arguments;
+    app.add_option("part", arguments.input, "import part")->required();
+    app.add_option("-o,--output", arguments.output, "textures part to write")->required();
+    app.add_option("-j,--jobs", arguments.jobs, "threads to use; the result does not depend on it");
+    app.footer(
+        "Example: hearth-textures scene.import.part -o scene.textures.part\n"
+        "Exit codes: 0 done, 2 usage, 65 malformed input, 66 input missing, 70 internal, 73 cannot write, "
+        "74 I/O");
+    try
+    {
+        app.parse(argc, argv);
+    }
+    catch (const CLI::ParseError& error)
+    {
+        return app.exit(error) == 0 ? 0 : 2;
+    }
+    return run(arguments);
+}

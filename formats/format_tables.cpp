@@ -1,0 +1,292 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "formats/format_tables.h"
+
+#include "formats/chunk_list.h"
+#include "formats/issues.h"
+#include "formats/pack_check.h"
+
+#include <array>
+#include <cstdio>
+#include <span>
+
+namespace hearth::formats
+{
+
+namespace
+{
+
+struct RecordTable
+{
+    std::string_view name;
+    size_t size;
+    std::span<const Field> fields;
+};
+
+#define HEARTH_RECORD_TABLE(record)                                                                          \
+    RecordTable                                                                                              \
+    {                                                                                                        \
+        #record, sizeof(record), FieldsOf<record>::value                                                     \
+    }
+constexpr RecordTable kRecords[] = {
+    HEARTH_RECORD_TABLE(FileHeader),
+    HEARTH_RECORD_TABLE(ChunkEntry),
+    HEARTH_RECORD_TABLE(StringRef),
+    HEARTH_RECORD_TABLE(Range),
+    HEARTH_RECORD_TABLE(NodeRecord),
+    HEARTH_RECORD_TABLE(InstanceRecord),
+    HEARTH_RECORD_TABLE(CameraRecord),
+    HEARTH_RECORD_TABLE(LightRecord),
+    HEARTH_RECORD_TABLE(TextureRef),
+    HEARTH_RECORD_TABLE(MaterialRecord),
+    HEARTH_RECORD_TABLE(ImageRecord),
+    HEARTH_RECORD_TABLE(SkinRecord),
+    HEARTH_RECORD_TABLE(JointRecord),
+    HEARTH_RECORD_TABLE(AnimationRecord),
+    HEARTH_RECORD_TABLE(AnimationChannelRecord),
+    HEARTH_RECORD_TABLE(MeshRecord),
+    HEARTH_RECORD_TABLE(LevelRecord),
+    HEARTH_RECORD_TABLE(GroupRecord),
+    HEARTH_RECORD_TABLE(ClusterRecord),
+    HEARTH_RECORD_TABLE(PageRecord),
+    HEARTH_RECORD_TABLE(SourceMeshHeader),
+    HEARTH_RECORD_TABLE(SourceArray),
+};
+#undef HEARTH_RECORD_TABLE
+
+struct Value
+{
+    std::string_view name;
+    uint32_t value;
+    std::string_view meaning;
+};
+
+struct ValueTable
+{
+    std::string_view name;
+    std::vector<Value> values;
+};
+
+template <typename T>
+Value value(std::string_view name, T number, std::string_view meaning = "")
+{
+    return {name, static_cast<uint32_t>(number), meaning};
+}
+
+std::vector<ValueTable> valueTables()
+{
+    return {
+        {"Codec",
+         {value("none", Codec::none, "the bytes as they are"), value("zstd", Codec::zstd, "one zstd frame")}},
+        {"InstanceFlags",
+         {value("mirrored", kInstanceMirrored, "the determinant of world_from_object is negative")}},
+        {"CameraType",
+         {value("perspective", CameraType::perspective), value("orthographic", CameraType::orthographic)}},
+        {"LightType",
+         {value("directional", LightType::directional), value("point", LightType::point),
+          value("spot", LightType::spot)}},
+        {"Wrap",
+         {value("repeat", Wrap::repeat), value("mirrored repeat", Wrap::mirrored_repeat),
+          value("clamp to edge", Wrap::clamp_to_edge)}},
+        {"AlphaMode",
+         {value("opaque", AlphaMode::opaque), value("mask", AlphaMode::mask, "cut at alpha_cutoff"),
+          value("blend", AlphaMode::blend)}},
+        {"MaterialFlags",
+         {value("double-sided", kMaterialDoubleSided),
+          value("unlit", kMaterialUnlit, "KHR_materials_unlit")}},
+        {"TexelFormat",
+         {value("rgba8_srgb", TexelFormat::rgba8_srgb, "4 bytes; colour, alpha linear"),
+          value("rgba8_unorm", TexelFormat::rgba8_unorm, "4 bytes; data"),
+          value("rgba16_float", TexelFormat::rgba16_float, "8 bytes; linear")}},
+        {"ImageFlags",
+         {value("placeholder", kImagePlaceholder, "stands for an image that could not be read"),
+          value("normal map", kImageNormalMap, "mips are averaged as directions"),
+          value("alpha-tested", kImageAlphaTested, "mips keep the covered area at alpha_cutoff")}},
+        {"AnimationPath",
+         {value("translation", AnimationPath::translation, "3 components"),
+          value("rotation", AnimationPath::rotation, "4 components, quaternion x y z w"),
+          value("scale", AnimationPath::scale, "3 components"),
+          value("weights", AnimationPath::weights, "one component for each morph target")}},
+        {"Interpolation",
+         {value("step", Interpolation::step),
+          value("linear", Interpolation::linear, "rotations: along the arc"),
+          value("cubic spline", Interpolation::cubic_spline, "in-tangent, value, out-tangent for each key")}},
+        {"VertexAttributes",
+         {value("normal", kVertexNormal, "1 word, octahedral"),
+          value("tangent", kVertexTangent, "1 word, octahedral with the flip of the bitangent"),
+          value("UV 0", kVertexUv0, "2 words, f32[2]"), value("UV 1", kVertexUv1, "2 words, f32[2]"),
+          value("UV 2", kVertexUv2, "2 words, f32[2]"), value("UV 3", kVertexUv3, "2 words, f32[2]"),
+          value("colour", kVertexColor, "2 words, 4 x unorm16, linear RGBA")}},
+        {"SourceSemantic",
+         {value("position", SourceSemantic::position, "f32[3]"),
+          value("normal", SourceSemantic::normal, "f32[3], unit"),
+          value("tangent", SourceSemantic::tangent, "f32[4], w = +-1: sign of the bitangent"),
+          value("uv", SourceSemantic::uv, "f32[2], set 0..3"),
+          value("color", SourceSemantic::color, "f32[4], linear"),
+          value("joints", SourceSemantic::joints, "u16[4]; joint of the skin"),
+          value("weights", SourceSemantic::weights, "f32[4]; the sum over the sets is 1"),
+          value("index", SourceSemantic::index, "u32, three for each triangle"),
+          value("triangle_material", SourceSemantic::triangle_material, "u32 for each triangle, or none"),
+          value("morph_position", SourceSemantic::morph_position, "f32[3] deltas, set = target"),
+          value("morph_normal", SourceSemantic::morph_normal, "f32[3] deltas, set = target"),
+          value("morph_tangent", SourceSemantic::morph_tangent, "f32[3] deltas, set = target")}},
+    };
+}
+
+std::string fourCCText(uint32_t type)
+{
+    std::string text;
+    for (int i = 0; i < 4; ++i)
+        text += static_cast<char>(type >> (8 * i));
+    return text;
+}
+
+/// "u32[]" becomes "u32[3]".
+std::string typeText(const Field& field)
+{
+    std::string type(field.type);
+    if (!type.ends_with("[]"))
+        return type;
+    const size_t element = type.starts_with("u8") ? 1 : 4;
+    return type.substr(0, type.size() - 1) + std::to_string(field.size / element) + "]";
+}
+
+std::string row(std::initializer_list<std::string_view> cells)
+{
+    std::string text = "|";
+    for (const std::string_view cell : cells)
+        text.append(" ").append(cell).append(" |");
+    return text.append("\n");
+}
+
+std::string recordTable(const RecordTable& record)
+{
+    std::string text = "`";
+    text.append(record.name).append("`, ").append(std::to_string(record.size)).append(" bytes\n\n");
+    text += "| offset | size | field | type | meaning |\n|---:|---:|---|---|---|\n";
+    for (const Field& field : record.fields)
+        text += row({std::to_string(field.offset), std::to_string(field.size), field.name, typeText(field),
+                     field.note});
+    return text;
+}
+
+std::string valueTable(const ValueTable& table)
+{
+    std::string text = row({table.name, "value", "meaning"}) + "|---|---:|---|\n";
+    for (const Value& entry : table.values)
+        text += row({entry.name, std::to_string(entry.value), entry.meaning});
+    return text;
+}
+
+std::string chunkTable()
+{
+    std::string text = "| chunk | version | content | meaning |\n|---|---:|---|---|\n";
+    for (const ChunkInfo& chunk : kChunkList)
+        text += row({fourCCText(chunk.type) + (chunk.one_per_index ? " i" : ""),
+                     std::to_string(chunk.version), chunk.content, chunk.meaning});
+    return text;
+}
+
+std::string_view className(IssueClass kind)
+{
+    switch (kind)
+    {
+    case IssueClass::warning:
+        return "warning";
+    case IssueClass::usage:
+        return "usage, 2";
+    case IssueClass::malformed:
+        return "malformed, 65";
+    case IssueClass::missing:
+        return "missing, 66";
+    case IssueClass::internal:
+        return "internal, 70";
+    case IssueClass::cannotWrite:
+        return "cannot write, 73";
+    case IssueClass::io:
+        return "I/O, 74";
+    }
+    return "";
+}
+
+std::string issueTable()
+{
+    std::string text = "| number | name | class, exit code | what is wrong |\n|---:|---|---|---|\n";
+    for (const IssueInfo& info : allIssues())
+        text += row({std::to_string(static_cast<unsigned>(info.issue)), info.name, className(info.kind),
+                     info.summary});
+    return text;
+}
+
+std::string scientific(double number)
+{
+    char text[32];
+    std::snprintf(text, sizeof(text), "%.0e", number);
+    return text;
+}
+
+std::string limitTable()
+{
+    const std::pair<std::string_view, std::string> rows[] = {
+        {"triangles of a cluster", std::to_string(kClusterMaxTriangles)},
+        {"vertices of a cluster", std::to_string(kClusterMaxVertices)},
+        {"bytes of a decoded page", std::to_string(kPageMaxBytes)},
+        {"texels of an image's side", std::to_string(kImageMaxSize)},
+        {"slack of spheres", scientific(kSphereSlack)},
+        {"slack of normal cones", scientific(kConeSlack)},
+        {"slack of apexes", scientific(kApexSlack)},
+        {"slack of unit vectors", scientific(kUnitSlack)},
+    };
+    std::string text = "| limit | value |\n|---|---:|\n";
+    for (const auto& [name, number] : rows)
+        text += row({name, number});
+    return text;
+}
+
+} // namespace
+
+std::optional<std::string> formatTable(std::string_view name)
+{
+    if (name == "chunks")
+        return chunkTable();
+    if (name == "issues")
+        return issueTable();
+    if (name == "limits")
+        return limitTable();
+    for (const RecordTable& record : kRecords)
+        if (record.name == name)
+            return recordTable(record);
+    for (const ValueTable& table : valueTables())
+        if (table.name == name)
+            return valueTable(table);
+    return std::nullopt;
+}
+
+std::vector<std::string_view> formatTableNames()
+{
+    std::vector<std::string_view> names = {"chunks", "issues", "limits"};
+    for (const RecordTable& record : kRecords)
+        names.push_back(record.name);
+    for (const ValueTable& table : valueTables())
+        names.push_back(table.name);
+    return names;
+}
+
+std::string withFreshTables(std::string_view document)
+{
+    constexpr std::string_view kBegin = "<!-- table ", kClose = " -->\n", kEnd = "<!-- end -->";
+    std::string fresh;
+    for (;;)
+    {
+        const size_t begin = document.find(kBegin);
+        const size_t close = begin == std::string_view::npos ? begin : document.find(kClose, begin);
+        const size_t end = close == std::string_view::npos ? close : document.find(kEnd, close);
+        if (end == std::string_view::npos)
+            return fresh.append(document);
+        const size_t name = begin + kBegin.size();
+        fresh += document.substr(0, close + kClose.size());
+        fresh += formatTable(document.substr(name, close - name)).value_or("");
+        document.remove_prefix(end);
+    }
+}
+
+} // namespace hearth::formats

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "pipelines/import/gltf_buffers.h"
+
+#include "formats/byte_reader.h"
+#include "pipelines/import/gltf_meshopt.h"
+#include "pipelines/import/gltf_uri.h"
+
+#include <fmt/format.h>
+
+namespace hearth::import
+{
+
+using formats::kNone;
+
+namespace
+{
+
+using Bytes = std::span<const std::byte>;
+
+/// A URI in a message: data URIs can be megabytes long.
+std::string shortened(const std::string& uri)
+{
+    constexpr size_t kMax = 80;
+    return uri.size() <= kMax ? uri : uri.substr(0, kMax) + "...";
+}
+
+/// Which buffers must be there: one that only stands behind compressed views, as their fallback, may be absent.
+std::vector<bool> findNeeded(const GltfModel& model)
+{
+    std::vector<bool> needed(model.buffers.size());
+    for (size_t i = 0; i < model.buffers.size(); ++i)
+        needed[i] = model.buffers[i].uri && !model.buffers[i].fallback;
+    for (const GltfBufferView& view : model.buffer_views)
+        needed[view.meshopt ? view.meshopt->buffer : view.buffer] = true;
+    return needed;
+}
+
+Result<std::vector<std::byte>> readBufferUri(const std::string& uri, const std::string& where,
+                                             const GltfContext& context)
+{
+    Result<std::vector<std::byte>> bytes = readUri(uri, where + "/uri", context);
+    if (!bytes.ok() && bytes.error().issue == Issue::input_missing)
+        return context.error(Issue::buffer_missing, where + "/uri", bytes.error().detail);
+    return bytes;
+}
+
+} // namespace
+
+Result<std::vector<std::byte>> readUri(const std::string& uri, const std::string& where,
+                                       const GltfContext& context)
+{
+    if (isDataUri(uri))
+    {
+        std::optional<std::vector<std::byte>> bytes = decodeDataUri(uri);
+        if (bytes)
+            return std::move(*bytes);
+        return context.error(Issue::uri_malformed, where, "the data URI is not valid base64");
+    }
+    const std::optional<std::string> path = percentDecoded(uri);
+    if (!path)
+        return context.error(Issue::uri_malformed, where,
+                             fmt::format("\"{}\" has a '%' without two digits", shortened(uri)));
+    Result<std::vector<std::byte>> bytes = context.folder.read(*path, context.options.limits.max_file_bytes);
+    if (!bytes.ok())
+        return context.error(bytes.error().issue, where,
+                             fmt::format("\"{}\": {}", shortened(uri), bytes.error().detail));
+    context.part.addSource(*path, *bytes);
+    return bytes;
+}
+
+Result<GltfBuffers> GltfBuffers::load(const GltfModel& model, const GltfContainer& container,
+                                      const GltfContext& context)
+{
+    GltfBuffers result;
+    const std::vector<bool> needed = findNeeded(model);
+    std::vector<Bytes> buffers(model.buffers.size());
+    for (size_t i = 0; i < buffers.size(); ++i)
+    {
+        const GltfBuffer& buffer = model.buffers[i];
+        const std::string where = fmt::format("/buffers/{}", i);
+        if (!needed[i])
+            continue;
+        if (buffer.uri)
+        {
+            HEARTH_ASSIGN_OR_RETURN(std::vector<std::byte> bytes, readBufferUri(*buffer.uri, where, context));
+            result.owned_.push_back(std::move(bytes));
+            buffers[i] = result.owned_.back();
+        }
+        else if (i == 0 && container.binary)
+            buffers[i] = *container.binary;
+        else
+            return context.error(Issue::buffer_missing, where,
+                                 "the buffer has neither a URI nor a BIN chunk");
+        if (buffers[i].size() < buffer.byte_length)
+            return context.error(Issue::buffer_short, where,
+                                 fmt::format("byteLength is {}, but there are {} bytes", buffer.byte_length,
+                                             buffers[i].size()));
+    }
+
+    for (size_t i = 0; i < model.buffer_views.size(); ++i)
+    {
+        const GltfBufferView& view = model.buffer_views[i];
+        const std::string where = fmt::format("/bufferViews/{}", i);
+        Bytes bytes;
+        if (view.meshopt)
+        {
+            const auto compressed = checkedPart(buffers[view.meshopt->buffer], view.meshopt->byte_offset,
+                                                view.meshopt->byte_length);
+            HEARTH_ASSERT(compressed.has_value()); // the model has checked it against byteLength
+            HEARTH_ASSIGN_OR_RETURN(std::vector<std::byte> decoded,
+                                    decodeMeshopt(*view.meshopt, *compressed, context.file, where));
+            if (decoded.size() < view.byte_length)
+                return context.error(Issue::gltf_bounds, where,
+                                     fmt::format("{} bytes were compressed, but byteLength is {}",
+                                                 decoded.size(), view.byte_length));
+            result.owned_.push_back(std::move(decoded));
+            bytes = Bytes(result.owned_.back()).first(view.byte_length);
+        }
+        else
+        {
+            const auto part = checkedPart(buffers[view.buffer], view.byte_offset, view.byte_length);
+            HEARTH_ASSERT(part.has_value());
+            bytes = *part;
+        }
+        result.views_.push_back(bytes);
+    }
+    return result;
+}
+
+} // namespace hearth::import

@@ -1,0 +1,47 @@
+// The bytes behind a glTF file's buffer views.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "pipelines/import/asset_folder.h"
+#include "pipelines/import/gltf_container.h"
+#include "pipelines/import/gltf_model.h"
+#include "pipelines/import/readers.h"
+
+namespace hearth::import
+{
+
+/// What the readers of a document share.
+struct GltfContext
+{
+    const std::string& file; ///< the asset, as the user named it
+    const AssetFolder& folder;
+    const ImportOptions& options;
+    PartBuilder& part;
+
+    Error error(Issue issue, std::string where, std::string detail) const
+    {
+        return {issue, file, std::move(where), std::move(detail)};
+    }
+};
+
+/// The bytes that a URI stands for: those of a data URI, or of a file in the asset's folder, which is noted as a
+/// source. errors: uri_malformed, uri_outside, input_missing, input_too_large, read_failed.
+Result<std::vector<std::byte>> readUri(const std::string& uri, const std::string& where,
+                                       const GltfContext& context);
+
+/// Owns the buffers and the decompressed views. All views are decompressed when it is made, used or not.
+class GltfBuffers
+{
+public:
+    /// errors: those of readUri, buffer_missing, buffer_short, codec_failed, gltf_bounds.
+    static Result<GltfBuffers> load(const GltfModel& model, const GltfContainer& container,
+                                    const GltfContext& context);
+
+    std::span<const std::byte> view(uint32_t index) const { return views_[index]; }
+
+private:
+    std::vector<std::vector<std::byte>> owned_;
+    std::vector<std::span<const std::byte>> views_;
+};
+
+} // namespace hearth::import

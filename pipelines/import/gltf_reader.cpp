@@ -1,0 +1,75 @@
+// The reader of glTF 2.0 files: container, document, data, then the part, section by section.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "pipelines/import/gltf_animations.h"
+#include "pipelines/import/gltf_materials.h"
+#include "pipelines/import/gltf_meshes.h"
+#include "pipelines/import/gltf_scene.h"
+#include "pipelines/import/gltf_skinning.h"
+#include "pipelines/import/readers.h"
+
+#include <set>
+
+namespace hearth::import
+{
+
+namespace
+{
+
+/// Vertices as glTF counts them: over the distinct POSITION accessors of all meshes.
+uint64_t sourceVertexCount(const GltfModel& model)
+{
+    std::set<uint32_t> positions;
+    for (const GltfMesh& mesh : model.meshes)
+        for (const GltfPrimitive& primitive : mesh.primitives)
+            positions.insert(findAttribute(primitive.attributes, "POSITION"));
+    positions.erase(formats::kNone);
+    uint64_t count = 0;
+    for (const uint32_t accessor : positions)
+        count += model.accessors[accessor].count;
+    return count;
+}
+
+/// Read and write the meshes one by one, so that one at a time is in memory.
+Result<std::vector<MeshSummary>> writeMeshes(const GltfModel& model, GltfMeshReader& reader,
+                                             const GltfContext& context)
+{
+    std::vector<MeshSummary> summaries;
+    for (uint32_t index = 0; index < model.meshes.size(); ++index)
+    {
+        HEARTH_ASSIGN_OR_RETURN(const mesh::SourceMesh mesh, reader.read(index, restWeights(model, index)));
+        HEARTH_TRY(context.part.addMesh(mesh));
+        context.part.counts.triangles += mesh.triangleCount();
+        context.part.counts.faces += mesh.face_count;
+        context.part.counts.morph_targets += mesh.morph_targets.size();
+        summaries.push_back({mesh.triangleCount() > 0, usedJoints(mesh), mesh.morph_targets.size()});
+    }
+    context.part.counts.vertices = sourceVertexCount(model);
+    return summaries;
+}
+
+} // namespace
+
+Status importGltf(const std::string& path, std::span<const std::byte> bytes, const ImportOptions& options,
+                  PartBuilder& part)
+{
+    const AssetFolder folder(path);
+    const GltfContext context{path, folder, options, part};
+    HEARTH_ASSIGN_OR_RETURN(const GltfContainer container, splitGltf(bytes, path));
+    HEARTH_ASSIGN_OR_RETURN(const JsonDocument document, JsonDocument::parse(container.json, path));
+    HEARTH_ASSIGN_OR_RETURN(const GltfModel model, readGltfModel(document, path, part));
+    HEARTH_ASSIGN_OR_RETURN(const GltfBuffers buffers, GltfBuffers::load(model, container, context));
+
+    GltfTally tally;
+    GltfAccessors accessors(model, buffers, context);
+    GltfMeshReader meshes(model, buffers, accessors, context, tally);
+    HEARTH_ASSIGN_OR_RETURN(const std::vector<MeshSummary> summaries, writeMeshes(model, meshes, context));
+    HEARTH_TRY(writeMaterials(model, buffers, context));
+    HEARTH_ASSIGN_OR_RETURN(const std::vector<InverseBinds> inverse_binds,
+                            writeSkins(model, accessors, context));
+    HEARTH_TRY(writeAnimations(model, accessors, context, tally));
+    HEARTH_TRY(writeScene(model, summaries, inverse_binds, accessors, context, tally));
+    tally.report(part);
+    return success();
+}
+
+} // namespace hearth::import

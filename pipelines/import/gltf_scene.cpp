@@ -1,0 +1,320 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "pipelines/import/gltf_scene.h"
+
+#include "pipelines/import/gltf_animations.h"
+#include "pipelines/import/gltf_instancing.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace hearth::import
+{
+
+using namespace formats;
+
+namespace
+{
+
+std::string nodePointer(uint32_t node)
+{
+    return fmt::format("/nodes/{}", node);
+}
+
+/// Roots first: the model has no cycles.
+std::vector<uint32_t> parentsFirst(const GltfModel& model)
+{
+    std::vector<uint32_t> order;
+    order.reserve(model.nodes.size());
+    for (uint32_t node = 0; node < model.nodes.size(); ++node)
+        if (model.nodes[node].parent == kNone)
+            order.push_back(node);
+    for (size_t i = 0; i < order.size(); ++i)
+    {
+        const std::vector<uint32_t>& children = model.nodes[order[i]].children;
+        order.insert(order.end(), children.begin(), children.end());
+    }
+    return order;
+}
+
+std::vector<Transform> worldTransforms(const GltfModel& model)
+{
+    std::vector<Transform> world_from_node(model.nodes.size());
+    for (const uint32_t node : parentsFirst(model))
+    {
+        const GltfNode& n = model.nodes[node];
+        world_from_node[node] =
+            n.parent == kNone ? n.parent_from_node : world_from_node[n.parent] * n.parent_from_node;
+    }
+    return world_from_node;
+}
+
+/// Whether each node belongs to the scene that is drawn.
+std::vector<bool> findDrawn(const GltfModel& model, const GltfContext& context)
+{
+    std::vector<bool> drawn(model.nodes.size());
+    if (model.scenes.empty())
+    {
+        drawn.assign(model.nodes.size(), true);
+        return drawn;
+    }
+    const uint32_t scene = model.scene == kNone ? 0 : model.scene;
+    if (model.scenes.size() > 1)
+        context.part.warn(Issue::dropped, "/scenes",
+                          fmt::format("{} scenes beside scene {}", model.scenes.size() - 1, scene));
+    const std::string where = fmt::format("/scenes/{}", scene);
+    std::vector<uint32_t> open;
+    for (const uint32_t root : model.scenes[scene].nodes)
+    {
+        if (model.nodes[root].parent != kNone)
+            context.part.warn(Issue::repaired, where, fmt::format("node {} is not a root", root));
+        open.push_back(root);
+    }
+    while (!open.empty())
+    {
+        const uint32_t node = open.back();
+        open.pop_back();
+        if (drawn[node])
+            continue;
+        drawn[node] = true;
+        open.insert(open.end(), model.nodes[node].children.begin(), model.nodes[node].children.end());
+    }
+    return drawn;
+}
+
+class SceneWriter
+{
+public:
+    SceneWriter(const GltfModel& model, std::span<const MeshSummary> meshes,
+                std::span<const InverseBinds> inverse_binds, GltfAccessors& accessors,
+                const GltfContext& context, GltfTally& tally)
+        : model_(model),
+          meshes_(meshes),
+          inverse_binds_(inverse_binds),
+          accessors_(accessors),
+          context_(context),
+          tally_(tally),
+          world_from_node_(worldTransforms(model))
+    {
+    }
+
+    Status writeNode(uint32_t node);
+    Status writeContents(uint32_t node);
+
+private:
+    void writeMorphWeights(uint32_t node, NodeRecord& record);
+    Status checkSkin(uint32_t node) const;
+    Transform objectTransform(uint32_t node);
+    Status writeInstances(uint32_t node);
+    Status writeInstance(uint32_t node, const Transform& world_from_object);
+    Status writeCamera(uint32_t node);
+    Status writeLight(uint32_t node);
+    Result<Affine3> narrow(const Transform& transform, uint32_t node) const;
+
+    const GltfModel& model_;
+    std::span<const MeshSummary> meshes_;
+    std::span<const InverseBinds> inverse_binds_;
+    GltfAccessors& accessors_;
+    const GltfContext& context_;
+    GltfTally& tally_;
+    std::vector<Transform> world_from_node_;
+};
+
+Result<Affine3> SceneWriter::narrow(const Transform& transform, uint32_t node) const
+{
+    const std::optional<Affine3> result = narrowed(transform);
+    if (result)
+        return *result;
+    return context_.error(Issue::gltf_value, nodePointer(node),
+                          "the transform is too large for 32-bit numbers");
+}
+
+void SceneWriter::writeMorphWeights(uint32_t node, NodeRecord& record)
+{
+    const uint32_t mesh = model_.nodes[node].mesh;
+    const size_t count = mesh == kNone ? 0 : meshes_[mesh].morph_target_count;
+    if (count == 0)
+        return;
+    const std::vector<float> weights = morphWeights(model_, node, count);
+    if (weights != restWeights(model_, mesh))
+        tally_.degraded("other morph weights than the mesh's first node: they are drawn alike",
+                        nodePointer(node));
+    record.morph_weights = {static_cast<uint32_t>(context_.part.morph_weights.size()),
+                            static_cast<uint32_t>(count)};
+    context_.part.morph_weights.insert(context_.part.morph_weights.end(), weights.begin(), weights.end());
+}
+
+Status SceneWriter::checkSkin(uint32_t node) const
+{
+    const GltfNode& n = model_.nodes[node];
+    if (n.mesh == kNone || n.skin == kNone)
+        return success();
+    const size_t used = meshes_[n.mesh].used_joints.size();
+    if (used > model_.skins[n.skin].joints.size())
+        return context_.error(Issue::gltf_data, nodePointer(node),
+                              fmt::format("mesh {} uses joint {}, but skin {} has {} joints", n.mesh,
+                                          used - 1, n.skin, model_.skins[n.skin].joints.size()));
+    return success();
+}
+
+Status SceneWriter::writeNode(uint32_t node)
+{
+    const GltfNode& n = model_.nodes[node];
+    HEARTH_TRY(checkSkin(node));
+    NodeRecord record{};
+    record.name = context_.part.intern(n.name);
+    record.parent = n.parent;
+    record.mesh = n.mesh;
+    record.skin = n.skin;
+    record.has_trs = n.has_trs ? 1 : 0;
+    record.translation = {n.translation[0], n.translation[1], n.translation[2]};
+    record.rotation = {n.rotation[0], n.rotation[1], n.rotation[2], n.rotation[3]};
+    record.scale = {n.scale[0], n.scale[1], n.scale[2]};
+    HEARTH_ASSIGN_OR_RETURN(record.parent_from_node, narrow(n.parent_from_node, node));
+    writeMorphWeights(node, record);
+    context_.part.nodes.push_back(record);
+    return success();
+}
+
+/// A skinned mesh stands where its joints carry it; the transform of its own node does not count.
+Transform SceneWriter::objectTransform(uint32_t node)
+{
+    const GltfNode& n = model_.nodes[node];
+    if (n.skin == kNone)
+        return world_from_node_[node];
+    const auto pose = skinnedRestPose(model_.skins[n.skin], inverse_binds_[n.skin],
+                                      meshes_[n.mesh].used_joints, world_from_node_);
+    if (!pose)
+    {
+        tally_.degraded("a skin that does not move its mesh: the mesh is drawn where its node is",
+                        nodePointer(node));
+        return world_from_node_[node];
+    }
+    if (!pose->exact)
+        tally_.degraded("a skinned mesh whose joints are posed: it is drawn in the bind pose",
+                        nodePointer(node));
+    return pose->world_from_object;
+}
+
+Status SceneWriter::writeInstance(uint32_t node, const Transform& world_from_object)
+{
+    if (context_.part.instances.size() >= context_.options.limits.max_instances)
+        return context_.error(Issue::input_too_large, nodePointer(node),
+                              fmt::format("more than {} instances", context_.options.limits.max_instances));
+    InstanceRecord record{};
+    HEARTH_ASSIGN_OR_RETURN(record.world_from_object, narrow(world_from_object, node));
+    record.mesh = model_.nodes[node].mesh;
+    record.node = node;
+    record.flags = determinant(record.world_from_object) < 0 ? kInstanceMirrored : 0u;
+    record.scale_max = scaleBound(record.world_from_object);
+    context_.part.instances.push_back(record);
+    return success();
+}
+
+Status SceneWriter::writeInstances(uint32_t node)
+{
+    const GltfNode& n = model_.nodes[node];
+    if (n.mesh == kNone || !meshes_[n.mesh].has_triangles)
+        return success();
+    const Transform world_from_object = objectTransform(node);
+    if (!n.has_instancing)
+        return writeInstance(node, world_from_object);
+    HEARTH_ASSIGN_OR_RETURN(const std::vector<Transform> copies,
+                            readInstancing(n, node, accessors_, context_, tally_));
+    for (const Transform& copy : copies)
+        HEARTH_TRY(writeInstance(node, world_from_object * copy));
+    return success();
+}
+
+Status SceneWriter::writeCamera(uint32_t node)
+{
+    if (model_.nodes[node].camera == kNone)
+        return success();
+    const GltfCamera& camera = model_.cameras[model_.nodes[node].camera];
+    CameraRecord record{};
+    record.name = context_.part.intern(camera.name);
+    record.type = static_cast<uint32_t>(camera.type);
+    record.node = node;
+    record.y_fov_rad = camera.y_fov_rad;
+    record.aspect = camera.aspect;
+    record.x_magnification = camera.x_magnification;
+    record.y_magnification = camera.y_magnification;
+    record.z_near = camera.z_near;
+    record.z_far = camera.z_far;
+    HEARTH_ASSIGN_OR_RETURN(record.world_from_camera, narrow(world_from_node_[node], node));
+    context_.part.cameras.push_back(record);
+    return success();
+}
+
+Status SceneWriter::writeLight(uint32_t node)
+{
+    if (model_.nodes[node].light == kNone)
+        return success();
+    const GltfLight& light = model_.lights[model_.nodes[node].light];
+    LightRecord record{};
+    record.name = context_.part.intern(light.name);
+    record.type = static_cast<uint32_t>(light.type);
+    record.node = node;
+    record.color = {light.color[0], light.color[1], light.color[2]};
+    record.intensity = light.intensity;
+    record.range = light.range;
+    record.inner_cone_rad = light.inner_cone_rad;
+    record.outer_cone_rad = light.outer_cone_rad;
+    HEARTH_ASSIGN_OR_RETURN(record.world_from_light, narrow(world_from_node_[node], node));
+    context_.part.lights.push_back(record);
+    return success();
+}
+
+Status SceneWriter::writeContents(uint32_t node)
+{
+    HEARTH_TRY(writeInstances(node));
+    HEARTH_TRY(writeCamera(node));
+    return writeLight(node);
+}
+
+void reportStillness(const GltfModel& model, std::span<const MeshSummary> meshes, const GltfContext& context)
+{
+    const bool morphs = std::any_of(meshes.begin(), meshes.end(),
+                                    [](const MeshSummary& m) { return m.morph_target_count > 0; });
+    if (morphs || !model.skins.empty() || !model.animations.empty())
+        context.part.warn(Issue::degraded, "",
+                          "skins, animations and morph targets are kept, but only the rest pose is drawn");
+}
+
+} // namespace
+
+std::vector<float> morphWeights(const GltfModel& model, uint32_t node, size_t count)
+{
+    const GltfNode& n = model.nodes[node];
+    std::vector<float> weights = n.weights.empty() ? model.meshes[n.mesh].weights : n.weights;
+    weights.resize(count);
+    return weights;
+}
+
+std::vector<float> restWeights(const GltfModel& model, uint32_t mesh)
+{
+    const size_t count = morphTargetCount(model.meshes[mesh]);
+    for (uint32_t node = 0; node < model.nodes.size(); ++node)
+        if (model.nodes[node].mesh == mesh)
+            return morphWeights(model, node, count);
+    std::vector<float> weights = model.meshes[mesh].weights;
+    weights.resize(count);
+    return weights;
+}
+
+Status writeScene(const GltfModel& model, std::span<const MeshSummary> meshes,
+                  std::span<const InverseBinds> inverse_binds, GltfAccessors& accessors,
+                  const GltfContext& context, GltfTally& tally)
+{
+    const std::vector<bool> drawn = findDrawn(model, context);
+    SceneWriter writer(model, meshes, inverse_binds, accessors, context, tally);
+    for (uint32_t node = 0; node < model.nodes.size(); ++node)
+        HEARTH_TRY(writer.writeNode(node));
+    for (uint32_t node = 0; node < model.nodes.size(); ++node)
+        if (drawn[node])
+            HEARTH_TRY(writer.writeContents(node));
+    reportStillness(model, meshes, context);
+    return success();
+}
+
+} // namespace hearth::import

@@ -1,0 +1,58 @@
+// Shows what is drawn instead of how it looks: clusters, levels, triangles, normals, depth.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#include "formats/shared/decisions.h"
+#include "formats/shared/shading.h"
+#include "scene.glsl"
+#include "material.glsl"
+#include "resolve.glsl"
+#include "surface_textures.glsl"
+#include "tonemap.glsl"
+
+layout(input_attachment_index = 0, set = 2, binding = 0) uniform usubpassInput visibility;
+
+layout(push_constant) uniform Push
+{
+    float depth;
+    uint shown_view;
+    float depth_scale; // metres that the depth view shows as half
+};
+layout(early_fragment_tests) in;
+layout(location = 0) out vec4 out_color;
+
+// A colour that differs much between neighbouring numbers.
+vec3 colorOfNumber(uint number)
+{
+    uint h = number * 2654435761u; // Knuth's multiplicative hash
+    h ^= h >> 15;
+    h *= 2246822519u;
+    h ^= h >> 13;
+    return 0.25 + 0.75 * vec3(h & 255u, h >> 8 & 255u, h >> 16 & 255u) / 255.0;
+}
+
+vec3 colorOfLevel(uint level)
+{
+    // red where the source is drawn, over yellow, green and blue to violet at level 12 and coarser
+    float hue = min(float(level), 12.0) / 12.0 * 0.8;
+    return clamp(abs(fract(hue + vec3(0.0, 2.0 / 3.0, 1.0 / 3.0)) * 6.0 - 3.0) - 1.0, 0.0, 1.0);
+}
+
+void main()
+{
+    Surface s = resolveSurface(subpassLoad(visibility).x, gl_FragCoord.xy);
+    // dimmed by the angle to the eye, so that the shape can be seen
+    float facing = 0.35 + 0.65 * abs(dot(geometricNormal(s), normalizeOr(s.position, vec3(0.0))));
+    vec3 color;
+    if (shown_view == kViewClusters)
+        color = facing * colorOfNumber(s.slot.cluster * 7919u + s.slot.instance);
+    else if (shown_view == kViewLod)
+        color = facing * (0.15 + 0.85 * colorOfLevel(levelOf(s.draw)));
+    else if (shown_view == kViewTriangles)
+        color = facing * colorOfNumber((s.slot.cluster * 128u + s.triangle) * 31u + s.slot.instance);
+    else if (shown_view == kViewNormals)
+        color = shadingNormal(s, surfaceUvs(s)) * 0.5 + 0.5;
+    else
+        color = vec3(depth_scale / (depth_scale + s.distance_w));
+    out_color = vec4(linearFromSrgb(color), 1.0);
+}

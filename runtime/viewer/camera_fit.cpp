@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "runtime/viewer/camera_fit.h"
+
+#include "runtime/gpu/scene_shading.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hearth::viewer
+{
+
+namespace
+{
+
+constexpr float kFieldOfView = 0.6f; // 34 degrees: a portrait lens, little distortion
+constexpr float kMargin = 1.08f;
+constexpr Float3 kFrom{0.55f, 0.42f, 0.8f};
+
+/// Calls `visit` with the world-space corners of every drawn instance's box.
+template <typename Visitor>
+void forEachCorner(const formats::PackView& pack, const Visitor& visit)
+{
+    for (const formats::InstanceRecord& instance : pack.instances())
+    {
+        const formats::MeshRecord& mesh = pack.meshes()[instance.mesh];
+        if (mesh.clusters.count == 0)
+            continue;
+        for (int corner = 0; corner < 8; ++corner)
+            visit(
+                transformPoint(instance.world_from_object, {(corner & 1) ? mesh.box_max.x : mesh.box_min.x,
+                                                            (corner & 2) ? mesh.box_max.y : mesh.box_min.y,
+                                                            (corner & 4) ? mesh.box_max.z : mesh.box_min.z}));
+    }
+}
+
+} // namespace
+
+float nearPlane(float distance)
+{
+    return std::max(distance * 1e-3f, 1e-12f);
+}
+
+shared::Camera fitCamera(const formats::PackView& pack, float aspect)
+{
+    shared::Camera camera;
+    camera.y_fov_rad = kFieldOfView;
+    const Box3 bounds = gpu::sceneBounds(pack);
+    if (bounds.empty())
+    {
+        camera.position = kFrom * 3.0f;
+        camera.target = {};
+        camera.z_near = nearPlane(3);
+        return camera;
+    }
+    const Float3 back = normalizeOr(kFrom, {0, 0, 1});
+    const Float3 right = normalizeOr(cross({0, 1, 0}, back), {1, 0, 0});
+    const Float3 up = cross(back, right);
+    const float tan_y = std::tan(0.5f * kFieldOfView);
+    const float tan_x = tan_y * aspect;
+
+    // The nearest eye from which nothing sticks out: shift the view so that left and right, then top and bottom,
+    // bind at once. Each side plane of the frustum gives one bound; p . side <= eye . side for all points.
+    const Float3 center = bounds.center();
+    float left = 0, rightmost = 0, bottom = 0, top = 0;
+    forEachCorner(pack,
+                  [&](Float3 corner)
+                  {
+                      const Float3 p = corner - center;
+                      const float z = dot(p, back);
+                      rightmost = std::max(rightmost, dot(p, right) + z * tan_x);
+                      left = std::max(left, -dot(p, right) + z * tan_x);
+                      top = std::max(top, dot(p, up) + z * tan_y);
+                      bottom = std::max(bottom, -dot(p, up) + z * tan_y);
+                  });
+    const float distance = kMargin * std::max((rightmost + left) / (2 * tan_x), (top + bottom) / (2 * tan_y));
+    const Float3 shift = right * (0.5f * (rightmost - left)) + up * (0.5f * (top - bottom));
+    const float size = std::max(distance, 1e-6f);
+    camera.target = center + shift;
+    camera.position = camera.target + back * size;
+    camera.z_near = nearPlane(size);
+    return camera;
+}
+
+shared::Camera sceneCamera(const formats::PackView& pack, uint32_t index)
+{
+    const formats::CameraRecord& record = pack.cameras()[index];
+    const Affine3& world_from_camera = record.world_from_camera;
+    shared::Camera camera;
+    camera.position = transformPoint(world_from_camera, {});
+    camera.target = camera.position + transformVector(world_from_camera, {0, 0, -1});
+    camera.up = transformVector(world_from_camera, {0, 1, 0});
+    camera.y_fov_rad = record.y_fov_rad;
+    camera.z_near = record.z_near > 0 ? record.z_near : nearPlane(1);
+    return camera;
+}
+
+} // namespace hearth::viewer

@@ -1,0 +1,22 @@
+// Cameras that a pack suggests: one that shows the whole scene, and those that the artist placed.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "formats/pack_view.h"
+#include "formats/shared/frame.h"
+
+namespace hearth::viewer
+{
+
+/// Three-quarter view from the right, front and above, as close as all instances' boxes fit into the picture with a
+/// small margin. A scene without triangles gets a view of the origin.
+shared::Camera fitCamera(const formats::PackView& pack, float aspect);
+
+/// Camera `index` of the pack, which must exist and be a perspective one.
+shared::Camera sceneCamera(const formats::PackView& pack, uint32_t index);
+
+/// The near plane for a camera that looks at something `distance` metres away: near enough never to cut what is looked
+/// at, far enough to keep all bits of a reversed float depth useful.
+float nearPlane(float distance);
+
+} // namespace hearth::viewer

@@ -1,0 +1,25 @@
+// Files that appear whole or not at all.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "formats/result.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace hearth::viewer
+{
+
+/// Write to a temporary file beside `path` and rename it into place. errors: cannot_write.
+Status writeFile(const std::string& path, std::span<const std::byte> bytes);
+
+/// `rgba` as a PNG file in memory. errors: internal.
+Result<std::vector<std::byte>> encodePng(std::span<const std::byte> rgba, uint32_t width, uint32_t height);
+
+/// Half the size in both directions, each pixel the mean of four in linear light. RGBA8 sRGB; width and height even.
+std::vector<std::byte> downsampleSrgb(std::span<const std::byte> rgba, uint32_t width, uint32_t height);
+
+} // namespace hearth::viewer

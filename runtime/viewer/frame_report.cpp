@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "runtime/viewer/frame_report.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <cstring>
+
+namespace hearth::viewer
+{
+
+namespace
+{
+
+std::string number(double value)
+{
+    char text[32];
+    std::snprintf(text, sizeof(text), "%.3f", value);
+    return text;
+}
+
+std::string quoted(std::string_view text)
+{
+    std::string result(1, '"');
+    for (const char c : text)
+        if (c == '"' || c == '\\')
+            result += {'\\', c};
+        else
+            result += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
+    return result + "\"";
+}
+
+} // namespace
+
+Result<VisibleList> readVisibleList(VulkanHost& host, const gpu::Renderer& renderer, const gpu::Scene& scene)
+{
+    VisibleList list;
+    HEARTH_ASSIGN_OR_RETURN(const std::vector<std::byte> counters,
+                            host.read(renderer.device(), scene.buffers.counters));
+    std::memcpy(&list.counters, counters.data(), sizeof(list.counters));
+    list.slots.resize(list.counters.drawn_clusters - list.counters.dropped_clusters);
+    if (list.slots.empty())
+        return list;
+    HEARTH_ASSIGN_OR_RETURN(const std::vector<std::byte> slots,
+                            host.read(renderer.device(), scene.buffers.visible));
+    HEARTH_ASSERT(slots.size() >= list.slots.size() * sizeof(shared::VisibleCluster));
+    std::memcpy(list.slots.data(), slots.data(), list.slots.size() * sizeof(shared::VisibleCluster));
+    return list;
+}
+
+std::array<double, gpu::kTimestampCount> medianPassTimes(const std::vector<std::vector<double>>& frames)
+{
+    std::array<double, gpu::kTimestampCount> medians{};
+    for (size_t pass = 0; pass < medians.size(); ++pass)
+    {
+        std::vector<double> times;
+        for (const std::vector<double>& stamps : frames)
+            times.push_back(pass == 0 ? stamps.back() : stamps[pass] - stamps[pass - 1]);
+        std::sort(times.begin(), times.end());
+        medians[pass] = times.empty() ? 0 : times[times.size() / 2];
+    }
+    return medians;
+}
+
+uint64_t countTriangles(const formats::PackView& pack, const VisibleList& list)
+{
+    uint64_t triangles = 0;
+    for (const shared::VisibleCluster& slot : list.slots)
+        triangles += pack.clusters()[slot.cluster].triangle_count;
+    return triangles;
+}
+
+std::string formatReport(const FrameReport& report, const formats::PackView& pack)
+{
+    uint64_t source_triangles = 0;
+    for (const formats::InstanceRecord& instance : pack.instances())
+    {
+        const formats::MeshRecord& mesh = pack.meshes()[instance.mesh];
+        source_triangles += mesh.source_triangles - mesh.degenerate_triangles;
+    }
+    std::string text = "{\"schema\":\"hearth.frame/1\"";
+    const auto add = [&](std::string_view name, const std::string& value)
+    { text += ",\n \"" + std::string(name) + "\":" + value; };
+    add("device", quoted(report.device));
+    add("width", std::to_string(report.width));
+    add("height", std::to_string(report.height));
+    add("error_pixels", number(double{report.error_pixels}));
+    add("instances", std::to_string(pack.instances().size()));
+    add("materials", std::to_string(pack.materials().size()));
+    add("source_triangles", std::to_string(source_triangles));
+    add("drawn_clusters", std::to_string(report.drawn_clusters));
+    add("dropped_clusters", std::to_string(report.dropped_clusters));
+    add("drawn_triangles", std::to_string(report.drawn_triangles));
+    add("dropped_lights", std::to_string(report.dropped_lights));
+    add("scene_bytes", std::to_string(report.scene_bytes));
+    add("target_bytes", std::to_string(report.target_bytes));
+    add("milliseconds",
+        "{\"frame\":" + number(report.milliseconds[0]) +
+            ",\"cull\":" + number(report.milliseconds[gpu::kTimestampCull]) +
+            ",\"visibility\":" + number(report.milliseconds[gpu::kTimestampVisibility]) +
+            ",\"material_depth\":" + number(report.milliseconds[gpu::kTimestampMaterialDepth]) +
+            ",\"shading\":" + number(report.milliseconds[gpu::kTimestampShading]) + "}");
+    return text + "}\n";
+}
+
+std::vector<std::byte> formatVisibility(const VisibleList& list, std::span<const std::byte> pixels,
+                                        uint32_t width, uint32_t height)
+{
+    const uint32_t header[] = {formats::fourCC("HVIS"), width, height,
+                               static_cast<uint32_t>(list.slots.size())};
+    const std::span<const std::byte> parts[] = {std::as_bytes(std::span(header)),
+                                                std::as_bytes(std::span(list.slots)), pixels};
+    std::vector<std::byte> out(parts[0].size() + parts[1].size() + parts[2].size());
+    size_t at = 0;
+    for (const std::span<const std::byte> part : parts)
+    {
+        std::copy(part.begin(), part.end(), out.begin() + static_cast<ptrdiff_t>(at));
+        at += part.size();
+    }
+    return out;
+}
+
+} // namespace hearth::viewer

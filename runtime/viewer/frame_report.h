@@ -1,0 +1,44 @@
+// What a frame drew: counts from the GPU's own buffers, times of the passes, and the files that tools read.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "runtime/viewer/vulkan_host.h"
+
+#include <array>
+
+namespace hearth::viewer
+{
+
+/// The visible list of the last frame of a scene.
+struct VisibleList
+{
+    shared::FrameCounters counters{};
+    std::vector<shared::VisibleCluster> slots; ///< those that were drawn
+};
+Result<VisibleList> readVisibleList(VulkanHost& host, const gpu::Renderer& renderer, const gpu::Scene& scene);
+
+struct FrameReport
+{
+    std::string device;
+    uint32_t width = 0, height = 0;
+    float error_pixels = 0;
+    uint64_t drawn_clusters = 0, dropped_clusters = 0, drawn_triangles = 0;
+    uint64_t scene_bytes = 0, target_bytes = 0;
+    uint32_t dropped_lights = 0;
+    std::array<double, gpu::kTimestampCount>
+        milliseconds{}; ///< of the pass that ends with the timestamp; [0] is the frame
+};
+
+/// Medians over frames of the times between timestamps.
+std::array<double, gpu::kTimestampCount> medianPassTimes(const std::vector<std::vector<double>>& frames);
+
+uint64_t countTriangles(const formats::PackView& pack, const VisibleList& list);
+
+/// JSON text; "schema" names its form.
+std::string formatReport(const FrameReport& report, const formats::PackView& pack);
+
+/// The form that hearth-render --help describes.
+std::vector<std::byte> formatVisibility(const VisibleList& list, std::span<const std::byte> pixels,
+                                        uint32_t width, uint32_t height);
+
+} // namespace hearth::viewer

@@ -1,0 +1,292 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "runtime/viewer/options.h"
+
+#include "formats/shared/shading.h"
+#include "runtime/viewer/camera_fit.h"
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace hearth::viewer
+{
+
+const char* const kRenderHelp =
+    "Usage: hearth-render PACK -o IMAGE.png [options]\n"
+    "Draw a pack without a window.\n"
+    "\n"
+    "  -o, --output FILE       the picture, PNG\n"
+    "      --size WxH          pixels, default 1280x720\n"
+    "      --camera PX,PY,PZ,TX,TY,TZ,FOV\n"
+    "                          eye and target in metres, full vertical angle in degrees\n"
+    "      --scene-camera N    the camera N of the pack, the first is 0\n"
+    "      --fit               frame the whole scene (default)\n"
+    "      --error-pixels E    largest error on the screen, default 1; 0 draws the source triangles\n"
+    "      --view VIEW         final, clusters, lod, triangles, normals or depth\n"
+    "      --samples N         1, or 4 for a smoother picture\n"
+    "      --device NAME       part of the name of the graphics device\n"
+    "      --stats FILE        counts and times of the passes as JSON\n"
+    "      --frames N          draw N times; the times are medians\n"
+    "      --dump-visibility FILE\n"
+    "                          what each pixel shows: \"HVIS\", then 32-bit words: width, height, slot "
+    "count;\n"
+    "                          instance and cluster of each slot; for each pixel slot * 128 + triangle or "
+    "-1\n"
+    "      --no-cull TESTS     leave out tests, of instances,frustum,cone (the picture stays the same)\n"
+    "      --validate          run the Vulkan validation layer; any message is an error\n"
+    "  -v, --verbose           say which device draws\n"
+    "  -h, --help\n"
+    "\n"
+    "Example: hearth-render rock.hearth -o rock.png --size 1920x1080 --samples 4\n"
+    "Exit codes: 0, 2 usage, 65 malformed pack, 66 missing, 70 no device or a defect, 73 cannot write, 74 "
+    "I/O\n";
+
+namespace
+{
+
+std::string quoted(std::string_view text)
+{
+    std::string result(1, '"');
+    result.append(text);
+    result += '"';
+    return result;
+}
+
+Error usage(const std::string& detail)
+{
+    return {Issue::usage, "", "", detail};
+}
+
+/// The whole text as a finite number.
+template <typename T>
+std::optional<T> parseNumber(std::string_view text)
+{
+    T value{};
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc{} || end != text.data() + text.size())
+        return std::nullopt;
+    if constexpr (std::is_floating_point_v<T>)
+        if (!std::isfinite(value))
+            return std::nullopt;
+    return value;
+}
+
+std::vector<std::string_view> split(std::string_view text, char separator)
+{
+    std::vector<std::string_view> parts;
+    for (;;)
+    {
+        const size_t at = text.find(separator);
+        parts.push_back(text.substr(0, at));
+        if (at == std::string_view::npos)
+            return parts;
+        text.remove_prefix(at + 1);
+    }
+}
+
+Status parseSize(std::string_view text, RenderOptions& options)
+{
+    constexpr uint32_t kLargest = 16384;
+    const auto parts = split(text, 'x');
+    if (parts.size() == 2)
+    {
+        const auto width = parseNumber<uint32_t>(parts[0]);
+        const auto height = parseNumber<uint32_t>(parts[1]);
+        if (width && height && *width >= 1 && *height >= 1 && *width <= kLargest && *height <= kLargest)
+        {
+            options.width = *width;
+            options.height = *height;
+            return success();
+        }
+    }
+    return usage("--size: " + quoted(text) + " is not WxH with sides of 1 to 16384");
+}
+
+Status parseCamera(std::string_view text, RenderOptions& options)
+{
+    const auto parts = split(text, ',');
+    std::array<float, 7> v{};
+    bool good = parts.size() == v.size();
+    for (size_t i = 0; good && i < v.size(); ++i)
+    {
+        const auto number = parseNumber<float>(parts[i]);
+        good = number.has_value();
+        v[i] = number.value_or(0);
+    }
+    const Float3 position{v[0], v[1], v[2]}, target{v[3], v[4], v[5]};
+    const float distance = length(target - position);
+    if (!good || !(distance > 0) || v[6] < 1 || v[6] > 170)
+        return usage("--camera: " + quoted(text) +
+                     " is not PX,PY,PZ,TX,TY,TZ,FOV with eye and target apart and 1 to 170 degrees");
+    constexpr float kRadians = 3.14159265f / 180.0f;
+    options.camera = shared::Camera{
+        .position = position, .target = target, .y_fov_rad = v[6] * kRadians, .z_near = nearPlane(distance)};
+    return success();
+}
+
+Status parseSceneCamera(std::string_view text, RenderOptions& options)
+{
+    options.scene_camera = parseNumber<uint32_t>(text);
+    if (!options.scene_camera)
+        return usage("--scene-camera: " + quoted(text) + " is not the index of a camera");
+    return success();
+}
+
+Status parseView(std::string_view text, RenderOptions& options)
+{
+    constexpr std::pair<std::string_view, uint32_t> kViews[] = {
+        {"final", shared::kViewFinal},     {"clusters", shared::kViewClusters},
+        {"lod", shared::kViewLod},         {"triangles", shared::kViewTriangles},
+        {"normals", shared::kViewNormals}, {"depth", shared::kViewDepth},
+    };
+    for (const auto& [name, view] : kViews)
+        if (text == name)
+        {
+            options.view = view;
+            return success();
+        }
+    return usage("--view: " + quoted(text) + " is none of final, clusters, lod, triangles, normals, depth");
+}
+
+Status parseNoCull(std::string_view text, RenderOptions& options)
+{
+    constexpr std::pair<std::string_view, uint32_t> kTests[] = {{"instances", shared::kCullInstances},
+                                                                {"frustum", shared::kCullFrustum},
+                                                                {"cone", shared::kCullCone}};
+    for (const std::string_view part : split(text, ','))
+    {
+        bool known = false;
+        for (const auto& [name, flag] : kTests)
+            if (part == name)
+            {
+                options.cull_flags &= ~flag;
+                known = true;
+            }
+        if (!known)
+            return usage("--no-cull: " + quoted(part) + " is none of instances, frustum, cone");
+    }
+    return success();
+}
+
+Status parseErrorPixels(std::string_view text, RenderOptions& options)
+{
+    const auto number = parseNumber<float>(text);
+    if (!number || *number < 0)
+        return usage("--error-pixels: " + quoted(text) + " is not a number from 0");
+    options.error_pixels = *number;
+    return success();
+}
+
+Status parseSamples(std::string_view text, RenderOptions& options)
+{
+    if (text != "1" && text != "4")
+        return usage("--samples: " + quoted(text) + " is neither 1 nor 4");
+    options.samples = text == "4" ? 4 : 1;
+    return success();
+}
+
+Status parseFrames(std::string_view text, RenderOptions& options)
+{
+    const auto number = parseNumber<uint32_t>(text);
+    if (!number || *number < 1 || *number > 10000)
+        return usage("--frames: " + quoted(text) + " is not a number from 1 to 10000");
+    options.frames = *number;
+    return success();
+}
+
+template <std::string RenderOptions::*kMember>
+Status parseText(std::string_view text, RenderOptions& options)
+{
+    options.*kMember = text;
+    return success();
+}
+
+struct ValueOption
+{
+    std::string_view name;
+    Status (*parse)(std::string_view value, RenderOptions& options);
+};
+
+constexpr ValueOption kValueOptions[] = {
+    {"-o", parseText<&RenderOptions::output>},
+    {"--output", parseText<&RenderOptions::output>},
+    {"--size", parseSize},
+    {"--camera", parseCamera},
+    {"--scene-camera", parseSceneCamera},
+    {"--error-pixels", parseErrorPixels},
+    {"--view", parseView},
+    {"--samples", parseSamples},
+    {"--device", parseText<&RenderOptions::device>},
+    {"--stats", parseText<&RenderOptions::stats>},
+    {"--frames", parseFrames},
+    {"--dump-visibility", parseText<&RenderOptions::visibility>},
+    {"--no-cull", parseNoCull},
+};
+
+const ValueOption* findValueOption(std::string_view name)
+{
+    for (const ValueOption& option : kValueOptions)
+        if (option.name == name)
+            return &option;
+    return nullptr;
+}
+
+/// An option without a value; false where `name` is none.
+bool parseSwitch(std::string_view name, RenderOptions& options)
+{
+    if (name == "--validate")
+        options.validate = true;
+    else if (name == "-v" || name == "--verbose")
+        options.verbose = true;
+    else if (name == "-h" || name == "--help")
+        options.help = true;
+    else if (name == "--fit")
+    {
+        options.camera.reset();
+        options.scene_camera.reset();
+    }
+    else
+        return false;
+    return true;
+}
+
+} // namespace
+
+Result<RenderOptions> parseOptions(std::span<const char* const> arguments)
+{
+    RenderOptions options;
+    for (size_t i = 0; i < arguments.size(); ++i)
+    {
+        std::string_view name = arguments[i];
+        if (name.size() < 2 || name[0] != '-')
+        {
+            if (!options.pack.empty())
+                return usage(quoted(name) + " is one file too many");
+            options.pack = name;
+            continue;
+        }
+        if (parseSwitch(name, options))
+            continue;
+        // --name value, or --name=value
+        const size_t equals = name.starts_with("--") ? name.find('=') : std::string_view::npos;
+        const ValueOption* option = findValueOption(name.substr(0, equals));
+        if (option == nullptr)
+            return usage("unknown option " + quoted(name));
+        if (equals == std::string_view::npos && i + 1 == arguments.size())
+            return usage(std::string(name) + " needs a value");
+        HEARTH_TRY(option->parse(equals == std::string_view::npos ? arguments[++i] : name.substr(equals + 1),
+                                 options));
+    }
+    if (options.help)
+        return options;
+    if (options.pack.empty())
+        return usage("no pack is named");
+    if (options.output.empty())
+        return usage("no output is named (-o IMAGE.png)");
+    return options;
+}
+
+} // namespace hearth::viewer

@@ -1,0 +1,42 @@
+// The command line of hearth-render.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "formats/result.h"
+#include "formats/shared/frame.h"
+
+#include <optional>
+#include <span>
+#include <string>
+
+namespace hearth::viewer
+{
+
+struct RenderOptions
+{
+    bool help = false;
+    std::string pack;
+    std::string output;
+    uint32_t width = 1280;
+    uint32_t height = 720;
+    std::optional<shared::Camera> camera; ///< none: the scene's camera, or fit the scene
+    std::optional<uint32_t> scene_camera; ///< index of a camera of the pack
+    float error_pixels = 1;
+    uint32_t view = 0; ///< shared::kView*
+    uint32_t samples = 1;
+    uint32_t frames = 1;
+    uint32_t cull_flags = shared::kCullEverything;
+    std::string device;
+    std::string stats;
+    std::string visibility;
+    bool validate = false;
+    bool verbose = false;
+};
+
+/// The text of --help.
+extern const char* const kRenderHelp;
+
+/// errors: usage, naming the argument.
+Result<RenderOptions> parseOptions(std::span<const char* const> arguments);
+
+} // namespace hearth::viewer

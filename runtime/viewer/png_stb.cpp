@@ -1,0 +1,32 @@
+// The one place that includes stb_image_write.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "runtime/viewer/file_output.h"
+
+#define STB_IMAGE_WRITE_IMPLEMENTATION
+#define STB_IMAGE_WRITE_STATIC
+#define STBI_WRITE_NO_STDIO
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wunused-function"
+#include <stb/stb_image_write.h>
+#pragma GCC diagnostic pop
+
+namespace hearth::viewer
+{
+
+Result<std::vector<std::byte>> encodePng(std::span<const std::byte> rgba, uint32_t width, uint32_t height)
+{
+    std::vector<std::byte> file;
+    const auto append = [](void* context, void* data, int size)
+    {
+        const auto* bytes = static_cast<const std::byte*>(data);
+        auto& out = *static_cast<std::vector<std::byte>*>(context);
+        out.insert(out.end(), bytes, bytes + size);
+    };
+    const int stride = static_cast<int>(width) * 4;
+    if (stbi_write_png_to_func(append, &file, static_cast<int>(width), static_cast<int>(height), 4,
+                               rgba.data(), stride) == 0)
+        return Error{Issue::internal, "", "", "the PNG encoder failed"};
+    return file;
+}
+
+} // namespace hearth::viewer

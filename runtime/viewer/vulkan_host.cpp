@@ -1,0 +1,392 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "runtime/viewer/vulkan_host.h"
+
+#include <algorithm>
+#include <cctype>
+#include <dlfcn.h>
+
+#define HEARTH_HOST_INSTANCE_FUNCTIONS(X)                                                                    \
+    X(vkCreateDevice)                                                                                        \
+    X(vkDestroyInstance)                                                                                     \
+    X(vkEnumeratePhysicalDevices)                                                                            \
+    X(vkGetDeviceProcAddr)                                                                                   \
+    X(vkGetPhysicalDeviceFeatures)                                                                           \
+    X(vkGetPhysicalDeviceProperties)                                                                         \
+    X(vkGetPhysicalDeviceQueueFamilyProperties)
+
+#define HEARTH_HOST_DEVICE_FUNCTIONS(X)                                                                      \
+    X(vkAllocateCommandBuffers)                                                                              \
+    X(vkBeginCommandBuffer)                                                                                  \
+    X(vkCmdCopyBuffer)                                                                                       \
+    X(vkCmdCopyImageToBuffer)                                                                                \
+    X(vkCmdPipelineBarrier)                                                                                  \
+    X(vkCreateCommandPool)                                                                                   \
+    X(vkCreateFence)                                                                                         \
+    X(vkCreateQueryPool)                                                                                     \
+    X(vkDestroyCommandPool)                                                                                  \
+    X(vkDestroyDevice)                                                                                       \
+    X(vkDestroyFence)                                                                                        \
+    X(vkDestroyQueryPool)                                                                                    \
+    X(vkDeviceWaitIdle)                                                                                      \
+    X(vkEndCommandBuffer)                                                                                    \
+    X(vkFreeCommandBuffers)                                                                                  \
+    X(vkGetDeviceQueue)                                                                                      \
+    X(vkGetQueryPoolResults)                                                                                 \
+    X(vkQueueSubmit)                                                                                         \
+    X(vkWaitForFences)
+
+namespace hearth::viewer
+{
+
+using gpu::vulkanError;
+
+struct HostTable
+{
+#define HEARTH_MEMBER(name) PFN_##name name = nullptr;
+    HEARTH_HOST_INSTANCE_FUNCTIONS(HEARTH_MEMBER)
+    HEARTH_HOST_DEVICE_FUNCTIONS(HEARTH_MEMBER)
+#undef HEARTH_MEMBER
+    PFN_vkDestroyDebugUtilsMessengerEXT vkDestroyDebugUtilsMessengerEXT = nullptr; // with validation only
+};
+
+namespace
+{
+
+constexpr const char* kValidationLayer = "VK_LAYER_KHRONOS_validation";
+
+Error deviceError(std::string detail)
+{
+    return {Issue::device, "", "", std::move(detail)};
+}
+
+VKAPI_ATTR VkBool32 VKAPI_CALL collectMessage(VkDebugUtilsMessageSeverityFlagBitsEXT,
+                                              VkDebugUtilsMessageTypeFlagsEXT,
+                                              const VkDebugUtilsMessengerCallbackDataEXT* data,
+                                              void* messages)
+{
+    static_cast<std::vector<std::string>*>(messages)->emplace_back(data->pMessage);
+    return VK_FALSE;
+}
+
+std::string lowerCase(std::string text)
+{
+    std::transform(text.begin(), text.end(), text.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return text;
+}
+
+/// Which kind of device is likely to be faster.
+int rankOf(VkPhysicalDeviceType type)
+{
+    switch (type)
+    {
+    case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU:
+        return 4;
+    case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU:
+        return 3;
+    case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU:
+        return 2;
+    case VK_PHYSICAL_DEVICE_TYPE_CPU:
+        return 1;
+    default:
+        return 0;
+    }
+}
+
+/// A queue family that draws and computes, or none.
+bool findQueueFamily(const HostTable& vk, VkPhysicalDevice device, uint32_t& family)
+{
+    uint32_t count = 0;
+    vk.vkGetPhysicalDeviceQueueFamilyProperties(device, &count, nullptr);
+    std::vector<VkQueueFamilyProperties> families(count);
+    vk.vkGetPhysicalDeviceQueueFamilyProperties(device, &count, families.data());
+    constexpr VkQueueFlags kNeeded = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT;
+    for (family = 0; family < count; ++family)
+        if ((families[family].queueFlags & kNeeded) == kNeeded)
+            return true;
+    return false;
+}
+
+} // namespace
+
+VulkanHost::VulkanHost() : vk_(std::make_unique<HostTable>()) {}
+
+VulkanHost::~VulkanHost()
+{
+    if (device_ != VK_NULL_HANDLE)
+    {
+        vk_->vkDeviceWaitIdle(device_);
+        for (const VkQueryPool pool : query_pools_)
+            vk_->vkDestroyQueryPool(device_, pool, nullptr);
+        if (command_pool_ != VK_NULL_HANDLE)
+            vk_->vkDestroyCommandPool(device_, command_pool_, nullptr);
+        vk_->vkDestroyDevice(device_, nullptr);
+    }
+    if (messenger_ != VK_NULL_HANDLE)
+        vk_->vkDestroyDebugUtilsMessengerEXT(instance_, messenger_, nullptr);
+    if (instance_ != VK_NULL_HANDLE)
+        vk_->vkDestroyInstance(instance_, nullptr);
+    if (library_ != nullptr)
+        ::dlclose(library_);
+}
+
+Result<std::unique_ptr<VulkanHost>> VulkanHost::create(const HostOptions& options)
+{
+    std::unique_ptr<VulkanHost> host(new VulkanHost);
+    HEARTH_TRY(host->openLoader());
+    HEARTH_TRY(host->createInstance(options.validate));
+    HEARTH_TRY(host->chooseDevice(options.device_name));
+    HEARTH_TRY(host->createDevice());
+    return host;
+}
+
+Status VulkanHost::openLoader()
+{
+    library_ = ::dlopen("libvulkan.so.1", RTLD_NOW | RTLD_LOCAL);
+    if (library_ == nullptr)
+        return deviceError("there is no Vulkan loader (libvulkan.so.1)");
+    get_instance_proc_addr_ =
+        reinterpret_cast<PFN_vkGetInstanceProcAddr>(::dlsym(library_, "vkGetInstanceProcAddr"));
+    if (get_instance_proc_addr_ == nullptr)
+        return deviceError("libvulkan.so.1 is not a Vulkan loader");
+    return success();
+}
+
+Status VulkanHost::createInstance(bool validate)
+{
+    const auto create_instance =
+        reinterpret_cast<PFN_vkCreateInstance>(get_instance_proc_addr_(nullptr, "vkCreateInstance"));
+    VkApplicationInfo application{};
+    application.sType = VK_STRUCTURE_TYPE_APPLICATION_INFO;
+    application.pApplicationName = "hearth-render";
+    application.apiVersion = VK_API_VERSION_1_1;
+
+    VkDebugUtilsMessengerCreateInfoEXT messenger{};
+    messenger.sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT;
+    messenger.messageSeverity =
+        VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT;
+    messenger.messageType =
+        VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_TYPE_PERFORMANCE_BIT_EXT;
+    messenger.pfnUserCallback = collectMessage;
+    messenger.pUserData = &messages_;
+    const VkValidationFeatureEnableEXT synchronization =
+        VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT;
+    VkValidationFeaturesEXT features{};
+    features.sType = VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT;
+    features.pNext = &messenger;
+    features.enabledValidationFeatureCount = 1;
+    features.pEnabledValidationFeatures = &synchronization;
+
+    const char* extension = VK_EXT_DEBUG_UTILS_EXTENSION_NAME;
+    VkInstanceCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO;
+    info.pApplicationInfo = &application;
+    if (validate)
+    {
+        info.pNext = &features;
+        info.enabledLayerCount = 1;
+        info.ppEnabledLayerNames = &kValidationLayer;
+        info.enabledExtensionCount = 1;
+        info.ppEnabledExtensionNames = &extension;
+    }
+    const VkResult result = create_instance(&info, nullptr, &instance_);
+    if (result == VK_ERROR_LAYER_NOT_PRESENT)
+        return deviceError("the validation layer is not installed (vulkan-validationlayers)");
+    if (result != VK_SUCCESS)
+        return deviceError("no Vulkan driver could be started (VkResult " + std::to_string(result) + ")");
+
+#define HEARTH_LOAD(name) vk_->name = reinterpret_cast<PFN_##name>(get_instance_proc_addr_(instance_, #name));
+    HEARTH_HOST_INSTANCE_FUNCTIONS(HEARTH_LOAD)
+    if (!validate)
+        return success();
+    HEARTH_LOAD(vkDestroyDebugUtilsMessengerEXT)
+#undef HEARTH_LOAD
+    const auto create_messenger = reinterpret_cast<PFN_vkCreateDebugUtilsMessengerEXT>(
+        get_instance_proc_addr_(instance_, "vkCreateDebugUtilsMessengerEXT"));
+    HEARTH_TRY_VK(create_messenger(instance_, &messenger, nullptr, &messenger_),
+                  "listen to the validation layer");
+    return success();
+}
+
+Status VulkanHost::chooseDevice(const std::string& name)
+{
+    uint32_t count = 0;
+    vk_->vkEnumeratePhysicalDevices(instance_, &count, nullptr);
+    std::vector<VkPhysicalDevice> devices(count);
+    vk_->vkEnumeratePhysicalDevices(instance_, &count, devices.data());
+
+    int best = -1;
+    std::string seen;
+    for (const VkPhysicalDevice device : devices)
+    {
+        VkPhysicalDeviceProperties properties;
+        vk_->vkGetPhysicalDeviceProperties(device, &properties);
+        seen += (seen.empty() ? "" : ", ") + std::string(properties.deviceName);
+        uint32_t family = 0;
+        const bool matches = lowerCase(properties.deviceName).find(lowerCase(name)) != std::string::npos;
+        if (!matches || properties.apiVersion < VK_API_VERSION_1_1 ||
+            !findQueueFamily(*vk_, device, family) || rankOf(properties.deviceType) <= best)
+            continue;
+        best = rankOf(properties.deviceType);
+        physical_device_ = device;
+        queue_family_ = family;
+        device_name_ = properties.deviceName;
+        software_ = properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;
+        timestamp_period_ns_ = double{properties.limits.timestampPeriod};
+    }
+    if (physical_device_ == VK_NULL_HANDLE)
+        return deviceError((name.empty() ? "no device has Vulkan 1.1"
+                                         : "no device with Vulkan 1.1 is named \"" + name + "\"") +
+                           (seen.empty() ? "" : "; there are: " + seen));
+    return success();
+}
+
+Status VulkanHost::createDevice()
+{
+    VkPhysicalDeviceFeatures supported;
+    vk_->vkGetPhysicalDeviceFeatures(physical_device_, &supported);
+    // lavapipe 22.3 filters anisotropically by the differences inside a 2x2 block, not by the gradients it is given:
+    // wrong where the block sees two triangles, and a hundred times slower
+    sampler_anisotropy_ = supported.samplerAnisotropy == VK_TRUE && !software_;
+    VkPhysicalDeviceFeatures enabled{};
+    enabled.samplerAnisotropy = sampler_anisotropy_ ? VK_TRUE : VK_FALSE;
+
+    const float priority = 1;
+    VkDeviceQueueCreateInfo queue{};
+    queue.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO;
+    queue.queueFamilyIndex = queue_family_;
+    queue.queueCount = 1;
+    queue.pQueuePriorities = &priority;
+    VkDeviceCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO;
+    info.queueCreateInfoCount = 1;
+    info.pQueueCreateInfos = &queue;
+    info.pEnabledFeatures = &enabled;
+    HEARTH_TRY_VK(vk_->vkCreateDevice(physical_device_, &info, nullptr, &device_), "create a device");
+#define HEARTH_LOAD(name) vk_->name = reinterpret_cast<PFN_##name>(vk_->vkGetDeviceProcAddr(device_, #name));
+    HEARTH_HOST_DEVICE_FUNCTIONS(HEARTH_LOAD)
+#undef HEARTH_LOAD
+    vk_->vkGetDeviceQueue(device_, queue_family_, 0, &queue_);
+
+    VkCommandPoolCreateInfo pool{};
+    pool.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO;
+    pool.flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT;
+    pool.queueFamilyIndex = queue_family_;
+    HEARTH_TRY_VK(vk_->vkCreateCommandPool(device_, &pool, nullptr, &command_pool_), "create a command pool");
+    return success();
+}
+
+gpu::DeviceDescription VulkanHost::description() const
+{
+    return {.get_instance_proc_addr = get_instance_proc_addr_,
+            .instance = instance_,
+            .physical_device = physical_device_,
+            .device = device_,
+            .sampler_anisotropy = sampler_anisotropy_};
+}
+
+Status VulkanHost::run(const std::function<Status(VkCommandBuffer)>& record)
+{
+    const VkCommandBufferAllocateInfo allocate{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO, nullptr,
+                                               command_pool_, VK_COMMAND_BUFFER_LEVEL_PRIMARY, 1};
+    VkCommandBuffer commands;
+    HEARTH_TRY_VK(vk_->vkAllocateCommandBuffers(device_, &allocate, &commands), "allocate a command buffer");
+    const VkCommandBufferBeginInfo begin{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO, nullptr,
+                                         VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT, nullptr};
+    HEARTH_TRY_VK(vk_->vkBeginCommandBuffer(commands, &begin), "begin a command buffer");
+    HEARTH_TRY(record(commands));
+    HEARTH_TRY_VK(vk_->vkEndCommandBuffer(commands), "end a command buffer");
+
+    const VkFenceCreateInfo fence_info{VK_STRUCTURE_TYPE_FENCE_CREATE_INFO, nullptr, 0};
+    VkFence fence;
+    HEARTH_TRY_VK(vk_->vkCreateFence(device_, &fence_info, nullptr, &fence), "create a fence");
+    VkSubmitInfo submit{};
+    submit.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO;
+    submit.commandBufferCount = 1;
+    submit.pCommandBuffers = &commands;
+    VkResult result = vk_->vkQueueSubmit(queue_, 1, &submit, fence);
+    if (result == VK_SUCCESS)
+        result = vk_->vkWaitForFences(device_, 1, &fence, VK_TRUE, UINT64_MAX);
+    vk_->vkDestroyFence(device_, fence, nullptr);
+    vk_->vkFreeCommandBuffers(device_, command_pool_, 1, &commands);
+    HEARTH_TRY_VK(result, "run a command buffer");
+    return success();
+}
+
+namespace
+{
+
+void makeVisibleToHost(const HostTable& vk, VkCommandBuffer commands)
+{
+    const VkMemoryBarrier memory{VK_STRUCTURE_TYPE_MEMORY_BARRIER, nullptr, VK_ACCESS_TRANSFER_WRITE_BIT,
+                                 VK_ACCESS_HOST_READ_BIT};
+    vk.vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_PIPELINE_STAGE_HOST_BIT, 0, 1,
+                            &memory, 0, nullptr, 0, nullptr);
+}
+
+} // namespace
+
+Result<std::vector<std::byte>> VulkanHost::read(const gpu::Device& device, const gpu::Buffer& buffer)
+{
+    gpu::MemoryArena arena(device);
+    HEARTH_ASSIGN_OR_RETURN(
+        const gpu::Buffer copy,
+        arena.createBuffer(buffer.size, VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::MemoryKind::readback));
+    HEARTH_TRY(run(
+        [&](VkCommandBuffer commands)
+        {
+            const VkBufferCopy region{0, 0, buffer.size};
+            vk_->vkCmdCopyBuffer(commands, buffer.handle.get(), copy.handle.get(), 1, &region);
+            makeVisibleToHost(*vk_, commands);
+            return success();
+        }));
+    return std::vector<std::byte>(copy.mapped, copy.mapped + buffer.size);
+}
+
+Result<std::vector<std::byte>> VulkanHost::read(const gpu::Device& device, const gpu::Image& image,
+                                                uint32_t texel_bytes)
+{
+    const size_t size = size_t{image.extent.width} * image.extent.height * texel_bytes;
+    gpu::MemoryArena arena(device);
+    HEARTH_ASSIGN_OR_RETURN(const gpu::Buffer copy, arena.createBuffer(size, VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+                                                                       gpu::MemoryKind::readback));
+    HEARTH_TRY(run(
+        [&](VkCommandBuffer commands)
+        {
+            VkBufferImageCopy region{};
+            region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
+            region.imageExtent = {image.extent.width, image.extent.height, 1};
+            vk_->vkCmdCopyImageToBuffer(commands, image.handle.get(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
+                                        copy.handle.get(), 1, &region);
+            makeVisibleToHost(*vk_, commands);
+            return success();
+        }));
+    return std::vector<std::byte>(copy.mapped, copy.mapped + size);
+}
+
+Result<VkQueryPool> VulkanHost::createTimestamps(uint32_t count)
+{
+    VkQueryPoolCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO;
+    info.queryType = VK_QUERY_TYPE_TIMESTAMP;
+    info.queryCount = count;
+    VkQueryPool pool;
+    HEARTH_TRY_VK(vk_->vkCreateQueryPool(device_, &info, nullptr, &pool), "create a query pool");
+    query_pools_.push_back(pool);
+    return pool;
+}
+
+Result<std::vector<double>> VulkanHost::readTimestamps(VkQueryPool pool, uint32_t count)
+{
+    std::vector<uint64_t> ticks(count);
+    HEARTH_TRY_VK(vk_->vkGetQueryPoolResults(device_, pool, 0, count, ticks.size() * sizeof(uint64_t),
+                                             ticks.data(), sizeof(uint64_t),
+                                             VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT),
+                  "read timestamps");
+    std::vector<double> milliseconds;
+    for (const uint64_t tick : ticks)
+        milliseconds.push_back(static_cast<double>(tick - ticks[0]) * timestamp_period_ns_ * 1e-6);
+    return milliseconds;
+}
+
+} // namespace hearth::viewer

@@ -1,0 +1,282 @@
+// hearth cook from the outside: what appears, what is left behind, and how it ends.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "pipelines/command/verify.h"
+#include "tests/command/sandbox.h"
+#include "tests/command/small_parts.h"
+
+#include <chrono>
+#include <csignal>
+#include <filesystem>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+namespace hearth::test
+{
+
+namespace
+{
+
+// The name of the source says what the script does: it stands for hearth-import.
+constexpr const char* kImport = R"(#!/bin/sh
+case "$1" in
+  *malformed*) echo "$1|/meshes/0: error: is bad [E1101] hint: mend it" >&2; exit 65 ;;
+  *missing*) echo "$1: error: cannot open [E1001] hint: look" >&2; exit 66 ;;
+  *silent*) exit 65 ;;
+  *strange*) echo "terminate called" >&2; exit 1 ;;
+  *crash*) echo "contract broken" >&2; kill -SEGV $$ ;;
+  *killed*) kill -KILL $$ ;;
+  *slow*) exec sleep 60 ;;
+  *warning*) echo "$1|/extras: warning: left out [W1400]" >&2; echo "noise of a library" >&2 ;;
+esac
+cp "PARTS.import.part" "$3"
+)";
+
+constexpr const char* kTextures = R"(#!/bin/sh
+if [ -e ./textures-fail ]; then echo "$1|chunk IMGD 0: error: is bad [E2009] hint: again" >&2; exit 65; fi
+cp "PARTS.textures.part" "$3"
+)";
+
+constexpr const char* kClusters = R"(#!/bin/sh
+if [ -e ./clusters-lie ]; then exit 0; fi
+cp "PARTS.clusters.part" "$3"
+)";
+
+std::string withParts(std::string script, const std::string& parts)
+{
+    return script.replace(script.find("PARTS"), 5, parts);
+}
+
+/// A folder to cook in; the programs lie elsewhere, so that the folder shows what cooking leaves behind.
+class Cook : public ::testing::Test
+{
+protected:
+    Cook()
+    {
+        PackModel model = smallPack();
+        model.meta = importMeta("small.gltf");
+        writeParts(model, programs.path(), "small");
+        const std::string parts = programs / "small";
+        programs.write("hearth-import", withParts(kImport, parts), true);
+        programs.write("hearth-textures", withParts(kTextures, parts), true);
+        programs.write("hearth-clusters", withParts(kClusters, parts), true);
+        std::filesystem::copy(HEARTH_BIN "/hearth", programs / "hearth");
+        std::filesystem::copy(HEARTH_BIN "/hearth-link", programs / "hearth-link");
+    }
+
+    ProgramEnd cook(std::vector<std::string> arguments,
+                    const std::vector<std::string>& environment = {"TMPDIR="})
+    {
+        return folder.run(command(std::move(arguments)), environment);
+    }
+
+    std::vector<std::string> command(std::vector<std::string> arguments) const
+    {
+        arguments.insert(arguments.begin(), {programs / "hearth", "cook"});
+        return arguments;
+    }
+
+    /// The cook failed with one error line, and neither made nor left anything.
+    void expectFailure(const ProgramEnd& end, int exit_code, const std::string& part_of_message)
+    {
+        EXPECT_EQ(end.exit_code, exit_code) << end.err;
+        EXPECT_EQ(countOf(end.err, ": error: "), 1u) << end.err;
+        EXPECT_EQ(end.out, "");
+        EXPECT_NE(end.err.find(part_of_message), std::string::npos) << end.err;
+        EXPECT_EQ(folder.list(), std::vector<std::string>{}) << end.err;
+    }
+
+    Sandbox programs;
+    Sandbox folder;
+};
+
+} // namespace
+
+TEST_F(Cook, makesAPackAndLeavesNothingElse)
+{
+    const ProgramEnd end = cook({"a.gltf", "-o", "a.hearth"});
+    EXPECT_EQ(end.exit_code, 0) << end.err;
+    EXPECT_EQ(end.out, "");
+    EXPECT_EQ(folder.list(), std::vector<std::string>{"a.hearth"});
+    EXPECT_TRUE(command::verifyFile(folder / "a.hearth").ok());
+    for (const char* stage : {"import", "textures", "clusters", "link", "cooked"})
+        EXPECT_EQ(countOf(end.err, std::string(stage) + " "), 1u) << end.err;
+    EXPECT_EQ(end.err.find('\033'), std::string::npos) << "colour without a terminal";
+}
+
+TEST_F(Cook, quietSaysNothing)
+{
+    EXPECT_EQ(cook({"-q", "warning.gltf", "-o", "a.hearth"}).err, "");
+}
+
+TEST_F(Cook, colourIsThereOnDemandOnly)
+{
+    const auto colored = [&](const std::vector<std::string>& environment) {
+        return cook({"a.gltf", "-o", "a.hearth"}, environment).err.find('\033') != std::string::npos;
+    };
+    EXPECT_TRUE(colored({"CLICOLOR_FORCE=1", "NO_COLOR="}));
+    EXPECT_FALSE(colored({"CLICOLOR_FORCE=1", "NO_COLOR=1"}));
+}
+
+TEST_F(Cook, severalSourcesMakeOnePack)
+{
+    const ProgramEnd end = cook({"a.gltf", "b.gltf", "c.gltf", "-o", "all.hearth", "--jobs", "3"});
+    ASSERT_EQ(end.exit_code, 0) << end.err;
+    const auto result = command::verifyFile(folder / "all.hearth");
+    ASSERT_TRUE(result.ok());
+    EXPECT_NE(result->find("9 meshes"), std::string::npos) << *result;
+}
+
+TEST_F(Cook, sameBytesForAnyNumberOfJobs)
+{
+    for (const char* jobs : {"1", "2", "7"})
+        ASSERT_EQ(cook({"a.gltf", "b.gltf", "-o", std::string(jobs) + ".hearth", "-j", jobs}).exit_code, 0);
+    EXPECT_EQ(folder.read("1.hearth"), folder.read("2.hearth"));
+    EXPECT_EQ(folder.read("1.hearth"), folder.read("7.hearth"));
+}
+
+TEST_F(Cook, passesWarningsOnButNotNoise)
+{
+    const ProgramEnd end = cook({"warning.gltf", "-o", "a.hearth"});
+    EXPECT_EQ(end.exit_code, 0);
+    EXPECT_EQ(countOf(end.err, "warning.gltf|/extras: warning: left out [W1400]"), 1u) << end.err;
+    EXPECT_EQ(countOf(end.err, "noise"), 0u);
+    EXPECT_EQ(countOf(cook({"-v", "warning.gltf", "-o", "a.hearth"}).err, "noise"), 1u);
+}
+
+TEST_F(Cook, clearErrorsKeepTheirCode)
+{
+    expectFailure(cook({"malformed.gltf", "-o", "a.hearth"}), 65,
+                  "malformed.gltf|/meshes/0: error: is bad [E1101]");
+    expectFailure(cook({"missing.gltf", "-o", "a.hearth"}), 66, "missing.gltf: error: cannot open [E1001]");
+    expectFailure(cook({"-q", "good.gltf", "malformed.gltf", "-o", "a.hearth"}), 65, "malformed.gltf|");
+}
+
+TEST_F(Cook, anythingElseIsADefectThatNamesTheSource)
+{
+    expectFailure(cook({"crash.gltf", "-o", "a.hearth"}), 70, "crash.gltf: error: hearth-import");
+    expectFailure(cook({"crash.gltf", "-o", "a.hearth"}), 70, "contract broken [E7001]");
+    expectFailure(cook({"killed.gltf", "-o", "a.hearth"}), 70, "killed.gltf: error: hearth-import");
+    expectFailure(cook({"silent.gltf", "-o", "a.hearth"}), 70, "silent.gltf: error: hearth-import");
+    expectFailure(cook({"strange.gltf", "-o", "a.hearth"}), 70, "ended with code 1");
+}
+
+TEST_F(Cook, aMissingCookerIsADefect)
+{
+    std::filesystem::remove(programs / "hearth-import");
+    expectFailure(cook({"a.gltf", "-o", "a.hearth"}), 70, "cannot be started");
+}
+
+TEST_F(Cook, laterStagesNameTheSourceNotThePart)
+{
+    folder.write("textures-fail", "");
+    const ProgramEnd end = cook({"some/a.gltf", "-o", "a.hearth"});
+    EXPECT_EQ(end.exit_code, 65);
+    EXPECT_NE(end.err.find("some/a.gltf|chunk IMGD 0: error: is bad"), std::string::npos) << end.err;
+    EXPECT_EQ(end.err.find(".part"), std::string::npos) << end.err;
+    EXPECT_EQ(folder.list(), std::vector<std::string>{"textures-fail"});
+}
+
+TEST_F(Cook, aCookerThatMakesNothingIsCaught)
+{
+    folder.write("clusters-lie", "");
+    const ProgramEnd end = cook({"a.gltf", "-o", "a.hearth"});
+    EXPECT_NE(end.exit_code, 0);
+    EXPECT_EQ(countOf(end.err, ": error: "), 1u) << end.err;
+    EXPECT_FALSE(folder.has("a.hearth"));
+}
+
+TEST_F(Cook, anOldOutputStaysAsItWasUntilTheNewOneIsWhole)
+{
+    folder.write("a.hearth", "old");
+    EXPECT_EQ(cook({"malformed.gltf", "-o", "a.hearth"}).exit_code, 65);
+    EXPECT_EQ(folder.read("a.hearth"), "old");
+    EXPECT_EQ(cook({"good.gltf", "-o", "a.hearth"}).exit_code, 0);
+    EXPECT_TRUE(command::verifyFile(folder / "a.hearth").ok());
+}
+
+TEST_F(Cook, saysWhereItCannotWrite)
+{
+    expectFailure(cook({"a.gltf", "-o", "nowhere/a.hearth"}), 73, "nowhere/a.hearth: error: ");
+    expectFailure(cook({"a.gltf", "-o", "."}), 73, ".: error: is a folder");
+    expectFailure(cook({"a.gltf", "-o", "a.hearth"}, {"TMPDIR=/nowhere"}), 73, "/nowhere");
+}
+
+TEST_F(Cook, neverOverwritesItsSource)
+{
+    folder.write("a.gltf", "precious");
+    const ProgramEnd end = cook({"a.gltf", "-o", "./a.gltf"});
+    EXPECT_EQ(end.exit_code, 2);
+    EXPECT_EQ(folder.read("a.gltf"), "precious");
+}
+
+TEST_F(Cook, keepsPartsWhereTheUserWantsTemporaries)
+{
+    const Sandbox temporaries;
+    const ProgramEnd end = cook({"-v", "a.gltf", "-o", "a.hearth"}, {"TMPDIR=" + temporaries.path()});
+    EXPECT_EQ(end.exit_code, 0);
+    EXPECT_NE(end.err.find("-o " + temporaries.path() + "/.hearth-"), std::string::npos) << end.err;
+    EXPECT_EQ(temporaries.list(), std::vector<std::string>{});
+}
+
+TEST_F(Cook, cleansUpWhenInterrupted)
+{
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP})
+    {
+        const pid_t process = folder.start(command({"slow.gltf", "-o", "a.hearth"}), {"TMPDIR="});
+        // the folder shows that the cook has begun; a second more, and the import sleeps
+        for (int i = 0; i < 500 && folder.list().empty(); ++i)
+            std::this_thread::sleep_for(std::chrono::milliseconds(10));
+        ASSERT_FALSE(folder.list().empty());
+        std::this_thread::sleep_for(std::chrono::milliseconds(100));
+        const auto start = std::chrono::steady_clock::now();
+        ::kill(process, signal);
+        const ProgramEnd end = folder.finish(process);
+        EXPECT_EQ(end.exit_code, 130);
+        EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(10));
+        EXPECT_EQ(folder.list(), std::vector<std::string>{});
+    }
+}
+
+TEST_F(Cook, oneFailureEndsTheOthers)
+{
+    const auto start = std::chrono::steady_clock::now();
+    expectFailure(cook({"slow.gltf", "malformed.gltf", "-o", "a.hearth"}), 65, "malformed.gltf|");
+    EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(30));
+}
+
+TEST_F(Cook, reportsWhatItDid)
+{
+    const ProgramEnd end = cook({"warning.gltf", "-o", "a.hearth", "--report", "report.json"});
+    ASSERT_EQ(end.exit_code, 0) << end.err;
+    const auto report = nlohmann::json::parse(folder.read("report.json"));
+    EXPECT_EQ(report["schema"], "hearth.report/1");
+    EXPECT_EQ(report["status"], "ok");
+    EXPECT_EQ(report["totals"]["bytes_out"], folder.read("a.hearth").size());
+    EXPECT_EQ(report["totals"]["bytes_in"], 100);
+    EXPECT_EQ(report["assets"][0]["source"], "warning.gltf");
+    EXPECT_EQ(report["assets"][0]["stages"].size(), 3u);
+    EXPECT_EQ(report["link"]["stage"], "link");
+    EXPECT_EQ(report["dropped"][0], "extras");
+}
+
+TEST_F(Cook, reportsFailuresToo)
+{
+    EXPECT_EQ(cook({"good.gltf", "malformed.gltf", "-o", "a.hearth", "--report", "report.json"}).exit_code,
+              65);
+    const auto report = nlohmann::json::parse(folder.read("report.json"));
+    EXPECT_EQ(report["status"], "failed");
+    EXPECT_EQ(report["exit"], 65);
+    EXPECT_EQ(report["assets"][0]["state"], "not cooked");
+    EXPECT_EQ(report["assets"][1]["state"], "failed");
+    EXPECT_NE(report["error"].get<std::string>().find("E1101"), std::string::npos);
+}
+
+TEST_F(Cook, aReportThatCannotBeWrittenIsAnError)
+{
+    const ProgramEnd end = cook({"a.gltf", "-o", "a.hearth", "--report", "nowhere/report.json"});
+    EXPECT_EQ(end.exit_code, 73);
+    EXPECT_NE(end.err.find("nowhere/report.json: error: "), std::string::npos);
+}
+
+} // namespace hearth::test

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "pipelines/command/extract.h"
+
+#include "pipelines/command/open_pack.h"
+#include "tests/command/sandbox.h"
+#include "tests/command/small_parts.h"
+
+#include <cmath>
+#include <cstring>
+#include <gtest/gtest.h>
+#include <sstream>
+
+namespace hearth::test
+{
+
+using namespace formats;
+
+namespace
+{
+
+/// What a PLY reader makes of the file that extract writes.
+struct Ply
+{
+    std::vector<std::string> properties;
+    std::vector<std::vector<float>> vertices;
+    std::vector<std::array<uint32_t, 3>> triangles;
+};
+
+Ply readPly(const std::string& bytes)
+{
+    const std::string end = "end_header\n";
+    const size_t data = bytes.find(end) + end.size();
+    std::istringstream header(bytes.substr(0, data));
+    Ply ply;
+    size_t vertices = 0;
+    size_t triangles = 0;
+    std::string word, type, name;
+    header >> word;
+    EXPECT_EQ(word, "ply");
+    header >> word >> type >> name;
+    EXPECT_EQ(type, "binary_little_endian");
+    while (header >> word && word != "end_header")
+    {
+        if (word == "element" && header >> name)
+            header >> (name == "vertex" ? vertices : triangles);
+        else if (word == "property" && header >> type && type == "float" && header >> name)
+            ply.properties.push_back(name);
+    }
+    const char* at = bytes.data() + data;
+    for (size_t i = 0; i < vertices; ++i)
+    {
+        std::vector<float> values(ply.properties.size());
+        std::memcpy(values.data(), at, values.size() * 4);
+        at += values.size() * 4;
+        ply.vertices.push_back(values);
+    }
+    for (size_t i = 0; i < triangles; ++i)
+    {
+        EXPECT_EQ(*at, 3);
+        std::array<uint32_t, 3> corners;
+        std::memcpy(corners.data(), at + 1, 12);
+        at += 13;
+        ply.triangles.push_back(corners);
+    }
+    EXPECT_EQ(at, bytes.data() + bytes.size());
+    return ply;
+}
+
+/// Area of the triangles as seen from above.
+float areaFromAbove(const Ply& ply)
+{
+    float area = 0;
+    for (const auto& [a, b, c] : ply.triangles)
+    {
+        const auto& p = ply.vertices[a];
+        const auto& q = ply.vertices[b];
+        const auto& r = ply.vertices[c];
+        area += std::abs((q[0] - p[0]) * (r[2] - p[2]) - (q[2] - p[2]) * (r[0] - p[0])) / 2;
+    }
+    return area;
+}
+
+class ExtractCut : public ::testing::Test
+{
+protected:
+    ExtractCut() { writePackFile(smallPack(), pack); }
+
+    Ply cut(uint32_t mesh, float error)
+    {
+        const Status status = command::extractCut(pack, mesh, error, sandbox / "cut.ply");
+        if (!status.ok())
+            ADD_FAILURE() << formatMessage(status.error());
+        return readPly(sandbox.read("cut.ply"));
+    }
+
+    Sandbox sandbox;
+    std::string pack = sandbox / "small.hearth";
+};
+
+} // namespace
+
+TEST_F(ExtractCut, coversTheSurfaceOnceAtEveryError)
+{
+    for (const float error : {0.0f, 0.05f, 0.0999f, 0.1f, 0.2f, 1e30f})
+        EXPECT_FLOAT_EQ(areaFromAbove(cut(0, error)), 4) << error; // the strip is 4 m by 1 m
+}
+
+TEST_F(ExtractCut, takesTheCoarserClustersFromTheirErrorOn)
+{
+    EXPECT_EQ(cut(0, 0).triangles.size(), 8u);
+    EXPECT_EQ(cut(0, std::nextafter(0.1f, 0.0f)).triangles.size(), 8u);
+    EXPECT_EQ(cut(0, 0.1f).triangles.size(), 4u);
+}
+
+TEST_F(ExtractCut, writesTheAttributesThatTheMeshHas)
+{
+    const Ply strip = cut(0, 0);
+    EXPECT_EQ(strip.properties, (std::vector<std::string>{"x", "y", "z", "nx", "ny", "nz", "s", "t"}));
+    ASSERT_EQ(strip.vertices.size(), 16u); // four corners of four quads, shared inside each
+    EXPECT_EQ(strip.vertices[1], (std::vector<float>{0, 0, 1, 0, 1, 0, 0, 1}));
+
+    const Ply triangle = cut(2, 0);
+    EXPECT_EQ(triangle.properties, (std::vector<std::string>{"x", "y", "z"}));
+    EXPECT_EQ(triangle.triangles, (std::vector<std::array<uint32_t, 3>>{{0, 1, 2}}));
+}
+
+TEST_F(ExtractCut, aMeshWithoutTrianglesIsAnEmptyFile)
+{
+    const Ply empty = cut(1, 0);
+    EXPECT_TRUE(empty.vertices.empty());
+    EXPECT_TRUE(empty.triangles.empty());
+}
+
+TEST_F(ExtractCut, saysWhichMeshesThereAre)
+{
+    const Status status = command::extractCut(pack, 3, 0, sandbox / "cut.ply");
+    ASSERT_FALSE(status.ok());
+    EXPECT_EQ(status.error().issue, Issue::usage);
+    EXPECT_FALSE(sandbox.has("cut.ply"));
+}
+
+TEST_F(ExtractCut, refusesParts)
+{
+    writeParts(smallPack(), sandbox.path(), "a");
+    EXPECT_EQ(command::extractCut(sandbox / "a.clusters.part", 0, 0, sandbox / "cut.ply").error().issue,
+              Issue::container_kind);
+}
+
+TEST_F(ExtractCut, refusesPacksThatMeanNothing)
+{
+    PackModel broken = smallPack();
+    broken.clusters[0].refined_group = 99;
+    writePackFile(broken, pack);
+    EXPECT_EQ(command::extractCut(pack, 0, 0, sandbox / "cut.ply").error().issue, Issue::meaning_reference);
+}
+
+TEST_F(ExtractCut, saysWhereItCannotWrite)
+{
+    const Status status = command::extractCut(pack, 0, 0, sandbox / "nowhere/cut.ply");
+    ASSERT_FALSE(status.ok());
+    EXPECT_EQ(status.error().issue, Issue::cannot_write);
+    EXPECT_EQ(sandbox.list(), std::vector<std::string>{"small.hearth"});
+}
+
+} // namespace hearth::test

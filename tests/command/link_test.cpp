@@ -1,0 +1,274 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "pipelines/link/link.h"
+
+#include "formats/pack_check.h"
+#include "tests/command/sandbox.h"
+#include "tests/command/small_parts.h"
+
+#include <cstring>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace hearth::test
+{
+
+using namespace formats;
+
+namespace
+{
+
+/// A folder with parts of the small pack, once or several times.
+class LinkPack : public ::testing::Test
+{
+protected:
+    void addParts(const PackModel& pack, const std::string& prefix)
+    {
+        writeParts(pack, sandbox.path(), prefix);
+        const std::string path = sandbox / prefix;
+        sources.push_back({path + ".import.part", path + ".clusters.part", path + ".textures.part"});
+    }
+
+    static PackModel named(const std::string& name)
+    {
+        PackModel pack = smallPack();
+        pack.meta = importMeta(name);
+        return pack;
+    }
+
+    Status link() { return link::linkPack(sources, sandbox / "out.hearth"); }
+
+    PackView linked()
+    {
+        const Status status = link();
+        if (!status.ok())
+            ADD_FAILURE() << formatMessage(status.error());
+        return PackView::read(ContainerReader::open(sandbox / "out.hearth").value()).value();
+    }
+
+    Sandbox sandbox;
+    std::vector<link::SourceParts> sources;
+};
+
+template <typename T>
+bool sameBytes(std::span<const T> a, const std::vector<T>& b)
+{
+    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size_bytes()) == 0;
+}
+
+} // namespace
+
+TEST_F(LinkPack, oneSourceKeepsEveryRecord)
+{
+    const PackModel model = named("a.gltf");
+    addParts(model, "a");
+    const PackView pack = linked();
+    EXPECT_EQ(pack.container().kind(), ContainerKind::pack);
+    EXPECT_TRUE(sameBytes(pack.nodes(), model.nodes));
+    EXPECT_TRUE(sameBytes(pack.instances(), model.instances));
+    EXPECT_TRUE(sameBytes(pack.cameras(), model.cameras));
+    EXPECT_TRUE(sameBytes(pack.lights(), model.lights));
+    EXPECT_TRUE(sameBytes(pack.materials(), model.materials));
+    EXPECT_TRUE(sameBytes(pack.images(), model.images));
+    EXPECT_TRUE(sameBytes(pack.skins(), model.skins));
+    EXPECT_TRUE(sameBytes(pack.joints(), model.joints));
+    EXPECT_TRUE(sameBytes(pack.animations(), model.animations));
+    EXPECT_TRUE(sameBytes(pack.channels(), model.channels));
+    EXPECT_TRUE(sameBytes(pack.keys(), model.keys));
+    EXPECT_TRUE(sameBytes(pack.morphWeights(), model.morph_weights));
+    EXPECT_TRUE(sameBytes(pack.levels(), model.levels));
+    EXPECT_TRUE(sameBytes(pack.groups(), model.groups));
+    EXPECT_TRUE(sameBytes(pack.clusters(), model.clusters));
+    EXPECT_TRUE(sameBytes(pack.pages(), model.pages));
+    EXPECT_TRUE(sameBytes(pack.pageParents(), model.page_parents));
+    ASSERT_EQ(pack.meshes().size(), model.meshes.size());
+    EXPECT_EQ(pack.text(pack.meshes()[0].name), "strip");
+    EXPECT_EQ(pack.text(pack.meshes()[2].name), "triangle");
+    for (uint32_t i = 0; i < model.pages.size(); ++i)
+        EXPECT_EQ(pack.decodePage(i).value(), model.decoded_pages[i]);
+    for (uint32_t i = 0; i < model.images.size(); ++i)
+        EXPECT_TRUE(sameBytes(pack.imageData(i).value().bytes(), model.image_data[i]));
+    EXPECT_TRUE(
+        sameBytes(pack.container().read(kChunkDeformation, 2).value().bytes(), model.deformations[2]));
+}
+
+TEST_F(LinkPack, leavesOutWhatOnlyCookersNeed)
+{
+    addParts(smallPack(), "a");
+    EXPECT_EQ(linked().container().find(kChunkSourceMesh), nullptr);
+}
+
+TEST_F(LinkPack, secondSourceStandsBehindTheFirst)
+{
+    const PackModel model = named("a.gltf");
+    addParts(model, "a");
+    addParts(named("b.gltf"), "b");
+    const PackView pack =
+        linked(); // checked: every index of both is inside its table, every page where it should be
+
+    const uint32_t nodes = static_cast<uint32_t>(model.nodes.size());
+    const uint32_t meshes = static_cast<uint32_t>(model.meshes.size());
+    const uint32_t clusters = static_cast<uint32_t>(model.clusters.size());
+    ASSERT_EQ(pack.nodes().size(), 2 * nodes);
+    ASSERT_EQ(pack.meshes().size(), 2 * meshes);
+    ASSERT_EQ(pack.clusters().size(), 2 * clusters);
+    EXPECT_EQ(pack.nodes()[nodes + 1].parent, nodes + model.nodes[1].parent);
+    EXPECT_EQ(pack.nodes()[nodes].parent, kNone);
+    EXPECT_EQ(pack.nodes()[nodes + 3].mesh, meshes + 2);
+    EXPECT_EQ(pack.nodes()[nodes + 3].skin, 1u);
+    EXPECT_EQ(pack.nodes()[nodes + 3].morph_weights.first, 1u);
+    EXPECT_EQ(pack.instances()[2].mesh, meshes);
+    EXPECT_EQ(pack.instances()[2].node, nodes + 1);
+    EXPECT_EQ(pack.materials()[1].base_color_texture.image, 2u);
+    EXPECT_EQ(pack.materials()[1].normal_texture.image, kNone);
+    EXPECT_EQ(pack.materials()[1].emissive_texture.image, 3u);
+    EXPECT_EQ(pack.cameras()[2].node, nodes);
+    EXPECT_EQ(pack.lights()[3].node, nodes);
+    EXPECT_EQ(pack.skins()[1].joints.first, 2u);
+    EXPECT_EQ(pack.skins()[1].skeleton_root, kNone);
+    EXPECT_EQ(pack.joints()[3].node, nodes + 2);
+    EXPECT_EQ(pack.animations()[2].channels.first, 3u);
+    EXPECT_EQ(pack.channels()[3].node, nodes + 1);
+    EXPECT_EQ(pack.channels()[3].first_time, model.keys.size());
+    EXPECT_EQ(pack.channels()[3].first_value, model.keys.size() + 3);
+    EXPECT_EQ(pack.clusters()[clusters].material, 1u);
+    EXPECT_EQ(pack.clusters()[clusters].mesh, meshes);
+    EXPECT_EQ(pack.clusters()[clusters].refined_group, model.groups.size() + 1);
+    EXPECT_EQ(pack.clusters()[2 * clusters - 1].refined_group, kNone);
+    EXPECT_EQ(pack.pageParents()[2], model.pages.size());
+
+    EXPECT_EQ(pack.text(pack.nodes()[nodes + 1].name), "strip node");
+    EXPECT_EQ(pack.text(pack.meshes()[meshes].name), "strip");
+    EXPECT_EQ(pack.text(pack.images()[2].name), "paint.png");
+    for (uint32_t i = 0; i < model.pages.size(); ++i)
+        EXPECT_EQ(pack.decodePage(static_cast<uint32_t>(model.pages.size()) + i).value(),
+                  model.decoded_pages[i]);
+    EXPECT_TRUE(sameBytes(pack.imageData(3).value().bytes(), model.image_data[1]));
+    EXPECT_TRUE(sameBytes(pack.container().read(kChunkDeformation, meshes + 2).value().bytes(),
+                          model.deformations[2]));
+}
+
+TEST_F(LinkPack, sameBytesWhereverItIsDone)
+{
+    addParts(named("a.gltf"), "a");
+    addParts(named("b.gltf"), "b");
+    ASSERT_TRUE(link().ok());
+    const std::string first = sandbox.read("out.hearth");
+
+    Sandbox other;
+    for (const char* prefix : {"x", "y"})
+        writeParts(named(prefix == std::string("x") ? "a.gltf" : "b.gltf"), other.path(), prefix);
+    const auto parts = [&](const std::string& prefix)
+    {
+        return link::SourceParts{other / (prefix + ".import.part"), other / (prefix + ".clusters.part"),
+                                 other / (prefix + ".textures.part")};
+    };
+    const link::SourceParts again[] = {parts("x"), parts("y")};
+    ASSERT_TRUE(link::linkPack(again, other / "elsewhere.hearth").ok());
+    EXPECT_EQ(other.read("elsewhere.hearth"), first);
+}
+
+TEST_F(LinkPack, metaTellsWhatWentIn)
+{
+    addParts(named("a.gltf"), "a");
+    addParts(named("b.gltf"), "b");
+    const auto meta = nlohmann::json::parse(linked().meta());
+    EXPECT_EQ(meta["schema"], "hearth.meta/1");
+    ASSERT_EQ(meta["sources"].size(), 2u);
+    EXPECT_EQ(meta["sources"][1]["name"], "b.gltf");
+    EXPECT_EQ(meta["counts"]["triangles"], 18);
+    EXPECT_EQ(meta["counts"]["joints"], 4);
+    ASSERT_EQ(meta["messages"].size(), 2u);
+    EXPECT_EQ(meta["messages"][1]["source"], "b.gltf");
+    EXPECT_EQ(meta["messages"][1]["code"], "W1400");
+    EXPECT_EQ(meta["messages_left_out"], 6);
+    EXPECT_EQ(meta["dropped"].size(), 2u);
+    // paths of the machine stay outside
+    EXPECT_EQ(meta.dump().find("/where"), std::string::npos);
+    EXPECT_EQ(meta.dump().find(sandbox.path()), std::string::npos);
+}
+
+TEST_F(LinkPack, refusesPartsOfDifferentSources)
+{
+    addParts(smallPack(), "a");
+    PackModel other = smallPack();
+    other.images.pop_back();
+    other.image_data.pop_back();
+    other.materials[0].emissive_texture.image = kNone;
+    addParts(other, "b");
+    sources = {{sources[0].import_part, sources[0].clusters_part, sources[1].textures_part}};
+    const Status status = link();
+    ASSERT_FALSE(status.ok());
+    EXPECT_EQ(status.error().issue, Issue::meaning_reference);
+    EXPECT_EQ(status.error().file, sandbox / "b.textures.part");
+    EXPECT_FALSE(sandbox.has("out.hearth"));
+}
+
+TEST_F(LinkPack, refusesAPackInPlaceOfAPart)
+{
+    addParts(smallPack(), "a");
+    writePackFile(smallPack(), sandbox / "pack");
+    sources[0].clusters_part = sandbox / "pack";
+    EXPECT_EQ(link().error().issue, Issue::container_kind);
+}
+
+TEST_F(LinkPack, refusesAMissingPart)
+{
+    addParts(smallPack(), "a");
+    sources[0].textures_part = sandbox / "nothing";
+    EXPECT_EQ(link().error().issue, Issue::input_missing);
+}
+
+TEST_F(LinkPack, refusesMetaThatIsNoObject)
+{
+    PackModel pack = smallPack();
+    pack.meta = "[1]";
+    addParts(pack, "a");
+    EXPECT_EQ(link().error().issue, Issue::meaning_value);
+}
+
+TEST_F(LinkPack, leavesAnOldOutputAloneWhenThePackMeansNothing)
+{
+    PackModel pack = smallPack();
+    pack.clusters[0].material = 7; // there is one material
+    addParts(pack, "a");
+    sandbox.write("out.hearth", "old");
+    const std::vector<std::string> before = sandbox.list();
+    const Status status = link();
+    ASSERT_FALSE(status.ok());
+    EXPECT_EQ(status.error().issue, Issue::meaning_reference);
+    EXPECT_EQ(status.error().file, sandbox / "out.hearth");
+    EXPECT_EQ(sandbox.read("out.hearth"), "old");
+    EXPECT_EQ(sandbox.list(), before);
+}
+
+TEST_F(LinkPack, refusesAnyDamagedByteOfItsParts)
+{
+    addParts(smallPack(), "a");
+    ASSERT_TRUE(link().ok());
+    const std::string whole = sandbox.read("out.hearth");
+    for (const char* part : {"a.import.part", "a.clusters.part", "a.textures.part"})
+    {
+        const std::string good = sandbox.read(part);
+        for (size_t at = 0; at < good.size(); at += 97)
+        {
+            std::string bad = good;
+            bad[at] = static_cast<char>(bad[at] ^ 0x10);
+            sandbox.write(part, bad);
+            // what only the cookers read, and the zeros between chunks, may be damaged: the pack does not change
+            const std::string made = link().ok() ? sandbox.read("out.hearth") : whole;
+            ASSERT_EQ(made, whole) << part << " byte " << at;
+        }
+        sandbox.write(part, good);
+    }
+}
+
+TEST_F(LinkPack, saysWhereItCannotWrite)
+{
+    addParts(smallPack(), "a");
+    const Status status = link::linkPack(sources, sandbox / "no/such/folder/out.hearth");
+    ASSERT_FALSE(status.ok());
+    EXPECT_EQ(status.error().issue, Issue::cannot_write);
+    EXPECT_EQ(status.error().file, sandbox / "no/such/folder/out.hearth");
+}
+
+} // namespace hearth::test

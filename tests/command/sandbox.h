@@ -1,0 +1,54 @@
+// A folder of its own for a test, and programs run in it.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include <string>
+#include <sys/types.h>
+#include <vector>
+
+namespace hearth::test
+{
+
+struct ProgramEnd
+{
+    int exit_code = -1; ///< -1 where a signal ended it
+    std::string out;
+    std::string err;
+};
+
+/// A temporary folder that goes with all that is in it.
+class Sandbox
+{
+public:
+    Sandbox();
+    ~Sandbox();
+    Sandbox(const Sandbox&) = delete;
+    Sandbox& operator=(const Sandbox&) = delete;
+
+    const std::string& path() const { return path_; }
+    std::string operator/(const std::string& name) const { return path_ + "/" + name; }
+
+    void write(const std::string& name, const std::string& content, bool executable = false) const;
+    std::string read(const std::string& name) const;
+    bool has(const std::string& name) const;
+    /// Names of everything in the folder and below, sorted.
+    std::vector<std::string> list() const;
+
+    /// Start a program in this folder; its output goes to files outside of it.
+    pid_t start(const std::vector<std::string>& command, const std::vector<std::string>& environment = {});
+    /// Wait for what start() started.
+    ProgramEnd finish(pid_t process) const;
+    ProgramEnd run(const std::vector<std::string>& command, const std::vector<std::string>& environment = {})
+    {
+        return finish(start(command, environment));
+    }
+
+private:
+    std::string path_;
+    std::string output_path_;
+};
+
+/// How often `part` occurs in `text`.
+size_t countOf(const std::string& text, const std::string& part);
+
+} // namespace hearth::test

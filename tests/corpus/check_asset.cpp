@@ -1,0 +1,358 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "tests/corpus/check_asset.h"
+
+#include "tests/corpus/open_log.h"
+#include "tests/corpus/read_text.h"
+
+#include <algorithm>
+#include <cstring>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+namespace hearth::corpus
+{
+
+namespace
+{
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+// Looking at a pack that is there takes no limit of the asset's; this one finds a hang.
+constexpr Limits kLookLimits{120, uint64_t{4} << 30};
+
+constexpr size_t kReportedLines = 3;
+constexpr size_t kMaxMessages = size_t{16} << 20;
+
+/// The folders and files of one check: the box is what the programs see, the rest stands beside it.
+struct Workplace
+{
+    std::string box;
+    std::string pack;
+    std::string picture;
+    std::string stdout_file;
+    std::string stderr_file;
+    std::string open_log;
+    std::string drawing_box;
+
+    explicit Workplace(const std::string& folder)
+        : box(folder + "/box"),
+          pack(box + "/asset.hearth"),
+          picture(folder + "/drawing/asset.png"),
+          stdout_file(folder + "/stdout"),
+          stderr_file(folder + "/stderr"),
+          open_log(folder + "/open.log"),
+          drawing_box(folder + "/drawing")
+    {
+        fs::create_directory(box);
+        fs::create_directory(drawing_box);
+    }
+
+    /// Whatever is in it goes: the folder is fit for the next check.
+    ~Workplace()
+    {
+        std::error_code ignored;
+        for (const std::string& path : {box, drawing_box, stdout_file, stderr_file, open_log})
+            fs::remove_all(path, ignored);
+    }
+    Workplace(const Workplace&) = delete;
+    Workplace& operator=(const Workplace&) = delete;
+};
+
+ProcessEnd run(const Workplace& place, std::vector<std::string> arguments, const Limits& limits,
+               const std::string& folder, std::vector<std::string> environment = {})
+{
+    environment.push_back("TMPDIR=" + folder);
+    return runProcess(
+        {std::move(arguments), std::move(environment), folder, place.stdout_file, place.stderr_file}, limits);
+}
+
+ProcessEnd cook(const Workplace& place, const Asset& asset, const Programs& programs)
+{
+    const std::string library =
+        fs::read_symlink("/proc/self/exe").parent_path().string() + "/" + kOpenLogLibrary;
+    return run(place, {programs.hearth, "cook", asset.path, "-o", place.pack}, asset.limits, place.box,
+               {"LD_PRELOAD=" + library, std::string(kOpenLogVariable) + "=" + place.open_log,
+                // a program under AddressSanitizer refuses to start after a preloaded library otherwise
+                "ASAN_OPTIONS=verify_asan_link_order=0"});
+}
+
+// ---- messages
+
+bool isError(const std::string& line)
+{
+    return line.find(": error:") != std::string::npos;
+}
+
+std::vector<std::string> errorLines(const std::string& messages)
+{
+    std::vector<std::string> lines = linesOf(messages);
+    std::erase_if(lines, [](const std::string& line) { return !isError(line); });
+    return lines;
+}
+
+/// The lines that tell most: errors before warnings before the rest.
+std::vector<std::string> tellingLines(const std::string& messages)
+{
+    std::vector<std::string> lines = linesOf(messages);
+    const auto rank = [](const std::string& line)
+    {
+        if (isError(line))
+            return 0;
+        return line.find(": warning:") != std::string::npos ? 1 : 2;
+    };
+    std::stable_sort(lines.begin(), lines.end(),
+                     [&](const std::string& a, const std::string& b) { return rank(a) < rank(b); });
+    lines.resize(std::min(lines.size(), kReportedLines));
+    return lines;
+}
+
+std::string mostTellingLine(const std::string& messages)
+{
+    const std::vector<std::string> lines = tellingLines(messages);
+    return lines.empty() ? "" : lines.front();
+}
+
+// ---- faults that no asset excuses
+
+std::string seconds(double value)
+{
+    char text[32];
+    std::snprintf(text, sizeof(text), "%.1f s", value);
+    return text;
+}
+
+std::string mebibytes(uint64_t bytes)
+{
+    return std::to_string(bytes >> 20) + " MiB";
+}
+
+void addEndFaults(std::vector<std::string>& faults, const ProcessEnd& end, const Limits& limits)
+{
+    if (!end.started)
+        faults.push_back("the program cannot be started");
+    if (end.over_time)
+        faults.push_back("runs longer than " + seconds(limits.seconds));
+    if (end.over_memory)
+        faults.push_back("needs more memory than " + mebibytes(limits.rss_bytes) + ": " +
+                         mebibytes(end.peak_rss_bytes));
+    if (end.over_time || end.over_memory)
+        return;
+    if (end.signal != 0)
+        faults.push_back("ended by signal " + std::to_string(end.signal) + " (" + ::strsignal(end.signal) +
+                         ")");
+    if (end.left_processes)
+        faults.push_back("leaves processes running");
+}
+
+void addStreamFaults(std::vector<std::string>& faults, const Workplace& place, const std::string& messages)
+{
+    if (fs::file_size(place.stdout_file) != 0)
+        faults.push_back("writes to stdout");
+    if (std::any_of(messages.begin(), messages.end(), isControlCharacter))
+        faults.push_back("control characters of the asset reach the terminal");
+    if (messages.size() >= kMaxMessages)
+        faults.push_back("floods stderr");
+}
+
+// ---- the two clean outcomes
+
+std::vector<std::string> filesIn(const std::string& folder)
+{
+    std::vector<std::string> files;
+    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder))
+        files.push_back(entry.path().lexically_relative(folder).string());
+    std::sort(files.begin(), files.end());
+    return files;
+}
+
+void addLeftovers(std::vector<std::string>& faults, const Workplace& place)
+{
+    for (const std::string& file : filesIn(place.box))
+        if (place.box + "/" + file != place.pack)
+            faults.push_back("leaves " + file + " behind");
+}
+
+void addRejectionFaults(std::vector<std::string>& faults, const Workplace& place, const Asset& asset,
+                        const std::string& messages)
+{
+    const std::vector<std::string> errors = errorLines(messages);
+    if (errors.size() != 1)
+        faults.push_back("says " + std::to_string(errors.size()) + " error lines, not one");
+    else if (errors[0].find(fs::path(asset.file).filename().string()) == std::string::npos)
+        faults.push_back("the error does not name the file");
+    if (fs::exists(place.pack))
+        faults.push_back("leaves an output");
+}
+
+void addProgramFault(std::vector<std::string>& faults, const char* what, const ProcessEnd& end,
+                     const Workplace& place)
+{
+    addEndFaults(faults, end, kLookLimits);
+    if (end.signal == 0 && end.exit_code != 0)
+        faults.push_back(std::string(what) + " exits with " + std::to_string(end.exit_code) + ": " +
+                         mostTellingLine(readText(place.stderr_file, kMaxMessages)));
+}
+
+/// 0 where the pack does not say.
+uint64_t number(const Json& object, const char* name)
+{
+    const auto found = object.find(name);
+    return found != object.end() && found->is_number_unsigned() ? found->get<uint64_t>() : 0;
+}
+
+void compareCounts(std::vector<std::string>& faults, const Asset& asset, const Json& inspected)
+{
+    const Json& source = inspected.at("totals").at("source");
+    const auto differs = [&](const std::string& name, uint64_t expected, uint64_t found)
+    {
+        faults.push_back("has " + std::to_string(found) + " " + name + ", the manifest says " +
+                         std::to_string(expected));
+    };
+    for (const char* name : {"triangles", "faces", "vertices", "materials", "joints", "animations"})
+    {
+        const auto expected = asset.counts.find(name);
+        if (expected == asset.counts.end())
+            continue;
+        // the manifest counts the polygons of a scan as its triangles
+        const bool faces_do =
+            std::string_view(name) == "triangles" && number(source, "faces") == expected->second;
+        // note: "faces" of a texture are those of a cube map, and no scan has them beside a width
+        if (!asset.counts.contains("vertices") && std::string_view(name) == "faces")
+            continue;
+        if (number(source, name) != expected->second && !faces_do)
+            differs(name, expected->second, number(source, name));
+    }
+    const Json& images = inspected.at("scene").at("images");
+    for (const char* name : {"width", "height"})
+        if (const auto expected = asset.counts.find(name); expected != asset.counts.end())
+            if (const uint64_t found = images.empty() ? 0 : number(images.at(0), name);
+                found != expected->second)
+                differs(name, expected->second, found);
+}
+
+void addCountFaults(std::vector<std::string>& faults, const Workplace& place, const Asset& asset,
+                    const Programs& programs)
+{
+    const ProcessEnd end =
+        run(place, {programs.hearth, "inspect", "--format", "json", place.pack}, kLookLimits, place.box);
+    const size_t before = faults.size();
+    addProgramFault(faults, "hearth inspect", end, place);
+    if (faults.size() != before)
+        return;
+    try
+    {
+        const Json inspected = Json::parse(readText(place.stdout_file, kMaxMessages));
+        if (inspected.at("schema") != "hearth.inspect/1")
+            faults.push_back("hearth inspect writes another schema");
+        else
+            compareCounts(faults, asset, inspected);
+    }
+    catch (const Json::exception& error)
+    {
+        faults.push_back(std::string("hearth inspect writes what cannot be read: ") + error.what());
+    }
+}
+
+void addDrawingFaults(std::vector<std::string>& faults, const Workplace& place, const Programs& programs)
+{
+    const ProcessEnd end = run(
+        place, {programs.render, place.pack, "-o", place.picture, "--size", "64x64", "--fit", "--validate"},
+        kLookLimits, place.drawing_box);
+    const size_t before = faults.size();
+    addProgramFault(faults, "hearth-render", end, place);
+    if (faults.size() == before && (!fs::exists(place.picture) || fs::file_size(place.picture) == 0))
+        faults.push_back("hearth-render writes no picture");
+}
+
+void addPackFaults(std::vector<std::string>& faults, const Workplace& place, const Asset& asset,
+                   const Programs& programs)
+{
+    if (!fs::is_regular_file(place.pack))
+    {
+        faults.push_back("exits with 0 and writes no pack");
+        return;
+    }
+    const ProcessEnd verify = run(place, {programs.hearth, "verify", place.pack}, kLookLimits, place.box);
+    addProgramFault(faults, "hearth verify", verify, place);
+    if (!asset.expected->mustLoad())
+        return;
+    addCountFaults(faults, place, asset, programs);
+    if (!programs.render.empty())
+        addDrawingFaults(faults, place, programs);
+}
+
+Outcome outcomeOf(int exit_code, const std::vector<std::string>& faults)
+{
+    if (!faults.empty())
+        return Outcome::broken;
+    return exit_code == 0 ? Outcome::loads : Outcome::rejects;
+}
+
+void addClassFault(Finding& finding, const AssetClass& expected)
+{
+    if (finding.outcome == Outcome::loads && !expected.may_load)
+        finding.faults.push_back("loads, and should be rejected");
+    if (finding.outcome == Outcome::rejects && !expected.may_reject)
+        finding.faults.push_back("is rejected, and should load");
+}
+
+} // namespace
+
+const char* outcomeName(Outcome outcome)
+{
+    switch (outcome)
+    {
+    case Outcome::loads:
+        return "loads";
+    case Outcome::rejects:
+        return "rejects";
+    case Outcome::broken:
+        return "broken";
+    }
+    return "";
+}
+
+Finding checkAsset(const Asset& asset, const Programs& programs, const std::string& work)
+{
+    const auto begin = std::chrono::steady_clock::now();
+    const Workplace place(work);
+    const ProcessEnd end = cook(place, asset, programs);
+    const std::string messages = readText(place.stderr_file, kMaxMessages);
+
+    Finding finding;
+    finding.exit_code = end.exit_code;
+    finding.messages = tellingLines(messages);
+    finding.cook_seconds = end.seconds;
+    finding.peak_rss_bytes = end.peak_rss_bytes;
+    addEndFaults(finding.faults, end, asset.limits);
+    const bool ended = finding.faults.empty();
+    if (end.started)
+        addStreamFaults(finding.faults, place, messages);
+    const auto trespassed =
+        trespasses(readOpenLog(place.open_log), asset.folder, place.box, programs.allowed);
+    finding.faults.insert(finding.faults.end(), trespassed.begin(), trespassed.end());
+    if (ended)
+    {
+        addLeftovers(finding.faults, place);
+        if (end.exit_code == 0)
+            addPackFaults(finding.faults, place, asset, programs);
+        else if (end.exit_code == 65 || end.exit_code == 66)
+            addRejectionFaults(finding.faults, place, asset, messages);
+        else
+            finding.faults.push_back("exits with " + std::to_string(end.exit_code));
+    }
+    finding.outcome = outcomeOf(end.exit_code, finding.faults);
+    addClassFault(finding, *asset.expected);
+    finding.total_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    return finding;
+}
+
+std::set<std::string> systemFilesOf(const Asset& asset, const Programs& programs, const std::string& work)
+{
+    const Workplace place(work);
+    cook(place, asset, programs);
+    return filesElsewhere(readOpenLog(place.open_log), asset.folder, place.box, programs.allowed.programs);
+}
+
+} // namespace hearth::corpus

@@ -1,0 +1,210 @@
+// hearth_corpus: cooks every file of the asset corpus and holds what comes of it against the manifest.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "tests/corpus/report.h"
+
+#include <CLI/CLI.hpp>
+
+#include <atomic>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <set>
+#include <sys/resource.h>
+#include <thread>
+
+namespace
+{
+
+using namespace hearth;
+using namespace hearth::corpus;
+namespace fs = std::filesystem;
+
+constexpr int kSkipped = 77; // CTest reads it as "skipped"
+
+// A defect that writes without end must not fill the disk. Four times the largest source's pack.
+constexpr rlim_t kMaxFileBytes = rlim_t{4} << 30;
+
+struct Arguments
+{
+    std::string programs;
+    unsigned jobs = 2;
+    std::string filter;
+    std::string class_name;
+    std::string category;
+    bool good = false;
+    bool bad = false;
+    bool list_medium = false;
+    bool no_render = false;
+};
+
+bool chosen(const Asset& asset, const Arguments& arguments)
+{
+    const bool is_good = asset.confidence == Confidence::good;
+    return asset.file.find(arguments.filter) != std::string::npos &&
+           (arguments.class_name.empty() || asset.expected->name == arguments.class_name) &&
+           (arguments.category.empty() || asset.category == arguments.category) &&
+           (arguments.good == arguments.bad || is_good == arguments.good);
+}
+
+/// A folder for the run that goes when this goes.
+class WorkFolder
+{
+public:
+    WorkFolder() : path_((fs::temp_directory_path() / "hearth-corpus-XXXXXX").string())
+    {
+        if (::mkdtemp(path_.data()) == nullptr)
+            path_.clear();
+    }
+    ~WorkFolder()
+    {
+        std::error_code ignored;
+        if (!path_.empty())
+            fs::remove_all(path_, ignored);
+    }
+    WorkFolder(const WorkFolder&) = delete;
+    WorkFolder& operator=(const WorkFolder&) = delete;
+
+    const std::string& path() const { return path_; }
+
+    std::string forWorker(unsigned worker) const
+    {
+        std::string folder = path_ + "/" + std::to_string(worker);
+        fs::create_directory(folder);
+        return folder;
+    }
+
+private:
+    std::string path_;
+};
+
+/// What the programs open on this system whatever the asset: learnt from one sound file of each kind, the smallest
+/// that refers to no other.
+std::set<std::string> learnSystemFiles(const std::vector<Asset>& assets, const Programs& programs,
+                                       const std::string& work)
+{
+    std::map<std::string, const Asset*> samples;
+    for (const Asset& asset : assets)
+    {
+        if (asset.confidence != Confidence::good || !asset.self_contained || !asset.expected->mustLoad())
+            continue;
+        const Asset*& sample = samples[fs::path(asset.file).extension().string()];
+        if (sample == nullptr || asset.bytes < sample->bytes)
+            sample = &asset;
+    }
+    std::set<std::string> files;
+    for (const auto& [kind, asset] : samples)
+        files.merge(systemFilesOf(*asset, programs, work));
+    return files;
+}
+
+std::vector<Checked> checkAll(const std::vector<const Asset*>& assets, const Programs& programs,
+                              const WorkFolder& work, unsigned jobs)
+{
+    std::vector<Checked> all(assets.size());
+    std::atomic<size_t> next = 0;
+    const auto worker = [&](unsigned number)
+    {
+        const std::string folder = work.forWorker(number);
+        for (size_t i = next++; i < assets.size(); i = next++)
+            all[i] = judge(*assets[i], checkAsset(*assets[i], programs, folder), kJudgements);
+    };
+    std::vector<std::jthread> threads;
+    for (unsigned i = 0; i < jobs; ++i)
+        threads.emplace_back(worker, i);
+    threads.clear();
+    return all;
+}
+
+int report(const std::vector<Checked>& all, const std::vector<std::string>& stray, const Arguments& arguments)
+{
+    printFailures(all);
+    for (const std::string& file : stray)
+        std::printf("FAILED %s\n    has a judgement, and is not in the manifest\n", file.c_str());
+    if (arguments.list_medium)
+        printMedium(all);
+    printSlowest(all);
+    printTable(all);
+    const auto failed = static_cast<size_t>(std::count_if(
+        all.begin(), all.end(), [](const Checked& checked) { return checked.verdict == Verdict::failed; }));
+    std::printf("%zu passed, %zu failed\n", all.size() - failed, failed + stray.size());
+    return failed + stray.size() == 0 ? 0 : 1;
+}
+
+int run(const Arguments& arguments)
+{
+    const char* folder = std::getenv("HEARTH_ASSETS");
+    if (folder == nullptr || *folder == '\0')
+    {
+        std::puts("skipped: HEARTH_ASSETS does not name the folder of the asset corpus");
+        return kSkipped;
+    }
+    const Result<std::vector<Asset>> assets = readManifest(folder);
+    if (!assets.ok())
+    {
+        std::fprintf(stderr, "%s\n", formatMessage(assets.error()).c_str());
+        return exitCode(assets.error());
+    }
+    const std::string bin = fs::canonical(arguments.programs).string();
+    Programs programs{bin + "/hearth", arguments.no_render ? "" : bin + "/hearth-render", {bin, {}}};
+    std::vector<const Asset*> assets_chosen;
+    for (const Asset& asset : *assets)
+        if (chosen(asset, arguments))
+            assets_chosen.push_back(&asset);
+    if (assets_chosen.empty())
+    {
+        std::fputs("hearth_corpus: no file is chosen\n", stderr);
+        return 2;
+    }
+
+    const WorkFolder work;
+    programs.allowed.system = learnSystemFiles(*assets, programs, work.forWorker(0));
+    const std::vector<Checked> all = checkAll(assets_chosen, programs, work, arguments.jobs);
+    return report(all, strayJudgements(*assets, kJudgements), arguments);
+}
+
+} // namespace
+
+int main(int argc, char** argv)
+try
+{
+    CLI::App app("Cooks the files of $HEARTH_ASSETS/manifest.json and checks each against its class.");
+    Arguments arguments;
+    app.add_option("--bin", arguments.programs, "folder of the programs to test")
+        ->required()
+        ->check(CLI::ExistingDirectory);
+    app.add_option("-j,--jobs", arguments.jobs, "files at once")
+        ->check(CLI::Range(1, 256))
+        ->capture_default_str();
+    app.add_option("--filter", arguments.filter, "only files whose path contains this");
+    app.add_option("--class", arguments.class_name, "only files of this class");
+    app.add_option("--category", arguments.category, "only files of this category");
+    app.add_flag("--good", arguments.good, "only good files");
+    app.add_flag("--bad", arguments.bad, "only bad files");
+    app.add_flag("--list-medium", arguments.list_medium,
+                 "print the files of medium confidence that come out otherwise than their class");
+    app.add_flag("--no-render", arguments.no_render, "do not draw the packs");
+    app.footer(
+        "Example: HEARTH_ASSETS=../shared/assets hearth_corpus --bin build/release/bin --category gen-uri\n"
+        "Exit codes: 0 every file meets its class, 1 some do not, 2 usage, 77 skipped: no assets");
+    try
+    {
+        app.parse(argc, argv);
+    }
+    catch (const CLI::ParseError& error)
+    {
+        return app.exit(error) == 0 ? 0 : 2;
+    }
+    // the children inherit these: no core files, and no file without end
+    const rlimit no_core{0, 0};
+    const rlimit file_size{kMaxFileBytes, kMaxFileBytes};
+    ::setrlimit(RLIMIT_CORE, &no_core);
+    ::setrlimit(RLIMIT_FSIZE, &file_size);
+    adoptOrphans();
+    return run(arguments);
+}
+catch (const std::exception& error)
+{
+    std::fprintf(stderr, "hearth_corpus: %s\n", error.what());
+    return 70;
+}

@@ -1,0 +1,64 @@
+// The list of test assets: what each file is, and what cooking it must come to.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "formats/result.h"
+#include "tests/corpus/run_process.h"
+
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace hearth::corpus
+{
+
+/// What an `expected` class of the manifest allows.
+struct AssetClass
+{
+    std::string_view name;
+    bool may_load = false;
+    bool may_reject = false;
+
+    /// Nothing but a pack will do: its counts are compared and it is drawn.
+    bool mustLoad() const { return may_load && !may_reject; }
+};
+
+inline constexpr AssetClass kAssetClasses[] = {
+    {"must-load", true, false},
+    {"must-load-with-warnings", true, false},
+    {"load-or-clear-texture-warning", true, false}, // the geometry must cook; only the texture may be dropped
+    {"load-or-clear-error", true, true},
+    {"load-or-clear-unsupported-error", true, true},
+    {"must-not-crash", true, true},
+    {"must-reject", false, true},
+};
+
+/// How sure the manifest is of a class. Good files are sure.
+enum class Confidence
+{
+    good,
+    high,
+    medium,
+};
+const char* confidenceName(Confidence confidence);
+
+struct Asset
+{
+    std::string file;   ///< as the manifest and the reports name it
+    std::string path;   ///< absolute
+    std::string folder; ///< absolute: nothing outside it may be read
+    std::string category;
+    const AssetClass* expected = nullptr;
+    Confidence confidence = Confidence::good;
+    Limits limits;
+    uint64_t bytes = 0;
+    bool self_contained = false;            ///< one file, nothing beside it
+    std::map<std::string, uint64_t> counts; ///< those of the manifest that are whole numbers
+};
+
+/// All assets in the order of `folder`/manifest.json: the good files, then the bad.
+/// errors     input_missing, json_syntax, gltf_value (a class that is not known), with the manifest's path
+Result<std::vector<Asset>> readManifest(const std::string& folder);
+
+} // namespace hearth::corpus

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "tests/fuzz/exercise_pack.h"
+
+#include "runtime/pack/cut.h"
+#include "runtime/pack/pack.h"
+
+#include <limits>
+
+namespace hearth::test
+{
+
+using namespace formats;
+
+namespace
+{
+
+// What an optimiser may not remove: every value that is read adds to it.
+volatile uint64_t sink;
+
+void use(uint64_t value)
+{
+    sink = sink + value;
+}
+
+/// Read a page and all its clusters the way a renderer does: without a look at bounds.
+void usePage(const pack::Pack& pack, uint32_t page_index)
+{
+    std::vector<std::byte> buffer(pack.pageSize(page_index));
+    const auto page = pack.readPage(page_index, buffer);
+    HEARTH_ASSERT(page.ok());
+    const PageRecord& record = pack->pages()[page_index];
+    for (uint32_t i = record.clusters.first; i < record.clusters.first + record.clusters.count; ++i)
+    {
+        const ClusterRecord& cluster = pack->clusters()[i];
+        const auto geometry = ClusterGeometry::at(*page, cluster, pack->meshes()[cluster.mesh].attributes);
+        HEARTH_ASSERT(geometry.has_value());
+        for (uint32_t t = 0; t < geometry->triangleCount(); ++t)
+            for (const uint32_t corner : geometry->triangle(t))
+            {
+                HEARTH_ASSERT(corner < geometry->vertexCount());
+                use(std::bit_cast<uint32_t>(geometry->position(corner).x));
+            }
+    }
+}
+
+/// A cut draws something of every mesh that has clusters, and never a cluster with what it was refined from.
+void useCuts(const PackView& view, uint32_t mesh)
+{
+    const bool has_clusters = view.meshes()[mesh].clusters.count > 0;
+    for (const float error : {0.0f, 0.1f, std::numeric_limits<float>::infinity()})
+    {
+        const std::vector<uint32_t> cut = pack::selectCut(view, mesh, error);
+        HEARTH_ASSERT(cut.empty() != has_clusters);
+        for (const uint32_t cluster : cut)
+            use(view.groups()[view.clusters()[cluster].group].page);
+    }
+}
+
+/// The scene as a renderer walks it.
+void useScene(const PackView& view)
+{
+    for (const NodeRecord& node : view.nodes())
+    {
+        size_t depth = 0;
+        for (uint32_t parent = node.parent; parent != kNone; parent = view.nodes()[parent].parent)
+            HEARTH_ASSERT(++depth <= view.nodes().size());
+        use(view.text(node.name).size());
+        for (const float weight :
+             view.morphWeights().subspan(node.morph_weights.first, node.morph_weights.count))
+            use(std::bit_cast<uint32_t>(weight));
+    }
+    for (const InstanceRecord& instance : view.instances())
+        use(view.meshes()[instance.mesh].clusters.count + view.nodes()[instance.node].parent);
+    for (const SkinRecord& skin : view.skins())
+        for (const JointRecord& joint : view.joints().subspan(skin.joints.first, skin.joints.count))
+            use(view.nodes()[joint.node].parent);
+    for (const AnimationChannelRecord& channel : view.channels())
+    {
+        const size_t values =
+            size_t{channel.key_count} * channel.components * (channel.interpolation == 2 ? 3 : 1);
+        use(std::bit_cast<uint32_t>(view.keys()[channel.first_time + channel.key_count - 1]));
+        use(std::bit_cast<uint32_t>(view.keys()[channel.first_value + values - 1]));
+    }
+}
+
+void useImage(const PackView& view, uint32_t index)
+{
+    const ImageRecord& image = view.images()[index];
+    // a huge image of few bytes is legal; unpacking each would only slow the search down
+    if (view.container().find(kChunkImageData, index)->size > (1u << 20))
+        return;
+    const auto texels = view.imageData(index);
+    HEARTH_ASSERT(texels.ok() && texels->bytes().size() == mipOffset(image, image.mip_count));
+}
+
+} // namespace
+
+Status exercisePack(std::span<const std::byte> bytes)
+{
+    HEARTH_ASSIGN_OR_RETURN(const pack::Pack pack, pack::Pack::fromBytes(bytes, "fuzz"));
+    for (uint32_t page = 0; page < pack->pages().size(); ++page)
+        usePage(pack, page);
+    for (uint32_t mesh = 0; mesh < pack->meshes().size(); ++mesh)
+        useCuts(pack.view(), mesh);
+    useScene(pack.view());
+    for (uint32_t image = 0; image < pack->images().size(); ++image)
+        useImage(pack.view(), image);
+    for (const MaterialRecord& material : pack->materials())
+        if (material.base_color_texture.image != kNone)
+            use(pack->images()[material.base_color_texture.image].width);
+    return success();
+}
+
+} // namespace hearth::test

@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "tests/layering/layers.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <set>
+
+namespace hearth::test
+{
+
+namespace
+{
+
+namespace fs = std::filesystem;
+
+const fs::path kRoot = HEARTH_SOURCE_DIR;
+constexpr const char* kFolders[] = {"formats", "cook", "pipelines", "runtime", "sample_assets", "tests"};
+
+std::string contentOf(const fs::path& path)
+{
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
+/// Paths, relative to the root, of all sources in C++.
+std::vector<std::string> sources()
+{
+    std::vector<std::string> paths;
+    for (const char* folder : kFolders)
+        for (const auto& entry : fs::recursive_directory_iterator(kRoot / folder))
+            if (const fs::path& path = entry.path(); path.extension() == ".h" || path.extension() == ".cpp")
+                paths.push_back(path.lexically_relative(kRoot).generic_string());
+    std::sort(paths.begin(), paths.end());
+    return paths;
+}
+
+/// Links between the targets of the build: "folder of the target|folder of what it links|target", one a line.
+std::vector<std::array<std::string, 3>> links()
+{
+    std::vector<std::array<std::string, 3>> list;
+    std::ifstream file(HEARTH_LINKS_FILE);
+    for (std::string line; std::getline(file, line);)
+    {
+        const size_t first = line.find('|'), second = line.find('|', first + 1);
+        list.push_back(
+            {line.substr(0, first), line.substr(first + 1, second - first - 1), line.substr(second + 1)});
+    }
+    return list;
+}
+
+} // namespace
+
+TEST(Layering, includesFollowTheArrows)
+{
+    size_t count = 0;
+    for (const std::string& file : sources())
+        for (const Include& include : includesOf(contentOf(kRoot / file)))
+        {
+            ++count;
+            const auto wrong =
+                include.angled ? wrongLibrary(file, include.header) : wrongArrow(file, include.header);
+            EXPECT_FALSE(wrong.has_value()) << file << ":" << include.line << ": " << wrong.value_or("");
+        }
+    EXPECT_GT(count, 200u) << "the sources were not found";
+}
+
+TEST(Layering, quotedIncludesAreFilesOfTheRepositoryOrGenerated)
+{
+    for (const std::string& file : sources())
+        for (const Include& include : includesOf(contentOf(kRoot / file)))
+            EXPECT_TRUE(include.angled || include.header.starts_with("runtime/shaders/") ||
+                        fs::exists(kRoot / include.header))
+                << file << ":" << include.line << ": " << include.header;
+}
+
+TEST(Layering, linksFollowTheArrows)
+{
+    const auto list = links();
+    EXPECT_GT(list.size(), 5u) << HEARTH_LINKS_FILE;
+    for (const auto& [folder, linked, target] : list)
+    {
+        const auto wrong = wrongArrow(folder + "/CMakeLists.txt", linked + "/");
+        EXPECT_FALSE(wrong.has_value()) << target << ": " << wrong.value_or("");
+    }
+}
+
+TEST(Layering, includesHaveNoCycles)
+{
+    std::map<std::string, std::vector<std::string>> headers_of_file;
+    for (const std::string& file : sources())
+        for (const Include& include : includesOf(contentOf(kRoot / file)))
+            if (!include.angled)
+                headers_of_file[file].push_back(include.header);
+    // this pair is one header in two files: the second holds the first against the file format
+    std::erase(headers_of_file["formats/shared/records_check.h"], "formats/shared/records.h");
+
+    std::map<std::string, int> state; // 1: on the way, 2: done
+    const auto visit = [&](const auto& self, const std::string& file) -> void
+    {
+        state[file] = 1;
+        for (const std::string& header : headers_of_file[file])
+        {
+            EXPECT_NE(state[header], 1) << file << " includes " << header << ", which includes it";
+            if (state[header] == 0)
+                self(self, header);
+        }
+        state[file] = 2;
+    };
+    for (const std::string& file : sources())
+        if (state[file] == 0)
+            visit(visit, file);
+}
+
+TEST(Layering, sourcesStartWithALicenceLine)
+{
+    for (const std::string& file : sources())
+        EXPECT_NE(contentOf(kRoot / file)
+                      .substr(0, 800)
+                      .find("SPDX-License-Identifier: LicenseRef-Hearth-Undecided"),
+                  std::string::npos)
+            << file;
+}
+
+TEST(Layering, everyTestFileIsListed)
+{
+    for (const std::string& file : sources())
+        if (file.ends_with("_test.cpp"))
+        {
+            const fs::path path = kRoot / file;
+            const std::string list = contentOf(path.parent_path() / "CMakeLists.txt");
+            EXPECT_NE(list.find(path.filename().string()), std::string::npos) << file;
+        }
+}
+
+TEST(WrongArrow, knowsTheArrowsOfDesign)
+{
+    const auto allowed = [](std::string_view file, std::string_view header)
+    { return !wrongArrow(file, header).has_value(); };
+    EXPECT_TRUE(allowed("cook/clusters/split.cpp", "cook/mesh/weld.h"));
+    EXPECT_TRUE(allowed("cook/clusters/split.cpp", "cook/clusters/split.h"));
+    EXPECT_TRUE(allowed("pipelines/import/a.cpp", "cook/clusters/clusters.h"));
+    EXPECT_TRUE(allowed("runtime/gpu/a.cpp", "runtime/pack/pack.h"));
+    EXPECT_TRUE(allowed("tests/cook/a.cpp", "cook/clusters/split.h"));
+    EXPECT_FALSE(allowed("formats/mesh.h", "cook/mesh/weld.h"));
+    EXPECT_FALSE(allowed("cook/mesh/weld.h", "cook/clusters/split.h"));
+    EXPECT_FALSE(allowed("cook/clusters/split.cpp", "cook/textures/mips.h"));
+    EXPECT_FALSE(allowed("cook/clusters/split.cpp", "pipelines/link/link.h"));
+    EXPECT_FALSE(allowed("runtime/pack/pack.cpp", "runtime/gpu/device.h"));
+    EXPECT_FALSE(allowed("runtime/gpu/scene.cpp", "cook/mesh/source_mesh.h"));
+    EXPECT_FALSE(allowed("runtime/viewer/main.cpp", "pipelines/import/readers.h"));
+    EXPECT_FALSE(allowed("pipelines/import/a.cpp", "runtime/pack/pack.h"));
+    EXPECT_FALSE(allowed("cook/clusters/split.cpp", "tests/formats/small_pack.h"));
+    EXPECT_FALSE(allowed("tools/a.cpp", "formats/mesh.h"));
+}
+
+TEST(WrongLibrary, keepsLibrariesInTheirPlaces)
+{
+    const auto allowed = [](std::string_view file, std::string_view header)
+    { return !wrongLibrary(file, header).has_value(); };
+    EXPECT_TRUE(allowed("formats/a.h", "vector"));
+    EXPECT_TRUE(allowed("formats/a.cpp", "sys/mman.h"));
+    EXPECT_TRUE(allowed("formats/a.cpp", "zstd.h"));
+    EXPECT_FALSE(allowed("formats/a.h", "zstd.h"));
+    EXPECT_FALSE(allowed("runtime/gpu/a.cpp", "nlohmann/json.hpp"));
+    EXPECT_FALSE(allowed("runtime/viewer/a.cpp", "CLI/CLI.hpp"));
+    EXPECT_FALSE(allowed("runtime/pack/a.cpp", "vulkan/vulkan.h"));
+    EXPECT_TRUE(allowed("runtime/gpu/a.h", "vulkan/vulkan_core.h"));
+    EXPECT_FALSE(allowed("cook/clusters/a.cpp", "gtest/gtest.h"));
+    EXPECT_FALSE(allowed("pipelines/import/a.h", "draco/compression/decode.h"));
+    EXPECT_FALSE(allowed("cook/mesh/a.cpp", "boost/optional.hpp"));
+}
+
+TEST(IncludesOf, findsQuotedAndAngledLines)
+{
+    const auto includes =
+        includesOf("// #include \"no.h\"\n  #  include <a/b.h> // why\n#include \"c.h\"\n#define X\n");
+    ASSERT_EQ(includes.size(), 2u);
+    EXPECT_EQ(includes[0].header, "a/b.h");
+    EXPECT_TRUE(includes[0].angled);
+    EXPECT_EQ(includes[0].line, 2u);
+    EXPECT_EQ(includes[1].header, "c.h");
+    EXPECT_FALSE(includes[1].angled);
+}
+
+} // namespace hearth::test

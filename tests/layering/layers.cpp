@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "tests/layering/layers.h"
+
+#include <algorithm>
+#include <array>
+#include <span>
+
+namespace hearth::test
+{
+
+namespace
+{
+
+using Folders = std::vector<std::string_view>;
+
+struct Layer
+{
+    std::string_view folder;
+    Folders may_include; ///< besides itself
+};
+
+// The first line that a path starts with holds. A folder of cook/ that is not named sees formats and cook/mesh only.
+const std::vector<Layer>& layers()
+{
+    static const std::vector<Layer> list = {
+        {"formats/", {}},
+        {"cook/mesh/", {"formats/"}},
+        {"cook/", {"formats/", "cook/mesh/"}},
+        // extract draws the cut that the runtime would draw
+        {"pipelines/command/", {"formats/", "cook/", "pipelines/", "runtime/pack/"}},
+        {"pipelines/", {"formats/", "cook/", "pipelines/"}},
+        {"runtime/pack/", {"formats/"}},
+        {"runtime/shaders/", {"formats/shared/"}},
+        {"runtime/gpu/", {"formats/", "runtime/pack/", "runtime/shaders/"}},
+        {"runtime/viewer/", {"formats/", "runtime/pack/", "runtime/gpu/"}},
+        {"sample_assets/", {"formats/"}},
+        {"tests/", {"formats/", "cook/", "pipelines/", "runtime/", "sample_assets/", "tests/"}},
+    };
+    return list;
+}
+
+struct Library
+{
+    std::string_view header; ///< whole, or a start that ends in '/'
+    Folders seen_in;         ///< besides tests/
+    bool in_headers = false; ///< else in .cpp files only: its types stay inside an adapter
+};
+
+const std::vector<Library>& libraries()
+{
+    static const std::vector<Library> list = {
+        {"xxhash.h", {"formats/"}},
+        {"zstd.h", {"formats/", "cook/clusters/"}}, // the cluster cooker compresses pages, in parallel
+        {"vulkan/", {"runtime/gpu/", "runtime/viewer/"}, true},
+        {"png.h", {"pipelines/import/", "cook/textures/", "runtime/viewer/", "sample_assets/"}},
+        {"jpeglib.h", {"pipelines/import/"}},
+        {"jerror.h", {"pipelines/import/"}},
+        {"webp/", {"pipelines/import/"}},
+        {"OpenEXR/", {"pipelines/import/"}},
+        {"stb/", {"pipelines/import/", "cook/textures/", "runtime/viewer/"}}, // the viewer writes PNG
+        {"stb_image.h", {"pipelines/import/"}},
+        {"stb_image_resize.h", {"cook/textures/"}},
+        {"OpenImageIO/", {"pipelines/import/", "cook/textures/"}},
+        {"draco/", {"pipelines/import/"}},
+        {"meshoptimizer.h", {"pipelines/import/", "cook/clusters/"}},
+        {"tiny_gltf.h", {"pipelines/import/"}},
+        {"OpenMesh/", {"pipelines/import/", "cook/"}},
+        {"nlohmann/", {"cook/", "pipelines/", "sample_assets/"}},
+        {"CLI/", {"cook/", "pipelines/", "sample_assets/"}},
+        {"fmt/", {"cook/", "pipelines/", "sample_assets/"}},
+        {"spdlog/", {"cook/", "pipelines/"}},
+        {"toml++/", {"pipelines/"}},
+        {"tbb/", {"cook/", "pipelines/", "sample_assets/"}, true},
+        {"embree3/", {"cook/"}},
+        {"CGAL/", {"cook/"}},
+        {"Eigen/", {"cook/"}, true},
+        {"ceres/", {"cook/"}},
+        {"gtest/", {}, true},
+        {"gmock/", {}, true},
+        {"benchmark/", {}, true},
+    };
+    return list;
+}
+
+// POSIX: what the standard library does not give
+constexpr std::array<std::string_view, 9> kPosixHeaders{
+    "sys/", "unistd.h", "fcntl.h", "poll.h", "spawn.h", "dirent.h", "signal.h", "dlfcn.h", "pthread.h"};
+
+bool isIn(std::string_view path, const Folders& folders)
+{
+    return std::any_of(folders.begin(), folders.end(),
+                       [&](std::string_view f) { return path.starts_with(f); });
+}
+
+const Layer* layerOf(std::string_view path)
+{
+    const auto found = std::find_if(layers().begin(), layers().end(),
+                                    [&](const Layer& layer) { return path.starts_with(layer.folder); });
+    return found == layers().end() ? nullptr : &*found;
+}
+
+/// "cook/clusters/" of "cook/clusters/split.cpp": cookers do not include each other.
+std::string_view ownFolder(const Layer& layer, std::string_view file)
+{
+    if (layer.folder != "cook/")
+        return layer.folder;
+    const size_t slash = file.find('/', layer.folder.size());
+    return slash == std::string_view::npos ? layer.folder : file.substr(0, slash + 1);
+}
+
+bool names(std::string_view pattern, std::string_view header)
+{
+    return pattern.ends_with('/') ? header.starts_with(pattern) : header == pattern;
+}
+
+} // namespace
+
+std::optional<std::string> wrongArrow(std::string_view file, std::string_view header)
+{
+    const Layer* layer = layerOf(file);
+    if (layer == nullptr)
+        return std::string(file) + " lies in no folder of DESIGN";
+    if (header.starts_with(ownFolder(*layer, file)) || isIn(header, layer->may_include))
+        return std::nullopt;
+    return std::string(file) + " may not include " + std::string(header);
+}
+
+std::optional<std::string> wrongLibrary(std::string_view file, std::string_view header)
+{
+    const bool standard = header.find_first_of("/.") == std::string_view::npos;
+    const bool posix = std::any_of(kPosixHeaders.begin(), kPosixHeaders.end(),
+                                   [&](std::string_view h) { return names(h, header); });
+    if (standard || posix)
+        return std::nullopt;
+    const auto library = std::find_if(libraries().begin(), libraries().end(),
+                                      [&](const Library& l) { return names(l.header, header); });
+    if (library == libraries().end())
+        return std::string(header) + ", included by " + std::string(file) +
+               ", is not in the table of libraries";
+    if (file.starts_with("tests/"))
+        return std::nullopt;
+    if (!isIn(file, library->seen_in))
+        return std::string(file) + " may not include " + std::string(header);
+    if (!library->in_headers && !file.ends_with(".cpp"))
+        return std::string(header) + " leaves its adapter: included by " + std::string(file);
+    return std::nullopt;
+}
+
+std::vector<Include> includesOf(std::string_view text)
+{
+    std::vector<Include> includes;
+    const auto skipSpace = [](std::string_view line)
+    { return line.substr(std::min(line.find_first_not_of(" \t"), line.size())); };
+    for (size_t number = 1; !text.empty(); ++number)
+    {
+        const size_t end = std::min(text.find('\n'), text.size());
+        std::string_view line = skipSpace(text.substr(0, end));
+        text.remove_prefix(std::min(end + 1, text.size()));
+        if (!line.starts_with('#'))
+            continue;
+        line = skipSpace(line.substr(1));
+        if (!line.starts_with("include"))
+            continue;
+        line = skipSpace(line.substr(7));
+        if (!line.starts_with('"') && !line.starts_with('<'))
+            continue;
+        const bool angled = line.front() == '<';
+        const size_t close = line.find(angled ? '>' : '"', 1);
+        if (close != std::string_view::npos)
+            includes.push_back({number, angled, std::string(line.substr(1, close - 1))});
+    }
+    return includes;
+}
+
+} // namespace hearth::test

@@ -1,0 +1,265 @@
+// Materials, textures and images.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "pipelines/import/gltf_specular_glossiness.h"
+#include "tests/pipelines/gltf_fixture.h"
+
+#include <cmath>
+
+namespace hearth::import::test
+{
+
+namespace
+{
+
+using namespace formats;
+
+/// An uncompressed TGA of one BGRA colour.
+std::string tga(uint16_t width, uint16_t height, std::string_view bgra)
+{
+    std::string bytes("\0\0\2\0\0\0\0\0\0\0\0\0", 12);
+    bytes += bytesOf<uint16_t>({width, height});
+    bytes += std::string("\x20\x28", 2); // 32 bits, top to bottom, 8 bits of alpha
+    for (int i = 0; i < width * height; ++i)
+        bytes += bgra;
+    return bytes;
+}
+
+const std::string kGrey = std::string("\x80\x80\x80\xFF", 4);
+
+std::vector<MaterialRecord> materialsOf(const Imported& result)
+{
+    EXPECT_TRUE(result.ok()) << result.message();
+    return result.ok() ? result.records<MaterialRecord>(kChunkMaterials) : std::vector<MaterialRecord>{};
+}
+
+TEST(GltfMaterials, haveTheDefaultsOfTheSpecification)
+{
+    const auto materials = materialsOf(GltfData().import(R"("materials":[{}])"));
+    ASSERT_EQ(materials.size(), 1u);
+    EXPECT_EQ(materials[0].base_color, (Float4{1, 1, 1, 1}));
+    EXPECT_EQ(materials[0].metallic, 1.0f);
+    EXPECT_EQ(materials[0].roughness, 1.0f);
+    EXPECT_EQ(materials[0].alpha_cutoff, 0.5f);
+    EXPECT_EQ(materials[0].emissive, (Float3{0, 0, 0}));
+    EXPECT_EQ(materials[0].base_color_texture.image, kNone);
+    EXPECT_EQ(materials[0].flags, 0u);
+}
+
+TEST(GltfMaterials, readFactorsFlagsAndExtensions)
+{
+    const Imported result =
+        GltfData().import(R"("materials":[{"name":"lamp","doubleSided":true,"alphaMode":"BLEND",
+        "pbrMetallicRoughness":{"baseColorFactor":[0.1,0.2,0.3,0.4],"metallicFactor":0.5,"roughnessFactor":2},
+        "emissiveFactor":[1,0.5,0],"extensions":{"KHR_materials_unlit":{},
+        "KHR_materials_emissive_strength":{"emissiveStrength":8},"KHR_materials_clearcoat":{"clearcoatFactor":1}}}])");
+    const auto materials = materialsOf(result);
+    ASSERT_EQ(materials.size(), 1u);
+    EXPECT_EQ(materials[0].base_color, (Float4{0.1f, 0.2f, 0.3f, 0.4f}));
+    EXPECT_EQ(materials[0].metallic, 0.5f);
+    EXPECT_EQ(materials[0].roughness, 1.0f);
+    EXPECT_EQ(materials[0].emissive, (Float3{8, 4, 0}));
+    EXPECT_EQ(materials[0].flags, uint32_t{kMaterialDoubleSided | kMaterialUnlit});
+    EXPECT_EQ(materials[0].alpha_mode, static_cast<uint32_t>(AlphaMode::blend));
+    EXPECT_TRUE(result.warnsOf(Issue::repaired, "outside 0 to 1"));
+    EXPECT_TRUE(result.warnsOf(Issue::dropped, "extension KHR_materials_clearcoat"))
+        << "also when it is not declared";
+    EXPECT_EQ(result.text(kChunkStrings).substr(materials[0].name.offset, materials[0].name.length), "lamp");
+}
+
+TEST(GltfMaterials, transformUvsAsTheExtensionSays)
+{
+    const auto materials =
+        materialsOf(GltfData().import(R"("textures":[{}],"materials":[{"pbrMetallicRoughness":
+        {"baseColorTexture":{"index":0,"texCoord":1,"extensions":{"KHR_texture_transform":
+        {"offset":[0.25,0.5],"rotation":1.5707963267948966,"scale":[2,3],"texCoord":2}}}}}])"));
+    ASSERT_EQ(materials.size(), 1u);
+    const TextureRef& texture = materials[0].base_color_texture;
+    EXPECT_EQ(texture.uv_set, 2);
+    // translation * rotation * scale with rotation [[cos sin] [-sin cos]]
+    const float expected[6] = {0, 3, 0.25f, -2, 0, 0.5f};
+    for (size_t i = 0; i < 6; ++i)
+        EXPECT_NEAR(texture.uv_transform[i], expected[i], 1e-6) << i;
+}
+
+TEST(GltfMaterials, readSamplers)
+{
+    const auto materials =
+        materialsOf(GltfData().import(R"("samplers":[{"wrapS":33071,"wrapT":33648,"magFilter":9728}],
+        "textures":[{"sampler":0},{}],"materials":[{"pbrMetallicRoughness":{"baseColorTexture":{"index":0}},
+        "emissiveTexture":{"index":1}}])"));
+    ASSERT_EQ(materials.size(), 1u);
+    EXPECT_EQ(materials[0].base_color_texture.wrap_u, static_cast<uint8_t>(Wrap::clamp_to_edge));
+    EXPECT_EQ(materials[0].base_color_texture.wrap_v, static_cast<uint8_t>(Wrap::mirrored_repeat));
+    EXPECT_EQ(materials[0].base_color_texture.nearest, 1);
+    EXPECT_EQ(materials[0].emissive_texture.wrap_u, static_cast<uint8_t>(Wrap::repeat));
+    EXPECT_EQ(materials[0].emissive_texture.nearest, 0);
+}
+
+TEST(GltfMaterials, dropTexturesOfUvSetsThatNoMeshCanHave)
+{
+    for (const char* set : {"4", "99", "4294967296"})
+    {
+        const Imported result = GltfData().import(
+            std::string(R"("textures":[{}],"materials":[{"emissiveTexture":{"index":0,"texCoord":)") + set +
+            "}}]");
+        EXPECT_EQ(materialsOf(result)[0].emissive_texture.image, kNone);
+        EXPECT_TRUE(result.warnsOf(Issue::dropped, "UV set"));
+    }
+}
+
+TEST(GltfImages, areWrittenOnceForEachPurpose)
+{
+    const TemporaryFolder folder;
+    folder.write("a.tga", tga(2, 1, kGrey));
+    const Imported result = importBytes(R"({"asset":{"version":"2.0"},"images":[{"uri":"a.tga"}],
+        "textures":[{"source":0},{"source":0}],"materials":[
+        {"pbrMetallicRoughness":{"baseColorTexture":{"index":0},"metallicRoughnessTexture":{"index":1}},
+         "normalTexture":{"index":0},"occlusionTexture":{"index":0},"emissiveTexture":{"index":1}},
+        {"pbrMetallicRoughness":{"baseColorTexture":{"index":1}}}]})",
+                                        &folder);
+    const auto materials = materialsOf(result);
+    const auto images = result.records<ImageRecord>(kChunkImages);
+    ASSERT_EQ(images.size(), 3u);
+    EXPECT_EQ(materials[0].base_color_texture.image, materials[0].emissive_texture.image);
+    EXPECT_EQ(materials[0].base_color_texture.image, materials[1].base_color_texture.image);
+    EXPECT_EQ(materials[0].metallic_roughness_texture.image, materials[0].occlusion_texture.image);
+    const ImageRecord& color = images[materials[0].base_color_texture.image];
+    const ImageRecord& data = images[materials[0].occlusion_texture.image];
+    const ImageRecord& normal = images[materials[0].normal_texture.image];
+    EXPECT_EQ(color.format, static_cast<uint32_t>(TexelFormat::rgba8_srgb));
+    EXPECT_EQ(data.format, static_cast<uint32_t>(TexelFormat::rgba8_unorm));
+    EXPECT_EQ(normal.format, static_cast<uint32_t>(TexelFormat::rgba8_unorm));
+    EXPECT_EQ(normal.flags, uint32_t{kImageNormalMap});
+    EXPECT_EQ(color.width, 2u);
+    EXPECT_EQ(color.mip_count, 1u);
+    EXPECT_EQ(result.texels(0), (std::vector<uint8_t>{128, 128, 128, 255, 128, 128, 128, 255}));
+    EXPECT_EQ(result.text(kChunkStrings).substr(color.name.offset, color.name.length), "a.tga");
+    EXPECT_TRUE(result.warnings.empty());
+}
+
+TEST(GltfImages, keepTheCutoffOfAlphaTests)
+{
+    const TemporaryFolder folder;
+    folder.write("a.tga", tga(1, 1, kGrey));
+    const Imported result =
+        importBytes(R"({"asset":{"version":"2.0"},"images":[{"uri":"a.tga"}],"textures":[{"source":0}],
+        "materials":[{"pbrMetallicRoughness":{"baseColorTexture":{"index":0}}},
+        {"alphaMode":"MASK","alphaCutoff":0.25,"pbrMetallicRoughness":{"baseColorFactor":[1,1,1,0.5],"baseColorTexture":{"index":0}}}]})",
+                    &folder);
+    ASSERT_TRUE(result.ok()) << result.message();
+    const auto images = result.records<ImageRecord>(kChunkImages);
+    ASSERT_EQ(images.size(), 1u);
+    EXPECT_EQ(images[0].flags, uint32_t{kImageAlphaTested});
+    EXPECT_EQ(images[0].alpha_cutoff, 0.5f) << "of the texture's own alpha";
+}
+
+TEST(GltfImages, becomePlaceholdersWhenTheyAreMissingOrBroken)
+{
+    const std::pair<const char*, Issue> cases[] = {
+        {R"({"uri":"absent.png"})", Issue::image_missing},
+        {R"({})", Issue::image_missing},
+        {R"({"uri":"../outside.png"})", Issue::image_replaced},
+        {R"({"uri":"data:image/png;base64,AAAA"})", Issue::image_replaced},
+        {R"({"uri":"data:image/png;base64,%"})", Issue::image_replaced},
+    };
+    for (const auto& [image, issue] : cases)
+    {
+        const Imported result = GltfData().import(
+            std::string(R"("textures":[{"source":0}],"images":[)") + image +
+            R"(],"materials":[{"emissiveTexture":{"index":0},"normalTexture":{"index":0}}])");
+        const auto materials = materialsOf(result);
+        const auto images = result.records<ImageRecord>(kChunkImages);
+        ASSERT_EQ(images.size(), 2u);
+        const uint32_t color = materials[0].emissive_texture.image;
+        const uint32_t normal = materials[0].normal_texture.image;
+        EXPECT_EQ(images[color].flags, uint32_t{kImagePlaceholder});
+        EXPECT_EQ(images[normal].flags, uint32_t{kImagePlaceholder | kImageNormalMap});
+        EXPECT_EQ(images[color].width, 64u);
+        EXPECT_EQ(result.texels(color)[0], 255);
+        EXPECT_EQ(result.texels(color)[1], 0);
+        EXPECT_EQ(result.texels(normal)[2], 255) << "a missing normal map leaves the surface as it is";
+        EXPECT_TRUE(result.warnsOf(issue, "")) << image;
+    }
+}
+
+TEST(GltfImages, preferTheOneOfTheTextureAndElseThatOfAnExtension)
+{
+    const TemporaryFolder folder;
+    folder.write("a.tga", tga(1, 1, kGrey));
+    folder.write("b.tga", tga(2, 2, kGrey));
+    const auto widthOf = [&](const std::string& texture)
+    {
+        const Imported result =
+            importBytes(R"({"asset":{"version":"2.0"},"images":[{"uri":"a.tga"},{"uri":"b.tga"}],
+            "extensionsRequired":["EXT_texture_webp"],"materials":[{"emissiveTexture":{"index":0}}],"textures":[)" +
+                            texture + "]}",
+                        &folder);
+        EXPECT_TRUE(result.ok()) << result.message();
+        return result.records<ImageRecord>(kChunkImages)[0].width;
+    };
+    EXPECT_EQ(widthOf(R"({"source":0,"extensions":{"EXT_texture_webp":{"source":1}}})"), 1u);
+    EXPECT_EQ(widthOf(R"({"extensions":{"EXT_texture_webp":{"source":1}}})"), 2u);
+    EXPECT_EQ(widthOf(R"({"extensions":{"KHR_texture_basisu":{"source":1}}})"), 2u);
+}
+
+TEST(GltfImages, areNamedWhenNothingUsesThem)
+{
+    const Imported result = GltfData().import(R"("images":[{"name":"spare","uri":"absent.png"}])");
+    ASSERT_TRUE(result.ok()) << result.message();
+    EXPECT_TRUE(result.warnsOf(Issue::dropped, "spare"));
+    EXPECT_FALSE(result.warnsOf(Issue::image_missing, ""));
+}
+
+TEST(SpecularGlossiness, ofADielectricKeepsItsColor)
+{
+    const MetallicRoughness result =
+        convertSpecularGlossiness({{0.5f, 0.25f, 0.125f}, {0.04f, 0.04f, 0.04f}, 0.75f});
+    EXPECT_NEAR(result.metallic, 0, 1e-3);
+    EXPECT_NEAR(result.roughness, 0.25, 1e-6);
+    EXPECT_NEAR(result.base_color.x, 0.5, 2e-3);
+    EXPECT_NEAR(result.base_color.z, 0.125, 2e-3);
+}
+
+TEST(SpecularGlossiness, ofAMetalTakesTheColorOfItsReflection)
+{
+    const MetallicRoughness result = convertSpecularGlossiness({{0, 0, 0}, {1, 0.75f, 0.25f}, 1});
+    EXPECT_NEAR(result.metallic, 1, 1e-5);
+    EXPECT_NEAR(result.roughness, 0, 1e-6);
+    EXPECT_NEAR(result.base_color.x, 1, 1e-5);
+    EXPECT_NEAR(result.base_color.y, 0.75, 1e-5);
+    EXPECT_NEAR(result.base_color.z, 0.25, 1e-5);
+}
+
+TEST(SpecularGlossiness, isConvertedTexelByTexel)
+{
+    const TemporaryFolder folder;
+    folder.write("diffuse.tga", tga(1, 1, std::string("\0\0\xFF\x80", 4))); // red, alpha 0.5
+    folder.write("specular.tga", tga(2, 1, std::string("\0\0\0\x40", 4)));  // no reflection, glossiness 0.25
+    const Imported result =
+        importBytes(R"({"asset":{"version":"2.0"},"images":[{"uri":"diffuse.tga"},{"uri":"specular.tga"}],
+        "extensionsRequired":["KHR_materials_pbrSpecularGlossiness"],
+        "textures":[{"source":0},{"source":1}],"materials":[{"extensions":{"KHR_materials_pbrSpecularGlossiness":
+        {"diffuseFactor":[1,1,1,1],"diffuseTexture":{"index":0},"specularGlossinessTexture":{"index":1}}}}]})",
+                    &folder);
+    const auto materials = materialsOf(result);
+    ASSERT_EQ(materials.size(), 1u);
+    const auto images = result.records<ImageRecord>(kChunkImages);
+    const uint32_t base = materials[0].base_color_texture.image;
+    const uint32_t surface = materials[0].metallic_roughness_texture.image;
+    ASSERT_LT(base, images.size());
+    ASSERT_LT(surface, images.size());
+    EXPECT_EQ(images[base].width, 2u);
+    EXPECT_EQ(images[base].format, static_cast<uint32_t>(TexelFormat::rgba8_srgb));
+    EXPECT_EQ(images[surface].format, static_cast<uint32_t>(TexelFormat::rgba8_unorm));
+    const auto base_texels = result.texels(base);
+    EXPECT_EQ(base_texels[0], 255);
+    EXPECT_EQ(base_texels[1], 0);
+    EXPECT_EQ(base_texels[3], 128);
+    EXPECT_EQ(result.texels(surface)[1], 255 - 64);
+    EXPECT_EQ(result.texels(surface)[2], 0);
+    EXPECT_TRUE(result.warnsOf(Issue::degraded, "specular-glossiness"));
+}
+
+} // namespace
+
+} // namespace hearth::import::test

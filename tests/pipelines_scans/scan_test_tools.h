@@ -1,0 +1,51 @@
+// What the tests of scan readers share.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "pipelines/import/scan_file.h"
+
+#include <string>
+
+namespace hearth::import::test
+{
+
+using ScanReader = Result<ScanFile> (*)(const ScanSource&);
+
+inline Result<ScanFile> readText(ScanReader reader, std::string_view text, const ImportLimits& limits = {})
+{
+    const std::string path = "scan";
+    return reader({std::as_bytes(std::span(text)), path, limits});
+}
+
+/// A file that must be refused, and how.
+struct RefusedFile
+{
+    const char* name;
+    std::string text;
+    Issue issue;
+    const char* where;
+};
+
+/// "error 1200 at line 3", or "read".
+inline std::string outcome(const Result<ScanFile>& result)
+{
+    if (result.ok())
+        return "read";
+    return "error " + std::to_string(static_cast<unsigned>(result.error().issue)) + " at " +
+           result.error().where;
+}
+
+inline std::string outcome(const RefusedFile& file)
+{
+    return "error " + std::to_string(static_cast<unsigned>(file.issue)) + " at " + file.where;
+}
+
+inline bool hasNote(const ScanFile& file, Issue issue, std::string_view part)
+{
+    for (const ScanNote& note : file.notes)
+        if (note.issue == issue && note.detail.find(part) != std::string::npos)
+            return true;
+    return false;
+}
+
+} // namespace hearth::import::test

@@ -1,0 +1,15 @@
+// Exhaustive culling on the CPU: every cluster of every instance is asked, nothing is skipped.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "formats/shared/frame.h"
+#include "tests/reference/pack_geometry.h"
+
+namespace hearth::reference
+{
+
+/// What is drawn, ordered by instance and then cluster, by the C++ twin of the shaders (formats/shared/decisions.h).
+/// Must equal the GPU's visible set exactly.
+std::vector<DrawnCluster> cullExhaustively(const formats::PackView& view, const shared::FrameView& frame);
+
+} // namespace hearth::reference

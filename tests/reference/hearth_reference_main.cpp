@@ -1,0 +1,120 @@
+// hearth-reference: draws a pack with rays, slowly, and can say by FLIP how far another picture is from that.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "formats/pack_check.h"
+#include "tests/reference/flip.h"
+#include "tests/reference/reference_renderer.h"
+
+#include <CLI/CLI.hpp>
+
+#include <cstdio>
+
+namespace
+{
+
+using namespace hearth;
+using namespace hearth::reference;
+
+int fail(const Error& error)
+{
+    std::fprintf(stderr, "%s\n", formatMessage(error).c_str());
+    return exitCode(error);
+}
+
+struct Arguments
+{
+    std::string pack, output, size = "512x512", compare, flip_map;
+    std::vector<float> camera;
+    int scene_camera = -1;
+    ReferenceOptions options;
+};
+
+Status readSize(const std::string& text, ReferenceOptions& options)
+{
+    if (std::sscanf(text.c_str(), "%ux%u", &options.width, &options.height) != 2 || options.width == 0 ||
+        options.height == 0 || options.width > 16384 || options.height > 16384)
+        return Error{Issue::usage, "", "", "--size wants WxH, not '" + text + "'"};
+    return success();
+}
+
+Result<shared::Camera> sceneCamera(const formats::PackView& view, size_t index)
+{
+    if (index >= view.cameras().size())
+        return Error{Issue::usage, view.name(), "",
+                     "there is no camera " + std::to_string(index) + "; the pack has " +
+                         std::to_string(view.cameras().size())};
+    const formats::CameraRecord& record = view.cameras()[index];
+    shared::Camera camera;
+    camera.position = transformPoint(record.world_from_camera, {0, 0, 0});
+    camera.target = transformPoint(record.world_from_camera, {0, 0, -1});
+    camera.up = transformVector(record.world_from_camera, {0, 1, 0});
+    camera.y_fov_rad = record.y_fov_rad;
+    camera.z_near = record.z_near;
+    return camera;
+}
+
+shared::Camera givenCamera(const std::vector<float>& v)
+{
+    shared::Camera camera;
+    camera.position = {v[0], v[1], v[2]};
+    camera.target = {v[3], v[4], v[5]};
+    camera.y_fov_rad = v[6] * 0.017453293f;
+    camera.z_near = std::max(length(camera.target - camera.position) * 1e-3f, 1e-12f);
+    return camera;
+}
+
+Status compare(const Picture& reference, const Arguments& arguments)
+{
+    HEARTH_ASSIGN_OR_RETURN(const Picture test, readPng(arguments.compare));
+    if (test.width != reference.width || test.height != reference.height)
+        return Error{Issue::usage, arguments.compare, "", "the picture has another size"};
+    const FlipMap map = flip(reference, test);
+    std::printf("FLIP %.6f\n", map.mean());
+    return arguments.flip_map.empty() ? success() : writePng(arguments.flip_map, showFlip(map));
+}
+
+Status run(Arguments& arguments)
+{
+    HEARTH_TRY(readSize(arguments.size, arguments.options));
+    HEARTH_ASSIGN_OR_RETURN(formats::ContainerReader reader, formats::ContainerReader::open(arguments.pack));
+    HEARTH_ASSIGN_OR_RETURN(const formats::PackView view, formats::PackView::read(std::move(reader)));
+    if (arguments.camera.size() == 7)
+        arguments.options.camera = givenCamera(arguments.camera);
+    else
+    {
+        HEARTH_ASSIGN_OR_RETURN(arguments.options.camera,
+                                sceneCamera(view, static_cast<size_t>(std::max(0, arguments.scene_camera))));
+    }
+    HEARTH_ASSIGN_OR_RETURN(const Picture picture, renderReference(view, arguments.options));
+    HEARTH_TRY(writePng(arguments.output, picture));
+    return arguments.compare.empty() ? success() : compare(picture, arguments);
+}
+
+} // namespace
+
+int main(int argc, char** argv)
+{
+    CLI::App app("Draws the finest level of a pack with rays: what hearth-render should draw.\n"
+                 "Example: hearth-reference scene.hearth -o scene.png --scene-camera 0 --size 640x360");
+    Arguments arguments;
+    app.add_option("PACK", arguments.pack, "pack to draw")->required();
+    app.add_option("-o,--output", arguments.output, "PNG to write")->required();
+    app.add_option("--size", arguments.size, "width x height");
+    app.add_option("--camera", arguments.camera, "px,py,pz,tx,ty,tz,fovdeg")->delimiter(',')->expected(7);
+    app.add_option("--scene-camera", arguments.scene_camera, "the pack's camera of that number (default 0)");
+    app.add_option("--samples-per-side", arguments.options.samples_per_side, "rays per pixel: its square")
+        ->check(CLI::Range(1u, 64u));
+    app.add_flag("--shadows", arguments.options.shadows, "shadows of the lights");
+    app.add_option("--occlusion", arguments.options.occlusion_rays, "rays to the sky for each sample");
+    app.add_option("--compare", arguments.compare, "print the FLIP difference to this PNG");
+    app.add_option("--flip-map", arguments.flip_map, "write that difference as a picture");
+    try
+    {
+        app.parse(argc, argv);
+    }
+    catch (const CLI::ParseError& error)
+    {
+        return app.exit(error) == 0 ? 0 : 2;
+    }
+    const Status status = run(arguments);
+    return status.ok() ? 0 : fail(status.error());
+}

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "tests/reference/png_image.h"
+
+#include <png.h>
+
+#include <cmath>
+
+namespace hearth::reference
+{
+
+Result<Picture> readPng(const std::string& path)
+{
+    png_image png{};
+    png.version = PNG_IMAGE_VERSION;
+    if (!png_image_begin_read_from_file(&png, path.c_str()))
+        return Error{Issue::input_missing, path, "", png.message};
+    png.format = PNG_FORMAT_RGBA; // asked for with alpha, so that nothing is blended with a background
+    std::vector<uint8_t> rgba(PNG_IMAGE_SIZE(png));
+    if (!png_image_finish_read(&png, nullptr, rgba.data(), 0, nullptr))
+        return Error{Issue::image_malformed, path, "", png.message};
+    Picture picture(png.width, png.height);
+    for (size_t i = 0; i < rgba.size() / 4; ++i)
+        for (size_t channel = 0; channel < 3; ++channel)
+            picture.rgb[i * 3 + channel] = rgba[i * 4 + channel];
+    return picture;
+}
+
+Status writePng(const std::string& path, const Picture& picture)
+{
+    png_image png{};
+    png.version = PNG_IMAGE_VERSION;
+    png.width = picture.width;
+    png.height = picture.height;
+    png.format = PNG_FORMAT_RGB;
+    if (!png_image_write_to_file(&png, path.c_str(), 0, picture.rgb.data(), 0, nullptr))
+        return Error{Issue::cannot_write, path, "", png.message};
+    return success();
+}
+
+double linearFromSrgb(double encoded)
+{
+    return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
+}
+
+double srgbFromLinear(double linear)
+{
+    return linear <= 0.0031308 ? linear * 12.92 : 1.055 * std::pow(linear, 1 / 2.4) - 0.055;
+}
+
+} // namespace hearth::reference

@@ -1,0 +1,25 @@
+// Draws the finest level of a pack with rays and the material model of glTF 2.0, appendix B, written from that text.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "formats/shared/frame.h"
+#include "tests/reference/pack_geometry.h"
+#include "tests/reference/png_image.h"
+
+namespace hearth::reference
+{
+
+struct ReferenceOptions
+{
+    shared::Camera camera;
+    uint32_t width = 512;
+    uint32_t height = 512;
+    uint32_t samples_per_side = 4; ///< rays per pixel: its square
+    bool shadows = false;          ///< of the lights; off, it is what hearth-render draws
+    uint32_t occlusion_rays = 0;   ///< of the sky, for each sample; 0: the sky is everywhere
+};
+
+/// errors: those of reading pages and images.
+Result<Picture> renderReference(const formats::PackView& view, const ReferenceOptions& options);
+
+} // namespace hearth::reference

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "tests/reference/source_triangles.h"
+
+#include "cook/mesh/source_mesh.h"
+
+namespace hearth::reference
+{
+
+namespace
+{
+
+/// Whether two corners are the same point or all three lie on a line, as far as doubles can tell: products of
+/// differences of floats of similar size are exact in double.
+bool hasArea(const std::array<Float3, 3>& t)
+{
+    const auto wide = [](float v) { return static_cast<double>(v); };
+    const double ux = wide(t[1].x) - wide(t[0].x), uy = wide(t[1].y) - wide(t[0].y),
+                 uz = wide(t[1].z) - wide(t[0].z);
+    const double vx = wide(t[2].x) - wide(t[0].x), vy = wide(t[2].y) - wide(t[0].y),
+                 vz = wide(t[2].z) - wide(t[0].z);
+    return uy * vz != uz * vy || uz * vx != ux * vz || ux * vy != uy * vx;
+}
+
+} // namespace
+
+Result<std::vector<SceneTriangle>> trianglesOfImportPart(const formats::PackView& part)
+{
+    std::vector<SceneTriangle> triangles;
+    for (uint32_t instance = 0; instance < part.instances().size(); ++instance)
+    {
+        HEARTH_ASSIGN_OR_RETURN(const mesh::SourceMesh source,
+                                mesh::readSourceMesh(part.container(), part.instances()[instance].mesh));
+        for (size_t t = 0; t < source.triangleCount(); ++t)
+        {
+            SceneTriangle triangle;
+            for (size_t corner = 0; corner < 3; ++corner)
+                triangle.corners[corner] = source.positions[source.indices[t * 3 + corner]];
+            triangle.instance = instance;
+            triangle.material =
+                source.triangle_materials.empty() ? formats::kNone : source.triangle_materials[t];
+            triangle.id = static_cast<uint32_t>(triangles.size());
+            if (hasArea(triangle.corners))
+                triangles.push_back(triangle);
+        }
+    }
+    return triangles;
+}
+
+} // namespace hearth::reference

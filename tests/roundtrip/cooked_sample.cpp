@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "tests/roundtrip/cooked_sample.h"
+
+#include "tests/corpus/run_process.h"
+
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <memory>
+#include <sstream>
+
+namespace hearth::roundtrip
+{
+
+namespace
+{
+
+const char* pathOf(Program program)
+{
+    switch (program)
+    {
+    case Program::samples:
+        return HEARTH_SAMPLES_PROGRAM;
+    case Program::import:
+        return HEARTH_IMPORT_PROGRAM;
+    case Program::clusters:
+        return HEARTH_CLUSTERS_PROGRAM;
+    case Program::textures:
+#ifdef HEARTH_TEXTURES_PROGRAM
+        return HEARTH_TEXTURES_PROGRAM;
+#else
+        return "";
+#endif
+    case Program::link:
+        return HEARTH_LINK_PROGRAM;
+    case Program::hearth:
+        return HEARTH_PROGRAM;
+    case Program::render:
+        return HEARTH_RENDER_PROGRAM;
+    }
+    return "";
+}
+
+std::string textOf(const std::string& path)
+{
+    std::ifstream file(path, std::ios::binary);
+    std::ostringstream text;
+    text << file.rdbuf();
+    return text.str();
+}
+
+/// Run a step that must succeed.
+void mustRun(Program program, const std::vector<std::string>& arguments)
+{
+    const ProgramEnd end = runProgram(program, arguments);
+    if (end.exit_code == 0)
+        return;
+    std::fprintf(stderr, "%s ended with %d: %s\n", pathOf(program), end.exit_code, end.errors.c_str());
+    std::abort();
+}
+
+template <typename T>
+T must(Result<T> result)
+{
+    if (!result.ok())
+    {
+        std::fprintf(stderr, "%s\n", formatMessage(result.error()).c_str());
+        std::abort();
+    }
+    return std::move(result).value();
+}
+
+} // namespace
+
+ProgramEnd runProgram(Program program, const std::vector<std::string>& arguments)
+{
+    const ScratchFolder folder;
+    corpus::Command command;
+    command.arguments = {pathOf(program)};
+    command.arguments.insert(command.arguments.end(), arguments.begin(), arguments.end());
+    command.folder = folder.path("");
+    command.stdout_file = folder.path("stdout");
+    command.stderr_file = folder.path("stderr");
+    // generous: a hang must end the test, not measure the machine
+    const corpus::ProcessEnd end =
+        corpus::runProcess(command, {.seconds = 300, .rss_bytes = uint64_t{8} << 30});
+    const bool by_itself = end.started && end.signal == 0 && !end.over_time && !end.over_memory;
+    return {by_itself ? end.exit_code : -1, textOf(command.stdout_file), textOf(command.stderr_file)};
+}
+
+ScratchFolder::ScratchFolder()
+{
+    std::string name = (std::filesystem::temp_directory_path() / "hearth-roundtrip-XXXXXX").string();
+    if (mkdtemp(name.data()) == nullptr)
+        std::abort();
+    folder_ = name;
+}
+
+ScratchFolder::~ScratchFolder()
+{
+    std::error_code ignored;
+    std::filesystem::remove_all(folder_, ignored);
+}
+
+CookedSample::CookedSample(const SampleSpec& spec)
+{
+    const std::string source = folder_.path("sample.glb"), part = folder_.path("import.part");
+    const std::string clusters = folder_.path("clusters.part"), textures = folder_.path("textures.part");
+    pack_path_ = folder_.path("sample.hearth");
+    std::vector<std::string> arguments{spec.kind, "-o", source, "--texture-size",
+                                       std::to_string(spec.texture_size)};
+    if (spec.triangles > 0)
+        arguments.insert(arguments.end(), {"--triangles", std::to_string(spec.triangles)});
+    mustRun(Program::samples, arguments);
+    mustRun(Program::import, {source, "-o", part});
+    mustRun(Program::clusters, {part, "-o", clusters});
+#ifdef HEARTH_TEXTURES_PROGRAM
+    mustRun(Program::textures, {part, "-o", textures});
+    mustRun(Program::link, {part, clusters, textures, "-o", pack_path_});
+#else
+    mustRun(Program::link, {part, clusters, part, "-o", pack_path_});
+#endif
+
+    pack_ = std::make_unique<pack::Pack>(must(pack::Pack::open(pack_path_)));
+    geometry_ =
+        std::make_unique<reference::PackGeometry>(must(reference::PackGeometry::decode(pack_->view())));
+    import_part_ = std::make_unique<formats::PackView>(
+        must(formats::PackView::read(must(formats::ContainerReader::open(part)))));
+}
+
+const CookedSample& cookedSample(const SampleSpec& spec)
+{
+    static std::map<std::tuple<std::string, uint64_t, uint32_t>, std::unique_ptr<CookedSample>> samples;
+    std::unique_ptr<CookedSample>& sample = samples[{spec.kind, spec.triangles, spec.texture_size}];
+    if (!sample)
+        sample = std::make_unique<CookedSample>(spec);
+    return *sample;
+}
+
+} // namespace hearth::roundtrip

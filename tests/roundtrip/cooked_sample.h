@@ -1,0 +1,80 @@
+// Samples cooked by the real programs, step by step, for tests that then load and draw them.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "runtime/pack/pack.h"
+#include "tests/reference/pack_geometry.h"
+
+#include <string>
+#include <vector>
+
+namespace hearth::roundtrip
+{
+
+/// How a program ended.
+struct ProgramEnd
+{
+    int exit_code = -1; ///< or -1 where it did not end by itself
+    std::string output; ///< stdout
+    std::string errors; ///< stderr
+};
+
+/// The programs of the build.
+enum class Program
+{
+    samples,
+    import,
+    clusters,
+    textures,
+    link,
+    hearth,
+    render,
+};
+
+ProgramEnd runProgram(Program program, const std::vector<std::string>& arguments);
+
+/// A folder that is removed with everything in it when the object goes.
+class ScratchFolder
+{
+public:
+    ScratchFolder();
+    ~ScratchFolder();
+    ScratchFolder(const ScratchFolder&) = delete;
+    ScratchFolder& operator=(const ScratchFolder&) = delete;
+    std::string path(const std::string& name) const { return folder_ + "/" + name; }
+
+private:
+    std::string folder_;
+};
+
+struct SampleSpec
+{
+    std::string kind;
+    uint64_t triangles = 0; ///< 0: the kind's own default
+    uint32_t texture_size = 64;
+};
+
+/// A sample as source, as import part and as pack. Stops the test program where a step fails: nothing after it means
+/// anything.
+class CookedSample
+{
+public:
+    explicit CookedSample(const SampleSpec& spec);
+
+    const formats::PackView& pack() const { return pack_->view(); }
+    const reference::PackGeometry& geometry() const { return *geometry_; }
+    const formats::PackView& importPart() const { return *import_part_; }
+    const std::string& packPath() const { return pack_path_; }
+
+private:
+    ScratchFolder folder_;
+    std::string pack_path_;
+    std::unique_ptr<pack::Pack> pack_;
+    std::unique_ptr<reference::PackGeometry> geometry_;
+    std::unique_ptr<formats::PackView> import_part_;
+};
+
+/// The sample of that spec, cooked when first asked for and kept until the program ends.
+const CookedSample& cookedSample(const SampleSpec& spec);
+
+} // namespace hearth::roundtrip

@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/textures/mip_chain.h"
+
+#include "cook/textures/srgb.h"
+#include "formats/half.h"
+#include "formats/math.h"
+#include "tests/textures/texture_test_images.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+
+#include <tbb/global_control.h>
+
+namespace hearth::textures
+{
+
+namespace
+{
+
+using namespace test;
+using formats::ImageRecord;
+using formats::TexelFormat;
+
+constexpr std::array<std::array<uint32_t, 2>, 8> kSizes = {
+    {{1, 1}, {1, 7}, {64, 1}, {5, 3}, {17, 33}, {64, 64}, {100, 60}, {1, 1025}}};
+
+double linearMean(const std::vector<Rgba8>& texels, size_t channel)
+{
+    double sum = 0;
+    for (const Rgba8& texel : texels)
+        sum += double{SrgbTables::get().linear(texel[channel])};
+    return sum / static_cast<double>(texels.size());
+}
+
+double mean(const std::vector<Rgba8>& texels, size_t channel)
+{
+    double sum = 0;
+    for (const Rgba8& texel : texels)
+        sum += texel[channel];
+    return sum / static_cast<double>(texels.size());
+}
+
+TEST(MipChain, endsAtOneTexelAndKeepsTheFinest)
+{
+    for (const auto& [width, height] : kSizes)
+    {
+        ImageRecord image = recordOf(width, height);
+        image.mip_count = fullMipCount(width, height);
+        const std::vector<std::byte> texels = randomBytes(size_t{width} * height * 4, 1);
+        const std::vector<std::byte> chain = buildMipChain(image, texels);
+        ASSERT_EQ(chain.size(), formats::mipOffset(image, image.mip_count));
+        EXPECT_EQ(formats::mipExtent(image, image.mip_count - 1).width, 1u);
+        EXPECT_EQ(formats::mipExtent(image, image.mip_count - 1).height, 1u);
+        EXPECT_TRUE(std::equal(texels.begin(), texels.end(), chain.begin()));
+    }
+}
+
+TEST(MipChain, constantStaysConstant)
+{
+    const auto check = [](ImageRecord image, Rgba8 texel)
+    {
+        for (const auto& [width, height] : kSizes)
+        {
+            image.width = width;
+            image.height = height;
+            ASSERT_EQ(
+                buildMipChain(image, filled(width, height, texel)),
+                filled(static_cast<uint32_t>(formats::mipOffset(image, fullMipCount(width, height)) / 4), 1,
+                       texel));
+        }
+    };
+    check(recordOf(1, 1), {200, 3, 77, 255});
+    check(recordOf(1, 1), {200, 3, 77, 1});
+    check(recordOf(1, 1), {200, 3, 77, 0});
+    check(recordOf(1, 1, TexelFormat::rgba8_unorm), {1, 254, 128, 9});
+    check(recordOf(1, 1, TexelFormat::rgba8_unorm, formats::kImageNormalMap), {128, 128, 255, 255});
+    check(recordOf(1, 1, TexelFormat::rgba8_srgb, formats::kImageAlphaTested), {10, 20, 30, 255});
+    check(recordOf(1, 1, TexelFormat::rgba8_srgb, formats::kImageAlphaTested), {10, 20, 30, 128});
+    check(recordOf(1, 1, TexelFormat::rgba8_srgb, formats::kImageAlphaTested), {10, 20, 30, 127});
+}
+
+TEST(MipChain, blackAndWhiteAverageInLinearLight)
+{
+    std::vector<std::byte> texels = filled(2, 1, {0, 0, 0, 255});
+    std::fill(texels.begin() + 4, texels.end(), std::byte{255});
+    const ImageRecord color = recordOf(2, 1);
+    EXPECT_EQ(mipOf(color, buildMipChain(color, texels), 1)[0], (Rgba8{188, 188, 188, 255}));
+    const ImageRecord data = recordOf(2, 1, TexelFormat::rgba8_unorm);
+    EXPECT_EQ(mipOf(data, buildMipChain(data, texels), 1)[0], (Rgba8{128, 128, 128, 255}));
+}
+
+TEST(MipChain, oddSizesWeightByArea)
+{
+    // five texels become two: each covers two and a half
+    std::vector<std::byte> texels = filled(5, 1, {0, 0, 0, 0});
+    for (size_t i = 0; i < 5; ++i)
+        texels[i * 4] = static_cast<std::byte>(i * 50);
+    const ImageRecord image = recordOf(5, 1, TexelFormat::rgba8_unorm);
+    const std::vector<Rgba8> mip = mipOf(image, buildMipChain(image, texels), 1);
+    ASSERT_EQ(mip.size(), 2u);
+    EXPECT_EQ(mip[0][0], 40);  // (0 + 50 + 0.5 * 100) / 2.5
+    EXPECT_EQ(mip[1][0], 160); // (0.5 * 100 + 150 + 200) / 2.5
+}
+
+TEST(MipChain, keepsTheEnergy)
+{
+    for (const auto& [width, height] : kSizes)
+    {
+        const ImageRecord image = recordOf(width, height);
+        std::vector<std::byte> texels = randomBytes(size_t{width} * height * 4, width * 31 + height);
+        for (size_t at = 3; at < texels.size(); at += 4)
+            texels[at] = std::byte{255};
+        const std::vector<std::byte> chain = buildMipChain(image, texels);
+        for (size_t channel = 0; channel < 3; ++channel)
+        {
+            const double finest = linearMean(mipOf(image, chain, 0), channel);
+            for (uint32_t mip = 1; mip < fullMipCount(width, height); ++mip)
+                // half a step of 8 bits, where the curve is steepest
+                EXPECT_NEAR(linearMean(mipOf(image, chain, mip), channel), finest, 0.5 / 255 * 2.3);
+        }
+    }
+}
+
+TEST(MipChain, keepsTheMeanOfDataAndAlpha)
+{
+    const ImageRecord image = recordOf(61, 37, TexelFormat::rgba8_unorm);
+    const std::vector<std::byte> chain = buildMipChain(image, randomBytes(61 * 37 * 4, 5));
+    for (size_t channel = 0; channel < 4; ++channel)
+        for (uint32_t mip = 1; mip < fullMipCount(61, 37); ++mip)
+            EXPECT_NEAR(mean(mipOf(image, chain, mip), channel), mean(mipOf(image, chain, 0), channel), 0.5);
+}
+
+TEST(MipChain, whatIsTransparentDoesNotBleed)
+{
+    // green leaves on black nothing
+    std::vector<std::byte> texels = filled(8, 8, {0, 0, 0, 0});
+    for (size_t i = 0; i < 64; i += 3)
+        std::copy_n(filled(1, 1, {30, 200, 40, 255}).begin(), 4,
+                    texels.begin() + static_cast<std::ptrdiff_t>(i * 4));
+    const ImageRecord image = recordOf(8, 8);
+    const std::vector<std::byte> chain = buildMipChain(image, texels);
+    for (uint32_t mip = 1; mip < 4; ++mip)
+        for (const Rgba8& texel : mipOf(image, chain, mip))
+        {
+            if (texel[3] == 0)
+                continue;
+            EXPECT_EQ((Rgba8{texel[0], texel[1], texel[2], 0}), (Rgba8{30, 200, 40, 0}));
+        }
+    EXPECT_NEAR(mipOf(image, chain, 3)[0][3], 255.0 * 22 / 64, 1);
+}
+
+TEST(MipChain, whereAllIsTransparentTheColourIsThePlainMean)
+{
+    std::vector<std::byte> texels = filled(2, 1, {0, 0, 0, 0});
+    texels[4] = std::byte{255};
+    const ImageRecord image = recordOf(2, 1);
+    EXPECT_EQ(mipOf(image, buildMipChain(image, texels), 1)[0], (Rgba8{188, 0, 0, 0}));
+}
+
+Float3 directionOf(const Rgba8& texel)
+{
+    const auto component = [](uint8_t value) { return static_cast<float>(value) / 127.5f - 1; };
+    return {component(texel[0]), component(texel[1]), component(texel[2])};
+}
+
+TEST(MipChain, normalsAreDirectionsAndUnit)
+{
+    const ImageRecord image = recordOf(33, 20, TexelFormat::rgba8_unorm, formats::kImageNormalMap);
+    const std::vector<std::byte> chain = buildMipChain(image, randomBytes(33 * 20 * 4, 9));
+    for (uint32_t mip = 1; mip < fullMipCount(33, 20); ++mip)
+        for (const Rgba8& texel : mipOf(image, chain, mip))
+            EXPECT_NEAR(length(directionOf(texel)), 1, 0.01);
+}
+
+TEST(MipChain, normalsThatLeanApartMeetInTheMiddle)
+{
+    // 45 degrees to the left and to the right, the left one stored too short: length must not count
+    std::vector<std::byte> texels = filled(2, 1, {128 + 90, 128, 128 + 90, 255});
+    const Rgba8 left = {128 - 45, 128, 128 + 45, 255};
+    for (size_t c = 0; c < 4; ++c)
+        texels[4 + c] = std::byte{left[c]};
+    const ImageRecord image = recordOf(2, 1, TexelFormat::rgba8_unorm, formats::kImageNormalMap);
+    const Float3 direction = directionOf(mipOf(image, buildMipChain(image, texels), 1)[0]);
+    EXPECT_NEAR(direction.x, 0, 0.01);
+    EXPECT_NEAR(direction.z, 1, 0.01);
+}
+
+TEST(MipChain, opposedNormalsGiveTheFlatOne)
+{
+    std::vector<std::byte> texels = filled(2, 1, {255, 127, 127, 255});
+    texels[4] = std::byte{0};
+    texels[5] = texels[6] = std::byte{128};
+    const ImageRecord image = recordOf(2, 1, TexelFormat::rgba8_unorm, formats::kImageNormalMap);
+    EXPECT_EQ(mipOf(image, buildMipChain(image, texels), 1)[0], (Rgba8{128, 128, 255, 255}));
+}
+
+TEST(MipChain, floatImagesKeepTheirRange)
+{
+    const std::array<uint16_t, 8> half = {finiteHalf(60000), finiteHalf(0.25f), finiteHalf(-1),
+                                          finiteHalf(1),     finiteHalf(0),     finiteHalf(0.75f),
+                                          finiteHalf(-2),    finiteHalf(0)};
+    std::vector<std::byte> texels(sizeof(half));
+    std::memcpy(texels.data(), half.data(), sizeof(half));
+    const std::vector<std::byte> chain = buildMipChain(recordOf(2, 1, TexelFormat::rgba16_float), texels);
+    ASSERT_EQ(chain.size(), 24u);
+    std::array<uint16_t, 4> mip;
+    std::memcpy(mip.data(), chain.data() + 16, sizeof(mip));
+    EXPECT_EQ(floatFromHalf(mip[0]), 30000);
+    EXPECT_EQ(floatFromHalf(mip[1]), 0.5f);
+    EXPECT_EQ(floatFromHalf(mip[2]), -1.5f);
+    EXPECT_EQ(floatFromHalf(mip[3]), 0.5f);
+}
+
+TEST(MipChain, sameBytesForAnyNumberOfThreads)
+{
+    const ImageRecord image = recordOf(301, 203, TexelFormat::rgba8_srgb, formats::kImageAlphaTested);
+    const std::vector<std::byte> texels = randomBytes(301 * 203 * 4, 3);
+    std::vector<std::vector<std::byte>> chains;
+    for (const size_t threads : {1u, 2u, 7u})
+    {
+        const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+        chains.push_back(buildMipChain(image, texels));
+    }
+    EXPECT_EQ(chains[0], chains[1]);
+    EXPECT_EQ(chains[0], chains[2]);
+}
+
+} // namespace
+
+} // namespace hearth::textures

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/textures/texture_part.h"
+
+#include "cook/textures/mip_chain.h"
+#include "formats/container_writer.h"
+#include "tests/formats/temporary_folder.h"
+#include "tests/textures/texture_test_images.h"
+
+#include <gtest/gtest.h>
+
+namespace hearth::textures
+{
+
+namespace
+{
+
+using namespace test;
+using namespace formats;
+using hearth::test::TemporaryFolder;
+
+/// Writes an import part with these images; `lost` leaves out the texels of one.
+void writeImport(const std::string& path, std::span<const ImageRecord> images,
+                 std::span<const std::vector<std::byte>> texels)
+{
+    auto writer = ContainerWriter::create(path, ContainerKind::part);
+    ASSERT_TRUE(writer.ok());
+    for (uint32_t i = 0; i < texels.size(); ++i)
+        ASSERT_TRUE(writer->addChunk({.type = kChunkImageData, .index = i}, texels[i], 1, Codec::none).ok());
+    ASSERT_TRUE(writer->addRecords<ImageRecord>(kChunkImages, images).ok());
+    ASSERT_TRUE(writer->finish().ok());
+}
+
+TEST(CookTextures, writesEveryImageWithItsMips)
+{
+    const TemporaryFolder folder;
+    std::vector<ImageRecord> images = {recordOf(12, 7), recordOf(4, 4, TexelFormat::rgba16_float)};
+    images[0].name = {3, 4};
+    const std::vector<std::vector<std::byte>> texels = {randomBytes(12 * 7 * 4, 1),
+                                                        std::vector<std::byte>(4 * 4 * 8)};
+    writeImport(folder.file("in.part"), images, texels);
+    ASSERT_TRUE(cookTextures(folder.file("in.part"), folder.file("out.part")).ok());
+
+    const auto part = ContainerReader::open(folder.file("out.part"));
+    ASSERT_TRUE(part.ok());
+    const auto records = part->records<ImageRecord>(kChunkImages);
+    ASSERT_TRUE(records.ok());
+    ASSERT_EQ(records->size(), 2u);
+    for (uint32_t i = 0; i < 2; ++i)
+    {
+        const auto data = part->read(kChunkImageData, i);
+        ASSERT_TRUE(data.ok());
+        EXPECT_EQ((*records)[i].mip_count, fullMipCount(images[i].width, images[i].height));
+        const std::vector<std::byte> expected = buildMipChain(images[i], texels[i]);
+        EXPECT_TRUE(std::equal(expected.begin(), expected.end(), data->bytes().begin(), data->bytes().end()));
+    }
+    EXPECT_EQ((*records)[0].name.offset, 3u);
+}
+
+TEST(CookTextures, partWithoutImagesGivesAnEmptyTable)
+{
+    const TemporaryFolder folder;
+    writeImport(folder.file("in.part"), {}, {});
+    ASSERT_TRUE(cookTextures(folder.file("in.part"), folder.file("out.part")).ok());
+    const auto part = ContainerReader::open(folder.file("out.part"));
+    ASSERT_TRUE(part.ok());
+    EXPECT_EQ(part->records<ImageRecord>(kChunkImages)->size(), 0u);
+}
+
+TEST(CookTextures, refusesDamagedRecordsAndLeavesNoOutput)
+{
+    struct Case
+    {
+        const char* name;
+        ImageRecord image;
+        size_t bytes;
+        Issue issue;
+    };
+    ImageRecord unknown_format = recordOf(2, 2);
+    unknown_format.format = 77;
+    const Case cases[] = {
+        {"no texels", recordOf(0, 4), 0, Issue::meaning_value},
+        {"too large", recordOf(16385, 1), 16385 * 4, Issue::meaning_value},
+        {"unknown format", unknown_format, 16, Issue::meaning_value},
+        {"too few bytes", recordOf(4, 4), 63, Issue::chunk_size},
+    };
+    for (const Case& c : cases)
+    {
+        const TemporaryFolder folder;
+        const std::vector<std::byte> texels(c.bytes);
+        writeImport(folder.file("in.part"), {&c.image, 1}, {&texels, 1});
+        const Status status = cookTextures(folder.file("in.part"), folder.file("out.part"));
+        ASSERT_FALSE(status.ok()) << c.name;
+        EXPECT_EQ(status.error().issue, c.issue) << c.name;
+        EXPECT_EQ(folder.files(), std::set<std::string>{"in.part"}) << c.name;
+    }
+}
+
+TEST(CookTextures, refusesAMissingPartAndMissingTexels)
+{
+    const TemporaryFolder folder;
+    EXPECT_EQ(cookTextures(folder.file("none.part"), folder.file("out.part")).error().issue,
+              Issue::input_missing);
+    const ImageRecord image = recordOf(2, 2);
+    writeImport(folder.file("in.part"), {&image, 1}, {});
+    EXPECT_EQ(cookTextures(folder.file("in.part"), folder.file("out.part")).error().issue,
+              Issue::chunk_missing);
+}
+
+} // namespace
+
+} // namespace hearth::textures
