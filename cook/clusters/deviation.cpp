@@ -115,7 +115,8 @@ public:
         corners_found_ = false;
         float upper2 = 0;
         size_t stack_size = 0;
-        stack_[stack_size++] = {addPoint(piece[0], {0, 0}), addPoint(piece[1], {1, 0}), addPoint(piece[2], {0, 1})};
+        stack_[stack_size++] = {addPoint(piece[0], {0, 0}), addPoint(piece[1], {1, 0}),
+                                addPoint(piece[2], {0, 1})};
         while (stack_size > 0)
         {
             // a true distance beyond what these facets can prove ends the search among them
@@ -219,8 +220,7 @@ private:
             const Float2 corner{x[lane], y[lane]};
             // each corner comes once for each of its facets
             const bool known = std::any_of(corners_.begin(), corners_.begin() + corner_count_,
-                                           [&](Float2 other)
-                                           {
+                                           [&](Float2 other) {
                                                return std::abs(other.x - corner.x) < kCornerMargin &&
                                                       std::abs(other.y - corner.y) < kCornerMargin;
                                            });
@@ -302,8 +302,9 @@ private:
         return y < allLanes(0) ? start / (start - y) : allLanes(1);
     }
 
-    static constexpr float kCornerMargin = 0.01f; ///< corners this near to an edge of the piece are left to its cuts
-    static constexpr float kShortest = 0.01f;     ///< part of an edge that is worth cutting off
+    static constexpr float kCornerMargin =
+        0.01f; ///< corners this near to an edge of the piece are left to its cuts
+    static constexpr float kShortest = 0.01f; ///< part of an edge that is worth cutting off
 
     std::span<const FacetBlock> blocks_;
     float allowed2_ = 0;
@@ -329,7 +330,8 @@ Box3 boxAround(const Corners& corners, float radius)
 
 float sizeOf(const Corners& corners)
 {
-    return std::max({length(corners[1] - corners[0]), length(corners[2] - corners[1]), length(corners[0] - corners[2])});
+    return std::max(
+        {length(corners[1] - corners[0]), length(corners[2] - corners[1]), length(corners[0] - corners[2])});
 }
 
 /// Halves the longest edge.
@@ -361,7 +363,8 @@ public:
         if (!likely.empty())
         {
             candidates_.load(grid, likely);
-            const Bound bound = bounder_.bound(triangle, candidates_.blocks(), allowed2(floor2), 0, kQuickPoints);
+            const Bound bound =
+                bounder_.bound(triangle, candidates_.blocks(), allowed2(floor2), 0, kQuickPoints);
             if (bound.closed)
             {
                 worst2_ = std::max(worst2_, bound.upper2);
@@ -492,9 +495,14 @@ class GroupMeasure
 {
 public:
     GroupMeasure(const GroupMesh& group, const Simplified& simplified)
-        : group_(group), simplified_(simplified), before_(placesOf(group, group.corners)),
-          after_(placesOf(group, simplified.corners)), before_grid_(before_), after_grid_(after_),
-          before_stars_(group, group.corners), after_stars_(group, simplified.corners)
+        : group_(group),
+          simplified_(simplified),
+          before_(placesOf(group, group.corners)),
+          after_(placesOf(group, simplified.corners)),
+          before_grid_(before_),
+          after_grid_(after_),
+          before_stars_(group, group.corners),
+          after_stars_(group, simplified.corners)
     {
     }
 
@@ -513,7 +521,10 @@ public:
     }
 
 private:
-    uint32_t targetOf(size_t corner) const { return simplified_.target_of_position[group_.positionAt(corner)]; }
+    uint32_t targetOf(size_t corner) const
+    {
+        return simplified_.target_of_position[group_.positionAt(corner)];
+    }
 
     bool movedCorner(size_t triangle) const
     {
@@ -527,7 +538,8 @@ private:
     {
         likely_.clear();
         for (size_t corner = t * 3; corner < t * 3 + 3; ++corner)
-            if (const uint32_t target = targetOf(corner); target != kPruned && target != group_.positionAt(corner))
+            if (const uint32_t target = targetOf(corner);
+                target != kPruned && target != group_.positionAt(corner))
                 addLikely(after_stars_.of(target), likely_);
         measure_.add({before_[t * 3], before_[t * 3 + 1], before_[t * 3 + 2]}, after_grid_, likely_);
     }

@@ -45,7 +45,8 @@ FacetGrid::FacetGrid(std::span<const Float3> places) : stamp_(places.size() / 3,
     origin_ = all.min;
     cells_per_unit_ = 1 / cell;
     for (int axis = 0; axis < 3; ++axis)
-        size_[axis] = std::clamp(static_cast<int32_t>(extent[axis] * cells_per_unit_) + 1, 1, kMaxCellsPerAxis);
+        size_[axis] =
+            std::clamp(static_cast<int32_t>(extent[axis] * cells_per_unit_) + 1, 1, kMaxCellsPerAxis);
 
     offsets_.assign(cellAt(0, 0, size_[2]) + 1, 0);
     for (const Box3& box : boxes_)

@@ -57,14 +57,15 @@ class Collapser
 {
 public:
     explicit Collapser(const GroupMesh& group)
-        : group_(group), mesh_(group), quadrics_(initialQuadrics(group)), version_(group.positions.size(), 0),
-          best_target_(group.positions.size(), kNoPosition), target_(group.positions.size())
+        : group_(group),
+          mesh_(group),
+          quadrics_(initialQuadrics(group)),
+          version_(group.positions.size(), 0),
+          best_target_(group.positions.size(), kNoPosition),
+          target_(group.positions.size())
     {
         for (uint32_t p = 0; p < target_.size(); ++p)
             target_[p] = p;
-        for (uint32_t p = 0; p < target_.size(); ++p)
-            if (group_.locked[p] == 0)
-                holdEdges(p);
     }
 
     size_t triangleCount() const { return mesh_.aliveCount(); }
@@ -74,8 +75,14 @@ public:
         permissive_ = permissive;
         heap_.clear();
         for (uint32_t p = 0; p < target_.size(); ++p)
-            if (target_[p] == p)
-                evaluate(p);
+            if (target_[p] == p && group_.locked[p] == 0)
+            {
+                mesh_.gather(p);
+                if (!edges_held_)
+                    holdEdges(p);
+                evaluateGathered(p);
+            }
+        edges_held_ = true;
         while (mesh_.aliveCount() > target_triangles && !heap_.empty())
             step();
     }
@@ -92,7 +99,7 @@ private:
     float cost(uint32_t from, uint32_t to) const;
     void gatherCandidates(uint32_t position);
     void push(uint32_t position, Candidate candidate);
-    void evaluate(uint32_t position);
+    void evaluateGathered(uint32_t position);
     void evaluateValid(uint32_t position, float popped_cost);
     bool turnsOver(uint32_t from, uint32_t to);
     bool valid(uint32_t from, uint32_t to) { return mesh_.linkHolds(from, to) && !turnsOver(from, to); }
@@ -108,6 +115,7 @@ private:
     std::vector<uint32_t> target_;      ///< of removed positions, the next one
     std::vector<HeapEntry> heap_;
     bool permissive_ = false;
+    bool edges_held_ = false;
 
     // scratch
     uint32_t layers_ = 1;
@@ -116,10 +124,10 @@ private:
     std::vector<uint32_t> around_;
 };
 
-/// Planes that hold open borders, edges of more than two triangles, and seams. Each end of an edge takes its own.
+/// Planes that hold open borders, edges of more than two triangles, and seams at the gathered position. Each end of an
+/// edge takes its own.
 void Collapser::holdEdges(uint32_t position)
 {
-    mesh_.gather(position);
     const uint32_t layers = mesh_.layers();
     for (const Spoke& spoke : mesh_.ring())
     {
@@ -221,22 +229,21 @@ float Collapser::cost(uint32_t from, uint32_t to) const
         for (uint32_t i = 0; i < count; ++i)
         {
             const float delta = attributes_to[i] - attributes_from[i];
-            error += delta * (wedge_weight * delta - 2 * (dot(gradients[i].gradient, t) + gradients[i].offset));
+            error +=
+                delta * (wedge_weight * delta - 2 * (dot(gradients[i].gradient, t) + gradients[i].offset));
         }
     }
     return std::max(error, 0.0f) + kLengthWeight * weight * dot(t, t);
 }
 
-/// All collapses of a position that respect borders and wedges, into candidates_.
+/// All collapses of the gathered position that respect borders and wedges, into candidates_.
 void Collapser::gatherCandidates(uint32_t position)
 {
     candidates_.clear();
-    if (group_.locked[position] != 0)
-        return;
-    mesh_.gather(position);
     layers_ = mesh_.layers();
     const auto ring = mesh_.ring();
-    const auto irregular = std::count_if(ring.begin(), ring.end(), [&](const Spoke& s) { return !s.regular(layers_); });
+    const auto irregular =
+        std::count_if(ring.begin(), ring.end(), [&](const Spoke& s) { return !s.regular(layers_); });
     if (irregular != 0 && irregular != 2)
         return;
     for (const Spoke& spoke : ring)
@@ -256,8 +263,8 @@ void Collapser::push(uint32_t position, Candidate candidate)
     std::push_heap(heap_.begin(), heap_.end());
 }
 
-/// Put the cheapest collapse of a position into the heap; whether it is valid is seen when it comes out.
-void Collapser::evaluate(uint32_t position)
+/// Put the cheapest collapse of the gathered position into the heap; whether it is valid is seen when it comes out.
+void Collapser::evaluateGathered(uint32_t position)
 {
     ++version_[position];
     best_target_[position] = kNoPosition;
@@ -322,7 +329,8 @@ void Collapser::moveQuadrics(uint32_t from, uint32_t to)
         quadrics_.wedge_weight[move.to] += weight;
         for (uint32_t i = 0; i < count; ++i)
         {
-            const float delta = group_.attributes[move.to * count + i] - group_.attributes[move.from * count + i];
+            const float delta =
+                group_.attributes[move.to * count + i] - group_.attributes[move.from * count + i];
             const AttributeGradient g = quadrics_.gradients[move.from * count + i];
             AttributeGradient& goal = quadrics_.gradients[move.to * count + i];
             moved.c += delta * (weight * delta - 2 * g.offset);
@@ -341,11 +349,16 @@ void Collapser::evaluateAround(uint32_t removed, uint32_t center)
     mesh_.gather(center);
     around_.clear();
     for (const Spoke& spoke : mesh_.ring())
-        if (best_target_[spoke.position] == removed || best_target_[spoke.position] == kNoPosition)
+        if (group_.locked[spoke.position] == 0 &&
+            (best_target_[spoke.position] == removed || best_target_[spoke.position] == kNoPosition))
             around_.push_back(spoke.position);
-    evaluate(center);
+    if (group_.locked[center] == 0)
+        evaluateGathered(center);
     for (const uint32_t position : around_)
-        evaluate(position);
+    {
+        mesh_.gather(position);
+        evaluateGathered(position);
+    }
 }
 
 void Collapser::step()
@@ -389,7 +402,8 @@ bool Collapser::pruneIslands(size_t target_triangles)
         if (mesh_.alive(t))
         {
             triangles.push_back(t);
-            positions.insert(positions.end(), mesh_.triangle(t).position.begin(), mesh_.triangle(t).position.end());
+            positions.insert(positions.end(), mesh_.triangle(t).position.begin(),
+                             mesh_.triangle(t).position.end());
         }
     const std::vector<uint32_t> island_of = islandOfTriangles(positions, group_.positions.size());
     std::vector<Island> islands(group_.positions.size());
@@ -404,7 +418,8 @@ bool Collapser::pruneIslands(size_t target_triangles)
         }
     }
     std::erase_if(islands, [](const Island& island) { return island.triangles.empty() || island.locked; });
-    std::stable_sort(islands.begin(), islands.end(), [](const Island& a, const Island& b)
+    std::stable_sort(islands.begin(), islands.end(),
+                     [](const Island& a, const Island& b)
                      { return length(a.box.max - a.box.min) < length(b.box.max - b.box.min); });
     bool pruned = false;
     for (const Island& island : islands)

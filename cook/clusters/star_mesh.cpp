@@ -9,8 +9,11 @@ namespace hearth::clusters
 {
 
 StarMesh::StarMesh(const GroupMesh& group)
-    : triangles_(group.triangleCount()), alive_(group.triangleCount(), 1), alive_count_(group.triangleCount()),
-      stars_(group.positions.size()), mark_(group.positions.size(), 0)
+    : triangles_(group.triangleCount()),
+      alive_(group.triangleCount(), 1),
+      alive_count_(group.triangleCount()),
+      stars_(group.positions.size()),
+      mark_(group.positions.size(), 0)
 {
     for (size_t corner = 0; corner < group.corners.size(); ++corner)
     {
@@ -158,8 +161,9 @@ void StarMesh::collapse(uint32_t from, uint32_t to, std::span<const WedgeMove> m
         }
         const size_t at = triangle.cornerAt(from);
         triangle.position[at] = to;
-        triangle.wedge[at] =
-            std::find_if(moves.begin(), moves.end(), [&](WedgeMove m) { return m.from == triangle.wedge[at]; })->to;
+        triangle.wedge[at] = std::find_if(moves.begin(), moves.end(),
+                                          [&](WedgeMove m) { return m.from == triangle.wedge[at]; })
+                                 ->to;
         star_items_.push_back(t);
     }
     stars_[to] = {first, static_cast<uint32_t>(star_items_.size()) - first};

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/clusters/hierarchy.h"
 #include "cook/clusters/validate.h"
-#include "tests/cook/cuts.h"
 #include "tests/cook/shapes.h"
+#include "tests/cook/soundness.h"
 
 #include <gtest/gtest.h>
 
@@ -25,28 +25,9 @@ std::string messageOf(const Status& status)
     return status.ok() ? "" : formatMessage(status.error());
 }
 
-/// Valid, and no crack in cuts of every kind.
 void expectSound(const SourceMesh& mesh, const Hierarchy& hierarchy)
 {
-    ASSERT_EQ(messageOf(clusters::validateHierarchy(mesh, hierarchy)), "");
-    const auto decoded = clusters::decodeHierarchy(hierarchy);
-    ASSERT_TRUE(decoded.ok());
-    const cuts::Border border = cuts::borderOf(hierarchy, *decoded);
-    const auto check = [&](const std::vector<uint8_t>& replaced)
-    { return cuts::crackOf(border, cuts::trianglesOfCut(hierarchy, *decoded, replaced)); };
-
-    for (const auto& level : hierarchy.levels)
-        EXPECT_EQ(check(cuts::cutAtError(hierarchy, level.max_error)), "");
-    std::mt19937 random(7);
-    for (int i = 0; i < 8; ++i)
-    {
-        EXPECT_EQ(check(cuts::randomCut(hierarchy, 0.5 + 0.06 * i, random)), "");
-        const auto uniform = [&] { return static_cast<float>(random()) / 2147483648.0f - 1.0f; };
-        const Float3 middle = hierarchy.mesh.box_min * 0.5f + hierarchy.mesh.box_max * 0.5f;
-        const Float3 half = hierarchy.mesh.box_max * 0.5f - hierarchy.mesh.box_min * 0.5f;
-        const Float3 eye = middle + half * Float3{uniform(), uniform(), uniform()} * 2.0f;
-        EXPECT_EQ(check(cuts::cutFromEye(hierarchy, eye, std::pow(10.0, -0.5 * i))), "");
-    }
+    EXPECT_EQ(cuts::unsoundness(mesh, hierarchy), "");
 }
 
 void expectSound(const SourceMesh& mesh)

@@ -1,0 +1,89 @@
+// Welding, the exact degenerate test and open edges.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/mesh/triangles.h"
+#include "cook/mesh/weld.h"
+#include "tests/cook/shapes.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace
+{
+
+using namespace hearth;
+using testing::ElementsAre;
+using testing::IsEmpty;
+
+TEST(WeldPositions, joinsEqualPlacesAndBothZeros)
+{
+    const std::vector<Float3> positions{
+        {1, 2, 3}, {0.0f, 1, 0}, {-0.0f, 1, -0.0f}, {1, 2, 3}, {1, 2, 3.0000002f}};
+    const mesh::Weld weld = mesh::weldPositions(positions);
+    EXPECT_THAT(weld.position_of_vertex, ElementsAre(0, 1, 1, 0, 2));
+    EXPECT_EQ(weld.position_count, 3u);
+}
+
+TEST(WeldPositions, findsTheCubeUnderItsCharts)
+{
+    const mesh::SourceMesh cube = shapes::rock(1, 0);
+    EXPECT_EQ(cube.vertexCount(), 24u);
+    EXPECT_EQ(mesh::weldPositions(cube.positions).position_count, 8u);
+}
+
+TEST(FirstEqualVertices, comparesEveryArray)
+{
+    mesh::SourceMesh mesh;
+    mesh.positions.assign(5, {1, 2, 3});
+    mesh.normals.assign(5, {0, 0, 1});
+    mesh.uvs[2].assign(5, {0.5f, 0.5f});
+    mesh.joint_sets.push_back(std::vector<mesh::Joints4>(5, {{1, 2, 3, 4}}));
+    mesh.weight_sets.push_back(std::vector<Float4>(5, {1, 0, 0, 0}));
+    mesh.morph_targets.emplace_back().positions.assign(5, {});
+    mesh.uvs[2][1] = {0.5f, 0.25f};
+    mesh.joint_sets[0][2].joint[3] = 5;
+    mesh.morph_targets[0].positions[3] = {0, 0, 1};
+    EXPECT_THAT(mesh::firstEqualVertices(mesh), ElementsAre(0, 1, 2, 3, 0));
+}
+
+TEST(IsDegenerate, isExactOnNeedles)
+{
+    EXPECT_TRUE(mesh::isDegenerate({1, 1, 1}, {1, 1, 1}, {2, 3, 4}));
+    EXPECT_TRUE(mesh::isDegenerate({0.1f, 0.1f, 0.1f}, {0.2f, 0.2f, 0.2f}, {0.4f, 0.4f, 0.4f}));
+    // one bit off the line, far from the origin and on large and small scales
+    const float third = 3.0f;
+    EXPECT_FALSE(mesh::isDegenerate({1, 1, 1}, {2, 2, 2}, {third, third, std::nextafter(third, 4.0f)}));
+    EXPECT_FALSE(mesh::isDegenerate({1e30f, 0, 0}, {2e30f, 0, 0}, {3e30f, 1e-38f, 0}));
+    EXPECT_FALSE(mesh::isDegenerate({1e-40f, 0, 0}, {2e-40f, 0, 0}, {3e-40f, 1e-44f, 0}));
+    EXPECT_TRUE(mesh::isDegenerate({1e-40f, 0, 0}, {2e-40f, 0, 0}, {4e-40f, 0, 0}));
+    EXPECT_TRUE(mesh::isDegenerate({3e38f, 3e38f, 3e38f}, {-3e38f, -3e38f, -3e38f}, {0, 0, 0}));
+}
+
+TEST(IsDegenerate, agreesWithIntegerArithmetic)
+{
+    // small integers scaled by a power of two: the area is known exactly
+    for (int i = 0; i < 4096; ++i)
+    {
+        const int bx = i % 8, by = i / 8 % 8, cx = i / 64 % 8, cy = i / 512;
+        const bool flat = bx * cy - by * cx == 0;
+        const auto at = [](int x, int y) {
+            return Float3{static_cast<float>(x) * 0.125f + 1024, static_cast<float>(y), 7};
+        };
+        EXPECT_EQ(mesh::isDegenerate(at(0, 0), at(bx, by), at(cx, cy)), flat) << i;
+    }
+}
+
+TEST(OpenEdges, areTheBorderWithItsDirection)
+{
+    const std::vector<uint32_t> two_triangles{0, 1, 2, 2, 1, 3};
+    using mesh::OpenEdge;
+    EXPECT_THAT(mesh::openEdges(two_triangles),
+                ElementsAre(OpenEdge{0, 1, 1}, OpenEdge{1, 3, 1}, OpenEdge{2, 0, 1}, OpenEdge{3, 2, 1}));
+    const std::vector<uint32_t> closed{0, 1, 2, 0, 3, 1, 1, 3, 2, 0, 2, 3};
+    EXPECT_THAT(mesh::openEdges(closed), IsEmpty());
+    const std::vector<uint32_t> wrong_way{0, 1, 2, 1, 2, 3};
+    EXPECT_THAT(mesh::openEdges(wrong_way), testing::Contains(OpenEdge{1, 2, 2}));
+}
+
+} // namespace

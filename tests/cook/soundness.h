@@ -1,0 +1,16 @@
+// The whole promise of a hierarchy in one call.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "cook/clusters/hierarchy.h"
+
+#include <string>
+
+namespace hearth::cuts
+{
+
+/// Empty if the hierarchy is valid and no cut of several kinds has a crack, else what is wrong first:
+/// the cut at every level's error, random closed cuts, and cuts as eyes in and around the mesh see them.
+std::string unsoundness(const mesh::SourceMesh& mesh, const clusters::Hierarchy& hierarchy);
+
+} // namespace hearth::cuts

@@ -1,0 +1,116 @@
+// The checker itself: every promise that is broken on purpose is found.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/clusters/validate.h"
+#include "tests/cook/cuts.h"
+#include "tests/cook/shapes.h"
+#include "tests/cook/soundness.h"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+
+namespace
+{
+
+using namespace hearth;
+using clusters::Hierarchy;
+
+class Validate : public testing::Test
+{
+protected:
+    /// The issue that the checker names after `change`.
+    Issue after(const std::function<void(Hierarchy&)>& change)
+    {
+        Hierarchy hierarchy = hierarchy_;
+        change(hierarchy);
+        const Status status = clusters::validateHierarchy(mesh_, hierarchy);
+        EXPECT_FALSE(status.ok());
+        return status.ok() ? Issue::usage : status.error().issue;
+    }
+
+    uint32_t firstOfLevel(const Hierarchy& h, uint32_t level) const { return h.levels[level].clusters.first; }
+
+    const mesh::SourceMesh mesh_ = shapes::rock(24, 0.3f);
+    const Hierarchy hierarchy_ = clusters::buildHierarchy(mesh_);
+};
+
+TEST_F(Validate, acceptsWhatTheBuilderMakes)
+{
+    EXPECT_EQ(cuts::unsoundness(mesh_, hierarchy_), "");
+    EXPECT_GE(hierarchy_.levels.size(), 4u);
+}
+
+TEST_F(Validate, findsErrorsThatFall)
+{
+    EXPECT_EQ(after([&](Hierarchy& h) { h.groups[h.clusters[firstOfLevel(h, 2)].group].error = 0; }),
+              Issue::meaning_monotone);
+    EXPECT_EQ(after([&](Hierarchy& h) { h.clusters[firstOfLevel(h, 1)].error *= 0.5f; }),
+              Issue::meaning_monotone);
+}
+
+TEST_F(Validate, findsSpheresThatAreLeft)
+{
+    EXPECT_EQ(
+        after([&](Hierarchy& h) { h.groups[h.clusters[firstOfLevel(h, 1)].group].sphere_radius *= 0.9f; }),
+        Issue::meaning_monotone);
+    EXPECT_EQ(after([&](Hierarchy& h) { h.clusters[firstOfLevel(h, 0)].sphere_radius *= 0.95f; }),
+              Issue::meaning_bounds);
+}
+
+TEST_F(Validate, findsBoxesAndConesThatAreLeft)
+{
+    EXPECT_EQ(after([&](Hierarchy& h) { h.clusters[5].box_max.x -= 1e-3f; }), Issue::meaning_bounds);
+    EXPECT_EQ(after(
+                  [&](Hierarchy& h)
+                  {
+                      for (auto& cluster : h.clusters)
+                          if (cluster.cone_cutoff < 1)
+                              cluster.cone_axis = -cluster.cone_axis;
+                  }),
+              Issue::meaning_bounds);
+    EXPECT_EQ(after(
+                  [&](Hierarchy& h)
+                  {
+                      for (auto& cluster : h.clusters)
+                          cluster.cone_apex += cluster.cone_axis * 10.0f;
+                  }),
+              Issue::meaning_bounds);
+}
+
+TEST_F(Validate, findsPagesThatDoNotFit)
+{
+    EXPECT_EQ(after([&](Hierarchy& h) { h.page_bytes[10] ^= std::byte{1}; }), Issue::page_hash);
+    EXPECT_EQ(after([&](Hierarchy& h) { h.pages.back().parents.count = 0; }), Issue::meaning_reference);
+    EXPECT_EQ(after([&](Hierarchy& h) { h.clusters.back().page = 0; }), Issue::meaning_reference);
+}
+
+TEST_F(Validate, findsTrianglesThatAreMissing)
+{
+    EXPECT_EQ(after(
+                  [&](Hierarchy& h)
+                  {
+                      --h.clusters.back().triangle_count;
+                      --h.levels[0].triangle_count;
+                  }),
+              Issue::meaning_geometry);
+    EXPECT_EQ(after([&](Hierarchy& h) { h.clusters.back().material = 7; }), Issue::meaning_geometry);
+}
+
+TEST_F(Validate, findsRootsThatAreReplaced)
+{
+    EXPECT_EQ(after([&](Hierarchy& h) { h.groups.front().error = 1e9f; }), Issue::meaning_tree);
+}
+
+TEST_F(Validate, seesTheCracksOfACutThatIsNotClosed)
+{
+    const auto decoded = clusters::decodeHierarchy(hierarchy_);
+    ASSERT_TRUE(decoded.ok());
+    const cuts::Border border = cuts::borderOf(hierarchy_, *decoded);
+    ASSERT_TRUE(border.closed);
+    auto triangles = cuts::trianglesOfCut(hierarchy_, *decoded, cuts::cutAtError(hierarchy_, 0.01));
+    EXPECT_EQ(cuts::crackOf(border, triangles), "");
+    triangles.resize(triangles.size() - 3);
+    EXPECT_NE(cuts::crackOf(border, triangles), "");
+}
+
+} // namespace
