@@ -186,7 +186,7 @@ TEST(SceneLighting, brightScenesAreScaledDownToTheKeyAndDimOnesAreNot)
         return gpu::makeLighting(test.build()).lights[0].intensity.x;
     };
     EXPECT_FLOAT_EQ(intensityOf(0.5f), 0.5f);
-    EXPECT_NEAR(intensityOf(100000), gpu::kKeyIlluminance, 1e-4f);
+    EXPECT_NEAR(intensityOf(100000), shared::kKeyIlluminance, 1e-4f);
 }
 
 TEST(SceneLighting, moreLightsThanFitAreLeftOut)
