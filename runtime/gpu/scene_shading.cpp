@@ -30,13 +30,13 @@ shared::Light makeLight(const formats::LightRecord& record)
     return light;
 }
 
-/// The sun of scenes without lights: over the shoulder of a camera that looks from +x +y +z, a little warm.
+/// The sun of scenes without lights.
 shared::Light defaultSun()
 {
     shared::Light sun{};
     sun.type = static_cast<uint32_t>(formats::LightType::directional);
-    sun.direction = normalizeOr({-0.25f, -0.8f, -0.55f}, {0, -1, 0});
-    sun.intensity = Float3{1.0f, 0.95f, 0.88f} * 2.6f;
+    sun.direction = normalizeOr(shared::kSunDirection, {0, -1, 0});
+    sun.intensity = shared::kSunIlluminance;
     return sun;
 }
 
@@ -128,9 +128,9 @@ Box3 sceneBounds(const formats::PackView& pack)
 shared::Lighting makeLighting(const formats::PackView& pack)
 {
     shared::Lighting lighting{};
-    lighting.sky_zenith = {0.42f, 0.52f, 0.68f};
-    lighting.sky_horizon = {0.62f, 0.64f, 0.66f};
-    lighting.sky_ground = {0.19f, 0.175f, 0.16f};
+    lighting.sky_zenith = shared::kSkyZenith;
+    lighting.sky_horizon = shared::kSkyHorizon;
+    lighting.sky_ground = shared::kSkyGround;
 
     const Box3 bounds = sceneBounds(pack);
     float illuminance = 0;
@@ -144,7 +144,8 @@ shared::Lighting makeLighting(const formats::PackView& pack)
     }
     if (lighting.light_count == 0)
         lighting.lights[lighting.light_count++] = defaultSun();
-    const float exposure = illuminance > kKeyIlluminance ? kKeyIlluminance / illuminance : 1.0f;
+    const float exposure =
+        illuminance > shared::kKeyIlluminance ? shared::kKeyIlluminance / illuminance : 1.0f;
     for (uint32_t i = 0; i < lighting.light_count; ++i)
         lighting.lights[i].intensity = lighting.lights[i].intensity * exposure;
     return lighting;

@@ -23,12 +23,9 @@ shared::Material makeMaterial(const formats::MaterialRecord& record);
 Box3 sceneBounds(const formats::PackView& pack);
 
 /// Lights and sky. A scene without lights gets one sun. The exposure rule: the light that the scene's lights send
-/// together to a point in the middle of the scene is estimated; where it is more than kKeyIlluminance, all lights are
+/// together to a point in the middle of the scene is estimated; where it is more than shared::kKeyIlluminance, all lights are
 /// scaled down to it, so that lamps in candela and suns in lux are shown by the same camera. Never scaled up: a dim
 /// light stays dim beside the sky. Emissive factors are display-referred (1 = white) and not scaled.
 shared::Lighting makeLighting(const formats::PackView& pack);
-
-/// Illuminance that makes a white diffuse surface as bright as display white: pi, then radiance is 1.
-inline constexpr float kKeyIlluminance = 3.14159265f;
 
 } // namespace hearth::gpu

@@ -166,7 +166,8 @@ void tangentFrame(Surface s, vec3 normal, uint uv_set, out vec3 tangent, out vec
         vec2 u2 = vertexUv(s.draw, s.vertices[2], uv_set) - a;
         float area = u1.x * u2.y - u2.x * u1.y;
         t = ((s.corners[1] - s.corners[0]) * u2.y - (s.corners[2] - s.corners[0]) * u1.y) * sign(area);
-        side *= area < 0.0 ? -1.0 : 1.0;
+        // v points down in the texture, the bitangent up: a chart that is not mirrored has a negative area
+        side *= area > 0.0 ? -1.0 : 1.0;
     }
     vec3 across = abs(normal.x) < 0.5 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0);
     tangent = normalizeOr(t, normalize(cross(normal, across)));

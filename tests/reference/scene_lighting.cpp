@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "tests/reference/scene_lighting.h"
 
+#include "formats/shared/shading.h"
+
 #include <algorithm>
 #include <limits>
 
@@ -11,8 +13,6 @@ using namespace formats;
 
 namespace
 {
-
-constexpr double kPi = 3.14159265358979323846;
 
 double smooth(double from, double to, double x)
 {
@@ -64,7 +64,7 @@ void sceneBox(const PackView& view, Double3& low, Double3& high)
     }
 }
 
-/// The exposure rule: lights that give the middle of the scene more than pi lux are dimmed to it, all alike.
+/// The exposure rule: lights that give the middle of the scene more than the key are dimmed to it, all alike.
 void expose(const PackView& view, std::vector<SceneLight>& lights)
 {
     Double3 low, high;
@@ -78,9 +78,10 @@ void expose(const PackView& view, std::vector<SceneLight>& lights)
         const double distance = std::max({length(light.position - center), 0.25 * radius, 1e-3});
         illuminance += light.type == LightType::directional ? luminance : luminance / (distance * distance);
     }
-    if (illuminance > kPi)
+    constexpr double kKey = shared::kKeyIlluminance;
+    if (illuminance > kKey)
         for (SceneLight& light : lights)
-            light.intensity = light.intensity * (kPi / illuminance);
+            light.intensity = light.intensity * (kKey / illuminance);
 }
 
 } // namespace
@@ -118,14 +119,15 @@ Double3 SceneLighting::irradiance(Double3 normal) const
 
 SceneLighting lightingOf(const PackView& view)
 {
-    SceneLighting lighting{{0.42, 0.52, 0.68}, {0.62, 0.64, 0.66}, {0.19, 0.175, 0.16}, {}};
+    SceneLighting lighting{
+        Double3(shared::kSkyZenith), Double3(shared::kSkyHorizon), Double3(shared::kSkyGround), {}};
     for (const LightRecord& record : view.lights())
         lighting.lights.push_back(lightOf(record));
     if (lighting.lights.empty())
         lighting.lights.push_back({LightType::directional,
                                    {},
-                                   normalize({-0.25, -0.8, -0.55}),
-                                   Double3{1.0, 0.95, 0.88} * 2.6,
+                                   normalize(Double3(shared::kSunDirection)),
+                                   Double3(shared::kSunIlluminance),
                                    0,
                                    1,
                                    0});

@@ -1,0 +1,279 @@
+// What is seen: culling changes nothing, whatever the size, the transforms and the number of threads.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "tests/cook/shapes.h"
+#include "tests/runtime/gpu_fixture.h"
+#include "tests/runtime/test_scene.h"
+
+#include <cstdlib>
+
+namespace hearth::test
+{
+
+namespace
+{
+
+using namespace shared;
+
+/// Rocks that overlap, sheared and mirrored, one of them two-sided.
+void fillRocks(TestScene& scene, int count, uint32_t seed)
+{
+    std::mt19937 random(seed);
+    formats::MaterialRecord two_sided = plainMaterial();
+    two_sided.flags = formats::kMaterialDoubleSided;
+    const uint32_t meshes[] = {
+        scene.addMesh(withMaterial(shapes::rock(24, 0.3f), scene.addMaterial(plainMaterial()))),
+        scene.addMesh(withMaterial(shapes::terrain(32), scene.addMaterial(two_sided)))};
+    scene.addInstance(meshes[0], Affine3{});
+    for (int i = 1; i < count; ++i)
+        scene.addInstance(meshes[i % 4 == 3 ? 1 : 0], randomAffine(random, 4));
+}
+
+Camera lookingAtOrigin(Float3 position)
+{
+    return {.position = position, .target = {0, 0, 0}, .y_fov_rad = 0.9f, .z_near = 0.05f};
+}
+
+class DrawingTest : public GpuTest
+{
+};
+
+} // namespace
+
+TEST_F(DrawingTest, cullingIsLossless)
+{
+    TestScene test;
+    fillRocks(test, 16, 21);
+    const formats::PackView pack = test.build();
+    const auto scene = upload(pack);
+    uint64_t culled = 0;
+    for (const Float3 eye : {Float3{9, 5, 7}, {0.3f, 0.2f, 0.1f}, {-4, 1, 0}, {0, 12, 0.001f}, {2, -3, 40}})
+    {
+        DrawOptions options{.width = 333, .height = 177, .error_pixels = 0, .flags = 0};
+        const Picture all = draw(*scene, lookingAtOrigin(eye), options);
+        for (const uint32_t flags : {kCullInstances, kCullFrustum, kCullCone, kCullEverything})
+        {
+            options.flags = flags;
+            const Picture some = draw(*scene, lookingAtOrigin(eye), options);
+            EXPECT_EQ(some.seen(), all.seen()) << "eye " << eye.x << " flags " << flags;
+            EXPECT_EQ(some.color, all.color);
+            culled += all.list.slots.size() - some.list.slots.size();
+        }
+    }
+    EXPECT_GT(culled, 1000u) << "a culling that culls nothing is not tested";
+}
+
+TEST_F(DrawingTest, coneCullingRemovesTheFarSideOfARock)
+{
+    TestScene test;
+    const uint32_t mesh =
+        test.addMesh(withMaterial(shapes::rock(32, 0.0f), test.addMaterial(plainMaterial())));
+    test.addInstance(mesh, Affine3{});
+    const formats::PackView pack = test.build();
+    const auto scene = upload(pack);
+    DrawOptions options{.error_pixels = 0, .flags = 0};
+    const size_t all = draw(*scene, lookingAtOrigin({0, 0, 5}), options).list.slots.size();
+    options.flags = kCullCone;
+    const size_t facing = draw(*scene, lookingAtOrigin({0, 0, 5}), options).list.slots.size();
+    EXPECT_LT(facing, all * 7 / 10);
+    EXPECT_GE(facing, all * 4 / 10);
+}
+
+TEST_F(DrawingTest, everySizeIsDrawn)
+{
+    TestScene test;
+    fillRocks(test, 5, 4);
+    const formats::PackView pack = test.build();
+    const auto scene = upload(pack);
+    for (const auto& [width, height] : {std::pair{1u, 1u}, {2u, 1u}, {1u, 97u}, {333u, 777u}, {64u, 64u}})
+    {
+        const Picture picture = draw(*scene, lookingAtOrigin({6, 4, 6}), {.width = width, .height = height});
+        EXPECT_EQ(picture.color.size(), size_t{width} * height);
+        EXPECT_NE(picture.visibility[height / 2 * width + width / 2], kNothingVisible);
+    }
+}
+
+TEST_F(DrawingTest, framesRepeatExactly)
+{
+    TestScene test;
+    fillRocks(test, 9, 8);
+    const formats::PackView pack = test.build();
+    const auto scene = upload(pack);
+    const Picture first = draw(*scene, lookingAtOrigin({6, 4, 6}));
+    draw(*scene, lookingAtOrigin({-2, 7, 1}), {.width = 64, .height = 64, .error_pixels = 30});
+    const Picture again = draw(*scene, lookingAtOrigin({6, 4, 6}));
+    EXPECT_EQ(first.visibility, again.visibility);
+    EXPECT_EQ(first.color, again.color);
+}
+
+TEST_F(DrawingTest, frontFacesAreCounterClockwiseAlsoWhenMirrored)
+{
+    TestScene test;
+    const uint32_t mesh = test.addMesh(withMaterial(makeQuad(1, 1), test.addMaterial(plainMaterial())));
+    Affine3 mirrored = translated({1, 0, 0});
+    mirrored.m[0][0] = -1;
+    test.addInstance(mesh, translated({-1, 0, 0}));
+    test.addInstance(mesh, mirrored);
+    const formats::PackView pack = test.build();
+    const auto scene = upload(pack);
+    const auto instancesSeen = [&](const Picture& picture)
+    {
+        uint32_t seen = 0;
+        for (const auto& [instance, cluster, triangle] : picture.seen())
+            if (instance != kNothingVisible)
+                seen |= 1u << instance;
+        return seen;
+    };
+    EXPECT_EQ(instancesSeen(draw(*scene, lookingAtOrigin({0, 0, 4}), {.flags = 0})), 3u);
+    EXPECT_EQ(instancesSeen(draw(*scene, lookingAtOrigin({0, 0, -4}), {.flags = 0})), 0u);
+}
+
+TEST_F(DrawingTest, nearerSurfacesHideThoseBehindThem)
+{
+    TestScene test;
+    const uint32_t mesh = test.addMesh(withMaterial(makeQuad(2, 2), test.addMaterial(plainMaterial())));
+    test.addInstance(mesh, translated({0, 0, -1}));
+    test.addInstance(mesh, translated({0, 0, 1}));
+    test.addInstance(mesh, translated({0, 0, 0}));
+    const formats::PackView pack = test.build();
+    const auto scene = upload(pack);
+    const Picture picture = draw(*scene, lookingAtOrigin({0, 0, 4}));
+    EXPECT_EQ(picture.seen()[60 * 160 + 80][0], 1u);
+}
+
+TEST_F(DrawingTest, blendedSurfacesCoverAsManyPixelsAsTheirAlphaSays)
+{
+    for (const float alpha : {0.0f, 0.25f, 0.5f, 1.0f})
+    {
+        TestScene test;
+        formats::MaterialRecord glass = plainMaterial();
+        glass.alpha_mode = static_cast<uint32_t>(formats::AlphaMode::blend);
+        glass.base_color.w = alpha;
+        test.addInstance(test.addMesh(withMaterial(makeQuad(100, 100), test.addMaterial(glass))), Affine3{});
+        const formats::PackView pack = test.build();
+        const auto scene = upload(pack);
+        const Picture picture = draw(*scene, lookingAtOrigin({0, 0, 4}), {.width = 64, .height = 64});
+        const auto covered =
+            4096 - std::count(picture.visibility.begin(), picture.visibility.end(), kNothingVisible);
+        EXPECT_EQ(covered, static_cast<long>(4096 * alpha));
+    }
+}
+
+TEST_F(DrawingTest, maskedSurfacesHaveTheHolesOfTheirTexture)
+{
+    TestScene test;
+    formats::MaterialRecord leaf = plainMaterial();
+    leaf.alpha_mode = static_cast<uint32_t>(formats::AlphaMode::mask);
+    // left half opaque, right half a hole
+    leaf.base_color_texture =
+        textureOf(test.addImage(formats::TexelFormat::rgba8_srgb, 2, 1, {0xFFFFFFFF, 0x00FFFFFF}));
+    leaf.base_color_texture.nearest = 1;
+    test.addInstance(test.addMesh(withMaterial(makeQuad(2, 2), test.addMaterial(leaf))), Affine3{});
+    const formats::PackView pack = test.build();
+    const auto scene = upload(pack);
+    const Picture picture = draw(*scene, lookingAtOrigin({0, 0, 4}));
+    EXPECT_NE(picture.visibility[60 * 160 + 70], kNothingVisible);
+    EXPECT_EQ(picture.visibility[60 * 160 + 90], kNothingVisible);
+}
+
+TEST_F(DrawingTest, geometryInEverySliceOfThePoolIsDrawn)
+{
+    // One triangle a page, in pages of 64 KiB that hold nothing else: 2100 of them are more than one slice.
+    constexpr uint32_t kPages = 2100;
+    TestScene test;
+    test.addInstance(test.addMesh(withMaterial(makeQuad(1, 1), test.addMaterial(plainMaterial()))),
+                     Affine3{});
+    const formats::PackView small = test.build();
+    const auto page = small.decodePage(0);
+    ASSERT_TRUE(page.ok());
+
+    PackModel model = test.model();
+    const formats::PageRecord page_record = model.pages[0];
+    const formats::ClusterRecord cluster = model.clusters[0];
+    model.pages.clear();
+    model.clusters.clear();
+    model.decoded_pages.clear();
+    for (uint32_t i = 0; i < kPages; ++i)
+    {
+        std::vector<std::byte> bytes = *page;
+        // a row of quads, one behind the other to the right
+        for (uint32_t vertex = 0; vertex < 4; ++vertex)
+        {
+            float x;
+            std::byte* at = bytes.data() + vertex * 4 * formats::vertexWords(model.meshes[0].attributes);
+            std::memcpy(&x, at, 4);
+            x += static_cast<float>(i);
+            std::memcpy(at, &x, 4);
+        }
+        bytes.resize(formats::kPageMaxBytes);
+        model.decoded_pages.push_back(std::move(bytes));
+        model.pages.push_back(page_record);
+        model.pages.back().clusters = {i, 1};
+        model.clusters.push_back(cluster);
+        model.clusters.back().page = i;
+        model.clusters.back().box_max.x += static_cast<float>(i);
+        model.clusters.back().sphere_center.x += static_cast<float>(i);
+        model.clusters.back().cone_cutoff = 1;
+    }
+    model.meshes[0].clusters.count = kPages;
+    model.meshes[0].pages.count = kPages;
+    model.sealPages();
+    const AlignedBytes bytes = model.bytes();
+    auto reader = formats::ContainerReader::fromBytes(bytes.span(), "test", formats::Check::structure);
+    ASSERT_TRUE(reader.ok());
+    const auto pack = formats::PackView::read(std::move(*reader));
+    ASSERT_TRUE(pack.ok());
+
+    const auto scene = upload(*pack);
+    EXPECT_EQ(scene->used_slices, kPoolSlices);
+    for (const uint32_t quad : {0u, 2047u, 2048u, kPages - 1})
+    {
+        const auto x = static_cast<float>(quad);
+        const Camera camera{.position = {x, 0, 3}, .target = {x, 0, 0}};
+        const Picture picture = draw(*scene, camera, {.width = 32, .height = 32});
+        EXPECT_EQ(picture.seen()[16 * 32 + 16][1], quad);
+        EXPECT_GT(channel(picture.at(16, 16), 0), 100) << "the quad faces the light";
+    }
+}
+
+TEST_F(DrawingTest, theNumberOfThreadsChangesNothing)
+{
+    TestScene test;
+    fillRocks(test, 9, 8);
+    const formats::PackView pack = test.build();
+    std::vector<Picture> pictures;
+    for (const char* threads : {"0", "1", "2", "3"})
+    {
+        // read by lavapipe when a device is made; other drivers draw four times the same
+        ::setenv("LP_NUM_THREADS", threads, 1);
+        TearDownTestSuite();
+        SetUpTestSuite();
+        const auto scene = upload(pack);
+        pictures.push_back(draw(*scene, lookingAtOrigin({6, 4, 6})));
+        EXPECT_EQ(pictures.back().visibility, pictures.front().visibility) << threads;
+        EXPECT_EQ(pictures.back().color, pictures.front().color) << threads;
+    }
+    ::unsetenv("LP_NUM_THREADS");
+}
+
+TEST_F(DrawingTest, aMistakeIsReportedByTheValidationLayer)
+{
+    // the canary: tests that expect silence are worth something only if mistakes are heard
+    const gpu::Device& device = renderer().device();
+    gpu::MemoryArena arena(device);
+    auto buffer = arena.createBuffer(64, VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::MemoryKind::device);
+    ASSERT_TRUE(buffer.ok());
+    const Status status = host().run(
+        [&](VkCommandBuffer commands)
+        {
+            // two writes to the same bytes without a barrier: a hazard that only synchronization validation sees
+            device.vk.vkCmdFillBuffer(commands, buffer->handle.get(), 0, VK_WHOLE_SIZE, 1);
+            device.vk.vkCmdFillBuffer(commands, buffer->handle.get(), 0, VK_WHOLE_SIZE, 2);
+            return success();
+        });
+    ASSERT_TRUE(status.ok());
+    ASSERT_EQ(host().messages().size(), 1u);
+    EXPECT_NE(host().messages()[0].find("SYNC-HAZARD-WRITE-AFTER-WRITE"), std::string::npos);
+    host().clearMessages();
+}
+
+} // namespace hearth::test

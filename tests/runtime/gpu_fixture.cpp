@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "tests/runtime/gpu_fixture.h"
+
+#include <dlfcn.h>
+
+// The layer keeps what it allocated when it is unloaded.
+extern "C" const char* __lsan_default_suppressions();
+extern "C" const char* __lsan_default_suppressions()
+{
+    return "leak:libVkLayer_khronos_validation.so\n";
+}
+
+namespace hearth::test
+{
+
+namespace
+{
+
+/// The leak checker cannot name what an unloaded module allocated, so these two stay.
+void keepDriverLoaded()
+{
+    ::dlopen("libvulkan_lvp.so", RTLD_LAZY | RTLD_NODELETE);
+    ::dlopen("libVkLayer_khronos_validation.so", RTLD_LAZY | RTLD_NODELETE);
+}
+
+std::vector<uint32_t> wordsOf(const std::vector<std::byte>& bytes)
+{
+    std::vector<uint32_t> words(bytes.size() / 4);
+    std::memcpy(words.data(), bytes.data(), words.size() * 4);
+    return words;
+}
+
+} // namespace
+
+std::unique_ptr<viewer::VulkanHost> GpuTest::host_;
+std::unique_ptr<gpu::Renderer> GpuTest::renderer_;
+std::string GpuTest::no_device_;
+
+std::vector<std::array<uint32_t, 3>> Picture::seen() const
+{
+    std::vector<std::array<uint32_t, 3>> result;
+    for (const uint32_t id : visibility)
+        if (id == shared::kNothingVisible)
+            result.push_back({id, id, id});
+        else
+        {
+            const shared::VisibleCluster& slot = list.slots.at(id >> shared::kTriangleBits);
+            result.push_back({slot.instance, slot.cluster, id & ((1u << shared::kTriangleBits) - 1)});
+        }
+    return result;
+}
+
+void GpuTest::SetUpTestSuite()
+{
+    keepDriverLoaded();
+    auto host = viewer::VulkanHost::create({.device_name = "", .validate = true});
+    if (!host.ok())
+    {
+        no_device_ = formatMessage(host.error());
+        return;
+    }
+    host_ = std::move(*host);
+    auto renderer = gpu::Renderer::create(host_->description());
+    ASSERT_TRUE(renderer.ok()) << formatMessage(renderer.error());
+    renderer_ = std::move(*renderer);
+}
+
+void GpuTest::TearDownTestSuite()
+{
+    renderer_.reset();
+    if (host_ != nullptr)
+    {
+        EXPECT_EQ(host_->messages(), std::vector<std::string>{});
+    }
+    host_.reset();
+}
+
+void GpuTest::SetUp()
+{
+    if (host_ == nullptr)
+        GTEST_SKIP() << no_device_;
+}
+
+void GpuTest::TearDown()
+{
+    if (host_ == nullptr)
+        return;
+    EXPECT_EQ(host_->messages(), std::vector<std::string>{});
+    host_->clearMessages();
+}
+
+std::unique_ptr<gpu::Scene> GpuTest::upload(const formats::PackView& pack, const gpu::SceneOptions& options)
+{
+    std::unique_ptr<gpu::Scene> scene;
+    const Status status = host().run(
+        [&](VkCommandBuffer commands) -> Status
+        {
+            HEARTH_ASSIGN_OR_RETURN(scene, renderer().upload(pack, commands, options));
+            return success();
+        });
+    EXPECT_TRUE(status.ok()) << (status.ok() ? "" : formatMessage(status.error()));
+    scene->staging.reset();
+    return scene;
+}
+
+Picture GpuTest::draw(const gpu::Scene& scene, const shared::Camera& camera, const DrawOptions& options)
+{
+    auto targets = renderer().createTargets({options.width, options.height});
+    HEARTH_ASSERT(targets.ok());
+    const gpu::FrameInput input{.view = shared::makeFrameView(camera, options.width, options.height,
+                                                              options.error_pixels, scene.instance_count,
+                                                              options.flags),
+                                .shading = {.shown = options.shown}};
+    const Status status = host().run(
+        [&](VkCommandBuffer commands)
+        {
+            renderer().record(commands, scene, *targets, input);
+            return success();
+        });
+    HEARTH_ASSERT(status.ok());
+
+    auto color = host().read(renderer().device(), targets->color(), 4);
+    auto visibility = host().read(renderer().device(), targets->visibility(), 4);
+    auto list = viewer::readVisibleList(host(), renderer(), scene);
+    HEARTH_ASSERT(color.ok() && visibility.ok() && list.ok());
+    return {options.width, options.height, wordsOf(*color), wordsOf(*visibility), std::move(*list)};
+}
+
+} // namespace hearth::test

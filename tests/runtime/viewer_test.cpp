@@ -1,0 +1,179 @@
+// The command line of hearth-render, its camera and its files. No device is needed.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "formats/shared/shading.h"
+#include "runtime/viewer/camera_fit.h"
+#include "runtime/viewer/file_output.h"
+#include "runtime/viewer/options.h"
+#include "tests/cook/shapes.h"
+#include "tests/formats/temporary_folder.h"
+#include "tests/runtime/test_scene.h"
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <gtest/gtest.h>
+
+namespace hearth::test
+{
+
+namespace
+{
+
+using viewer::parseOptions;
+using viewer::RenderOptions;
+
+Result<RenderOptions> parse(std::vector<const char*> arguments)
+{
+    return parseOptions(arguments);
+}
+
+void expectUsage(std::vector<const char*> arguments, const std::string& mention)
+{
+    const auto options = parse(arguments);
+    ASSERT_FALSE(options.ok()) << mention;
+    EXPECT_EQ(exitCode(options.error()), 2);
+    EXPECT_NE(formatMessage(options.error()).find(mention), std::string::npos)
+        << formatMessage(options.error());
+}
+
+} // namespace
+
+TEST(RenderOptions, defaultsFitTheScene)
+{
+    const auto options = parse({"a.hearth", "-o", "a.png"});
+    ASSERT_TRUE(options.ok());
+    EXPECT_EQ(options->pack, "a.hearth");
+    EXPECT_EQ(options->output, "a.png");
+    EXPECT_EQ(options->width, 1280u);
+    EXPECT_EQ(options->height, 720u);
+    EXPECT_FALSE(options->camera.has_value());
+    EXPECT_EQ(options->error_pixels, 1);
+    EXPECT_EQ(options->cull_flags, shared::kCullEverything);
+}
+
+TEST(RenderOptions, everyOptionIsRead)
+{
+    const auto options = parse({"--size=64x32",
+                                "--camera",
+                                "1,2,3,4,5,-6.5,45",
+                                "--error-pixels",
+                                "0",
+                                "--view",
+                                "lod",
+                                "--samples",
+                                "4",
+                                "--device",
+                                "llvm",
+                                "--stats",
+                                "s.json",
+                                "--frames",
+                                "3",
+                                "--dump-visibility",
+                                "v.bin",
+                                "--no-cull",
+                                "cone,frustum",
+                                "--validate",
+                                "-v",
+                                "--output=b.png",
+                                "b.hearth"});
+    ASSERT_TRUE(options.ok()) << formatMessage(options.error());
+    EXPECT_EQ(options->width, 64u);
+    EXPECT_EQ(options->height, 32u);
+    ASSERT_TRUE(options->camera.has_value());
+    EXPECT_EQ(options->camera->position, (Float3{1, 2, 3}));
+    EXPECT_EQ(options->camera->target, (Float3{4, 5, -6.5f}));
+    EXPECT_NEAR(options->camera->y_fov_rad, 0.785398f, 1e-5f);
+    EXPECT_EQ(options->error_pixels, 0);
+    EXPECT_EQ(options->view, shared::kViewLod);
+    EXPECT_EQ(options->samples, 4u);
+    EXPECT_EQ(options->device, "llvm");
+    EXPECT_EQ(options->stats, "s.json");
+    EXPECT_EQ(options->frames, 3u);
+    EXPECT_EQ(options->visibility, "v.bin");
+    EXPECT_EQ(options->cull_flags, shared::kCullInstances);
+    EXPECT_TRUE(options->validate);
+    EXPECT_TRUE(options->verbose);
+}
+
+TEST(RenderOptions, mistakesAreNamed)
+{
+    expectUsage({}, "no pack");
+    expectUsage({"a.hearth"}, "no output");
+    expectUsage({"a.hearth", "b.hearth", "-o", "a.png"}, "b.hearth");
+    expectUsage({"a.hearth", "-o"}, "-o needs a value");
+    expectUsage({"a.hearth", "--bogus", "1"}, "--bogus");
+    for (const char* size : {"0x5", "5", "5x", "5x5x5", "99999x1", "-1x5", "5.0x5"})
+        expectUsage({"a.hearth", "-o", "a.png", "--size", size}, size);
+    for (const char* camera :
+         {"1,2,3", "0,0,0,0,0,0,45", "0,0,0,1,0,0,0", "0,0,0,1,0,nan,45", "0,0,0,1,0,0,171"})
+        expectUsage({"a.hearth", "-o", "a.png", "--camera", camera}, camera);
+    expectUsage({"a.hearth", "-o", "a.png", "--error-pixels", "-1"}, "-1");
+    expectUsage({"a.hearth", "-o", "a.png", "--view", "pretty"}, "pretty");
+    expectUsage({"a.hearth", "-o", "a.png", "--samples", "2"}, "2");
+    expectUsage({"a.hearth", "-o", "a.png", "--no-cull", "all"}, "all");
+}
+
+TEST(FitCamera, showsEveryCornerAndFillsThePicture)
+{
+    std::mt19937 random(9);
+    for (const float aspect : {0.4f, 1.0f, 1.78f})
+    {
+        TestScene test;
+        const uint32_t mesh = test.addMesh(withMaterial(shapes::rock(6, 0.2f), formats::kNone));
+        for (int i = 0; i < 4; ++i)
+            test.addInstance(mesh, randomAffine(random, 20));
+        const formats::PackView pack = test.build();
+        const shared::Camera camera = viewer::fitCamera(pack, aspect);
+        const auto height = 1000u;
+        const auto width = static_cast<uint32_t>(1000 * aspect);
+        const shared::FrameView view = shared::makeFrameView(camera, width, height, 1, 4);
+        float reach = 0;
+        for (const formats::InstanceRecord& instance : pack.instances())
+            for (int corner = 0; corner < 8; ++corner)
+            {
+                const formats::MeshRecord& m = pack.meshes()[0];
+                const Float3 p =
+                    transformPoint(instance.world_from_object, {corner & 1 ? m.box_max.x : m.box_min.x,
+                                                                corner & 2 ? m.box_max.y : m.box_min.y,
+                                                                corner & 4 ? m.box_max.z : m.box_min.z});
+                const Float4 clip = shared::clipPosition(view, p - camera.position);
+                EXPECT_GT(clip.w, camera.z_near);
+                reach = std::max({reach, std::abs(clip.x / clip.w), std::abs(clip.y / clip.w)});
+            }
+        EXPECT_LT(reach, 1);
+        EXPECT_GT(reach, 0.8f);
+    }
+}
+
+TEST(FitCamera, standsSomewhereSensibleInAnEmptyScene)
+{
+    TestScene test;
+    const shared::Camera camera = viewer::fitCamera(test.build(), 1);
+    EXPECT_TRUE(isFinite(camera.position));
+    EXPECT_GT(length(camera.position - camera.target), 0.1f);
+}
+
+TEST(WriteFile, leavesNothingBehindWhereItCannotWrite)
+{
+    const TemporaryFolder folder;
+    const std::byte bytes[] = {std::byte{1}};
+    const Status status = viewer::writeFile(folder.file("missing/a.png"), bytes);
+    ASSERT_FALSE(status.ok());
+    EXPECT_EQ(exitCode(status.error()), 73);
+    // a folder stands where the file should
+    std::filesystem::create_directory(folder.file("taken"));
+    EXPECT_FALSE(viewer::writeFile(folder.file("taken"), bytes).ok());
+    EXPECT_EQ(folder.files(), std::set<std::string>{"taken"});
+}
+
+TEST(Downsample, averagesInLinearLight)
+{
+    std::vector<std::byte> pixels(2 * 2 * 4, std::byte{0});
+    for (int i = 0; i < 8; ++i) // the upper two are white
+        pixels[static_cast<size_t>(i)] = std::byte{255};
+    const auto result = viewer::downsampleSrgb(pixels, 2, 2);
+    ASSERT_EQ(result.size(), 4u);
+    EXPECT_EQ(std::to_integer<int>(result[0]), 188) << "half of the light, not half of the code";
+}
+
+} // namespace hearth::test
