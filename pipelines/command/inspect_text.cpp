@@ -65,11 +65,12 @@ std::string meshText(const MeshSummary& mesh, size_t index)
         text += fmt::format("  {:>5}  {:>8}  {:>10}  {:>13.6g}\n", i, mesh.levels[i].clusters,
                             mesh.levels[i].triangles, mesh.levels[i].max_error);
     const double clusters = mesh.clusters == 0 ? 1 : mesh.clusters;
-    text += fmt::format("  {} groups, {} clusters of {:.1f} triangles and {:.1f} vertices ({:.0f} % full)\n",
-                        mesh.groups, mesh.clusters, static_cast<double>(mesh.triangles) / clusters,
-                        static_cast<double>(mesh.vertices) / clusters,
-                        100.0 * static_cast<double>(mesh.triangles) / (clusters * kClusterMaxTriangles));
-    return text + fmt::format("  {} pages: {} stored of {} (vertices {}, indices {}); records {}\n",
+    text += fmt::format(
+        "  groups: {}; clusters: {}, on average {:.1f} triangles and {:.1f} vertices ({:.0f} % full)\n",
+        mesh.groups, mesh.clusters, static_cast<double>(mesh.triangles) / clusters,
+        static_cast<double>(mesh.vertices) / clusters,
+        100.0 * static_cast<double>(mesh.triangles) / (clusters * kClusterMaxTriangles));
+    return text + fmt::format("  pages: {}, {} stored of {} (vertices {}, indices {}); records {}\n",
                               mesh.pages, readableSize(mesh.stored_page_bytes), readableSize(mesh.page_bytes),
                               readableSize(mesh.vertex_bytes), readableSize(mesh.index_bytes),
                               readableSize(mesh.record_bytes));

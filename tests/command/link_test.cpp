@@ -8,6 +8,7 @@
 #include <cstring>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 
 namespace hearth::test
 {
@@ -28,10 +29,16 @@ protected:
         sources.push_back({path + ".import.part", path + ".clusters.part", path + ".textures.part"});
     }
 
+    /// The small pack as an asset of this name, with every reference that a record can have.
     static PackModel named(const std::string& name)
     {
         PackModel pack = smallPack();
         pack.meta = importMeta(name);
+        pack.materials[0].metallic_roughness_texture.image = 1;
+        pack.materials[0].normal_texture.image = 0;
+        pack.materials[0].occlusion_texture.image = 1;
+        pack.materials[0].emissive_texture.image = kNone;
+        pack.skins[0].skeleton_root = 2;
         return pack;
     }
 
@@ -41,7 +48,7 @@ protected:
     {
         const Status status = link();
         if (!status.ok())
-            ADD_FAILURE() << formatMessage(status.error());
+            throw std::runtime_error(formatMessage(status.error())); // ends this test alone
         return PackView::read(ContainerReader::open(sandbox / "out.hearth").value()).value();
     }
 
@@ -100,7 +107,23 @@ TEST_F(LinkPack, leavesOutWhatOnlyCookersNeed)
 TEST_F(LinkPack, secondSourceStandsBehindTheFirst)
 {
     const PackModel model = named("a.gltf");
-    addParts(model, "a");
+    // longer strings in front: a name that was not moved would read as another
+    PackModel first = model;
+    first.strings.insert(0, "0123456789");
+    const auto move = [](auto& records)
+    {
+        for (auto& record : records)
+            record.name.offset += 10;
+    };
+    move(first.nodes);
+    move(first.cameras);
+    move(first.lights);
+    move(first.materials);
+    move(first.images);
+    move(first.skins);
+    move(first.animations);
+    move(first.meshes);
+    addParts(first, "a");
     addParts(named("b.gltf"), "b");
     const PackView pack =
         linked(); // checked: every index of both is inside its table, every page where it should be
@@ -119,12 +142,14 @@ TEST_F(LinkPack, secondSourceStandsBehindTheFirst)
     EXPECT_EQ(pack.instances()[2].mesh, meshes);
     EXPECT_EQ(pack.instances()[2].node, nodes + 1);
     EXPECT_EQ(pack.materials()[1].base_color_texture.image, 2u);
-    EXPECT_EQ(pack.materials()[1].normal_texture.image, kNone);
-    EXPECT_EQ(pack.materials()[1].emissive_texture.image, 3u);
+    EXPECT_EQ(pack.materials()[1].metallic_roughness_texture.image, 3u);
+    EXPECT_EQ(pack.materials()[1].normal_texture.image, 2u);
+    EXPECT_EQ(pack.materials()[1].occlusion_texture.image, 3u);
+    EXPECT_EQ(pack.materials()[1].emissive_texture.image, kNone);
     EXPECT_EQ(pack.cameras()[2].node, nodes);
     EXPECT_EQ(pack.lights()[3].node, nodes);
     EXPECT_EQ(pack.skins()[1].joints.first, 2u);
-    EXPECT_EQ(pack.skins()[1].skeleton_root, kNone);
+    EXPECT_EQ(pack.skins()[1].skeleton_root, nodes + 2);
     EXPECT_EQ(pack.joints()[3].node, nodes + 2);
     EXPECT_EQ(pack.animations()[2].channels.first, 3u);
     EXPECT_EQ(pack.channels()[3].node, nodes + 1);
@@ -139,6 +164,11 @@ TEST_F(LinkPack, secondSourceStandsBehindTheFirst)
     EXPECT_EQ(pack.text(pack.nodes()[nodes + 1].name), "strip node");
     EXPECT_EQ(pack.text(pack.meshes()[meshes].name), "strip");
     EXPECT_EQ(pack.text(pack.images()[2].name), "paint.png");
+    EXPECT_EQ(pack.text(pack.cameras()[2].name), "camera");
+    EXPECT_EQ(pack.text(pack.lights()[3].name), "light");
+    EXPECT_EQ(pack.text(pack.materials()[1].name), "paint");
+    EXPECT_EQ(pack.text(pack.skins()[1].name), "skin");
+    EXPECT_EQ(pack.text(pack.animations()[2].name), "move");
     for (uint32_t i = 0; i < model.pages.size(); ++i)
         EXPECT_EQ(pack.decodePage(static_cast<uint32_t>(model.pages.size()) + i).value(),
                   model.decoded_pages[i]);
