@@ -127,22 +127,23 @@ std::string mebibytes(uint64_t bytes)
     return std::to_string(bytes >> 20) + " MiB";
 }
 
-void addEndFaults(std::vector<std::string>& faults, const ProcessEnd& end, const Limits& limits)
+void addEndFaults(std::vector<std::string>& faults, const std::string& program, const ProcessEnd& end,
+                  const Limits& limits)
 {
     if (!end.started)
-        faults.push_back("the program cannot be started");
+        faults.push_back(program + " cannot be started");
     if (end.over_time)
-        faults.push_back("runs longer than " + seconds(limits.seconds));
+        faults.push_back(program + " runs longer than " + seconds(limits.seconds));
     if (end.over_memory)
-        faults.push_back("needs more memory than " + mebibytes(limits.rss_bytes) + ": " +
+        faults.push_back(program + " needs more memory than " + mebibytes(limits.rss_bytes) + ": " +
                          mebibytes(end.peak_rss_bytes));
     if (end.over_time || end.over_memory)
         return;
     if (end.signal != 0)
-        faults.push_back("ended by signal " + std::to_string(end.signal) + " (" + ::strsignal(end.signal) +
-                         ")");
+        faults.push_back(program + " is ended by signal " + std::to_string(end.signal) + " (" +
+                         ::strsignal(end.signal) + ")");
     if (end.left_processes)
-        faults.push_back("leaves processes running");
+        faults.push_back(program + " leaves processes running");
 }
 
 void addStreamFaults(std::vector<std::string>& faults, const Workplace& place, const std::string& messages)
@@ -185,13 +186,17 @@ void addRejectionFaults(std::vector<std::string>& faults, const Workplace& place
         faults.push_back("leaves an output");
 }
 
-void addProgramFault(std::vector<std::string>& faults, const char* what, const ProcessEnd& end,
-                     const Workplace& place)
+/// Run a program on the pack that is there. returns whether all is well with it
+bool look(std::vector<std::string>& faults, const std::string& name, const Workplace& place,
+          std::vector<std::string> arguments, const std::string& folder)
 {
-    addEndFaults(faults, end, kLookLimits);
-    if (end.signal == 0 && end.exit_code != 0)
-        faults.push_back(std::string(what) + " exits with " + std::to_string(end.exit_code) + ": " +
+    const size_t before = faults.size();
+    const ProcessEnd end = run(place, std::move(arguments), kLookLimits, folder);
+    addEndFaults(faults, name, end, kLookLimits);
+    if (faults.size() == before && end.exit_code != 0)
+        faults.push_back(name + " exits with " + std::to_string(end.exit_code) + ": " +
                          mostTellingLine(readText(place.stderr_file, kMaxMessages)));
+    return faults.size() == before;
 }
 
 /// 0 where the pack does not say.
@@ -234,11 +239,8 @@ void compareCounts(std::vector<std::string>& faults, const Asset& asset, const J
 void addCountFaults(std::vector<std::string>& faults, const Workplace& place, const Asset& asset,
                     const Programs& programs)
 {
-    const ProcessEnd end =
-        run(place, {programs.hearth, "inspect", "--format", "json", place.pack}, kLookLimits, place.box);
-    const size_t before = faults.size();
-    addProgramFault(faults, "hearth inspect", end, place);
-    if (faults.size() != before)
+    if (!look(faults, "hearth inspect", place, {programs.hearth, "inspect", "--format", "json", place.pack},
+              place.box))
         return;
     try
     {
@@ -256,12 +258,10 @@ void addCountFaults(std::vector<std::string>& faults, const Workplace& place, co
 
 void addDrawingFaults(std::vector<std::string>& faults, const Workplace& place, const Programs& programs)
 {
-    const ProcessEnd end = run(
-        place, {programs.render, place.pack, "-o", place.picture, "--size", "64x64", "--fit", "--validate"},
-        kLookLimits, place.drawing_box);
-    const size_t before = faults.size();
-    addProgramFault(faults, "hearth-render", end, place);
-    if (faults.size() == before && (!fs::exists(place.picture) || fs::file_size(place.picture) == 0))
+    const std::vector<std::string> command = {programs.render, place.pack, "-o",    place.picture,
+                                              "--size",        "64x64",    "--fit", "--validate"};
+    if (look(faults, "hearth-render", place, command, place.drawing_box) &&
+        (!fs::exists(place.picture) || fs::file_size(place.picture) == 0))
         faults.push_back("hearth-render writes no picture");
 }
 
@@ -273,8 +273,7 @@ void addPackFaults(std::vector<std::string>& faults, const Workplace& place, con
         faults.push_back("exits with 0 and writes no pack");
         return;
     }
-    const ProcessEnd verify = run(place, {programs.hearth, "verify", place.pack}, kLookLimits, place.box);
-    addProgramFault(faults, "hearth verify", verify, place);
+    look(faults, "hearth verify", place, {programs.hearth, "verify", place.pack}, place.box);
     if (!asset.expected->mustLoad())
         return;
     addCountFaults(faults, place, asset, programs);
@@ -325,7 +324,7 @@ Finding checkAsset(const Asset& asset, const Programs& programs, const std::stri
     finding.messages = tellingLines(messages);
     finding.cook_seconds = end.seconds;
     finding.peak_rss_bytes = end.peak_rss_bytes;
-    addEndFaults(finding.faults, end, asset.limits);
+    addEndFaults(finding.faults, "hearth cook", end, asset.limits);
     const bool ended = finding.faults.empty();
     if (end.started)
         addStreamFaults(finding.faults, place, messages);
@@ -340,7 +339,7 @@ Finding checkAsset(const Asset& asset, const Programs& programs, const std::stri
         else if (end.exit_code == 65 || end.exit_code == 66)
             addRejectionFaults(finding.faults, place, asset, messages);
         else
-            finding.faults.push_back("exits with " + std::to_string(end.exit_code));
+            finding.faults.push_back("hearth cook exits with " + std::to_string(end.exit_code));
     }
     finding.outcome = outcomeOf(end.exit_code, finding.faults);
     addClassFault(finding, *asset.expected);

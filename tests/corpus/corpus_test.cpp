@@ -131,8 +131,9 @@ TEST_F(CheckAsset, asksForTheOutcomeOfTheClass)
 
 TEST_F(CheckAsset, reportsACrashAndAnInternalError)
 {
-    EXPECT_THAT(faults("kill -SEGV $$"), ElementsAre(HasSubstr("ended by signal 11")));
-    EXPECT_THAT(faults("echo \"$asset: error: a defect\" >&2; exit 70"), ElementsAre("exits with 70"));
+    EXPECT_THAT(faults("kill -SEGV $$"), ElementsAre(HasSubstr("hearth cook is ended by signal 11")));
+    EXPECT_THAT(faults("echo \"$asset: error: a defect\" >&2; exit 70"),
+                ElementsAre("hearth cook exits with 70"));
 }
 
 TEST_F(CheckAsset, endsAHangWithAllItsProcesses)
@@ -140,13 +141,13 @@ TEST_F(CheckAsset, endsAHangWithAllItsProcesses)
     Asset impatient = asset("must-not-crash");
     impatient.limits.seconds = 0.3;
     const Finding finding = check(impatient, "(sleep 30; echo late > $secret) & sleep 30; wait");
-    EXPECT_THAT(finding.faults, Contains("runs longer than 0.3 s"));
+    EXPECT_THAT(finding.faults, Contains("hearth cook runs longer than 0.3 s"));
     EXPECT_LT(finding.cook_seconds, 5);
 }
 
 TEST_F(CheckAsset, reportsProcessesThatOutliveTheCook)
 {
-    EXPECT_THAT(faults("echo pack > $out; sleep 30 &"), ElementsAre("leaves processes running"));
+    EXPECT_THAT(faults("echo pack > $out; sleep 30 &"), ElementsAre("hearth cook leaves processes running"));
 }
 
 TEST_F(CheckAsset, reportsTooMuchMemoryOfAChild)
@@ -155,7 +156,7 @@ TEST_F(CheckAsset, reportsTooMuchMemoryOfAChild)
     small.limits.rss_bytes = uint64_t{64} << 20;
     // tail keeps a last line that does not end
     const Finding finding = check(small, "head -c 300000000 /dev/zero | tail > /dev/null; echo pack > $out");
-    EXPECT_THAT(finding.faults, Contains(HasSubstr("needs more memory than 64 MiB")));
+    EXPECT_THAT(finding.faults, Contains(HasSubstr("hearth cook needs more memory than 64 MiB")));
 }
 
 TEST_F(CheckAsset, asksForOneErrorLineThatNamesTheFile)
