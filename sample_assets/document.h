@@ -49,6 +49,7 @@ struct Material
     float alpha_cutoff = 0; ///< above 0: alpha mode MASK
     float detail_scale = 1; ///< KHR_texture_transform of the normal texture where it is not 1
     bool double_sided = false;
+    bool unlit = false; ///< KHR_materials_unlit: base colour is what is seen
     int base_color_image = kNoIndex;
     int metallic_roughness_image = kNoIndex; ///< G roughness, B metallic; also R occlusion if has_occlusion
     int normal_image = kNoIndex;

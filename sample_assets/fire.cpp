@@ -39,7 +39,7 @@ float charHeat(Float2 uv)
 {
     const TileNoise::Cell plate = TileNoise{11, 411}.cellular({uv.x, uv.y});
     const float crack = smoothstep(0.16f, 0.0f, plate.second - plate.nearest);
-    const float reach = smoothstep(0.75f, 0.05f, uv.y + 0.25f * TileNoise{5, 412}.fbm(uv, 3));
+    const float reach = smoothstep(0.5f, 0.0f, uv.y + 0.25f * TileNoise{5, 412}.fbm(uv, 3));
     return crack * reach;
 }
 
@@ -144,7 +144,7 @@ int addLogMaterial(Document& document, bool burning)
     {
         material.emissive_image = add(document.images, paintColor("charred_glow", 512, 512, charGlow));
         material.emissive = {1, 1, 1};
-        material.emissive_strength = 6;
+        material.emissive_strength = 4;
     }
     return add(document.materials, material);
 }

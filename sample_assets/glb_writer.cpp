@@ -167,6 +167,8 @@ Json materialJson(Glb& glb, const Material& material)
         json["emissiveFactor"] = toJson(material.emissive);
     if (material.emissive_strength != 1)
         glb.use(json, "KHR_materials_emissive_strength", {{"emissiveStrength", material.emissive_strength}});
+    if (material.unlit)
+        glb.use(json, "KHR_materials_unlit", Json::object());
     if (material.alpha_cutoff > 0)
     {
         json["alphaMode"] = "MASK";

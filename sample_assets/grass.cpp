@@ -80,7 +80,6 @@ int addGrassMaterial(Document& document)
     material.name = "grass";
     material.base_color_image = add(document.images, paintColor("grass_blades", 512, 512, grassTexel));
     material.alpha_cutoff = 0.5f;
-    material.double_sided = true;
     material.roughness = 0.85f;
     return add(document.materials, material);
 }

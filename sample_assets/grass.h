@@ -7,7 +7,7 @@
 namespace hearth::samples
 {
 
-/// Three crossed, bent cards about 0.4 m high; normals lean upwards, so that a meadow is lit like the ground below it.
+/// Three crossed, bent cards about 0.4 m high, each with two sides; normals lean upwards, so that a meadow is lit like the ground below it.
 TriangleMesh makeGrassTuft();
 
 int addGrassMaterial(Document& document);

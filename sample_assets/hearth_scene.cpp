@@ -2,6 +2,7 @@
 #include "sample_assets/hearth_scene.h"
 
 #include "sample_assets/character.h"
+#include "sample_assets/dusk.h"
 #include "sample_assets/fire.h"
 #include "sample_assets/grass.h"
 #include "sample_assets/noise.h"
@@ -52,12 +53,8 @@ void addGround(Document& document, const HeightGrid& grid, uint32_t texture_size
     addNode(document, "ground",
             addMesh(document, "ground", makeTerrain(grid), addTerrainMaterial(document, grid, texture_size)),
             {});
-    Material hills;
-    hills.name = "hills";
-    hills.base_color = {0.075f, 0.075f, 0.060f, 1};
     addNode(document, "hills",
-            addMesh(document, "hills", makeHills(14.0f, 180.0f, 384, 77), add(document.materials, hills)),
-            {});
+            addMesh(document, "hills", makeHills(14.0f, 180.0f, 384, 77), addDuskHillMaterial(document)), {});
     addInstances(document, "grass",
                  addMesh(document, "grass_tuft", makeGrassTuft(), addGrassMaterial(document)),
                  scatterGrass(grid, 22000, kClearingRadius - 1.2f, 601));
@@ -160,11 +157,13 @@ void addLight(Document& document, Light light, const Placement& placement)
 
 void addLights(Document& document)
 {
-    // The sun stands just over the hills to the right behind, the fire is the brightest thing nearby.
-    addLight(
-        document,
-        {.name = "low_sun", .kind = LightKind::directional, .color = {1.0f, 0.56f, 0.32f}, .intensity = 1.1f},
-        {.rotation = rotationLookingAt({0.75f, 0.26f, -0.55f}, {0, 0, 0})});
+    // The sun stands just over the hills behind, the fire is the brightest thing nearby.
+    addLight(document,
+             {.name = "low_sun",
+              .kind = LightKind::directional,
+              .color = {1.0f, 0.56f, 0.32f},
+              .intensity = 0.75f},
+             {.rotation = rotationLookingAt(duskSunDirection(), {0, 0, 0})});
     addLight(document,
              {.name = "fire",
               .kind = LightKind::point,
@@ -176,11 +175,11 @@ void addLights(Document& document)
 
 void addHearthCamera(Document& document)
 {
-    const Float3 eye{2.9f, 1.45f, 4.4f};
+    const Float3 eye{2.7f, 1.15f, 4.9f};
     Node node;
     node.name = "hearth";
     node.camera = add(document.cameras, Camera{.name = "hearth", .y_fov_rad = 0.72f, .z_near = 0.05f});
-    node.placement = {eye, rotationLookingAt(eye, {-0.45f, 0.80f, -0.4f}), {1, 1, 1}};
+    node.placement = {eye, rotationLookingAt(eye, {-0.35f, 1.05f, -0.4f}), {1, 1, 1}};
     addRoot(document, node);
 }
 
@@ -197,6 +196,8 @@ Document makeHearthScene(uint64_t hero_triangles, uint32_t texture_size)
     addSeatAndGuest(document);
     addLights(document);
     addHearthCamera(document);
+    addDuskSky(document, 400);
+    dimReflectance(document);
     return document;
 }
 

@@ -143,7 +143,7 @@ RockSurface rockSurface(Float2 uv)
     const float grain = TileNoise{32, 5}.fbm(uv, 4);
     const float lumps = TileNoise{6, 9}.fbm(uv, 4);
     const float veins = TileNoise{5, 14}.ridged({uv.x + 0.03f * lumps, uv.y + 0.03f * grain}, 5);
-    const float crevice = smoothstep(0.66f, 0.86f, veins);
+    const float crevice = smoothstep(0.66f, 0.92f, veins);
     const float patches = TileNoise{4, 23}.fbm(uv, 6);
     const float lichen = smoothstep(0.12f, 0.34f, patches + 0.3f * grain) * (1 - crevice);
     const float height = clamp01(0.55f + 0.35f * lumps + 0.28f * grain - 0.35f * crevice + 0.05f * lichen);
@@ -156,7 +156,7 @@ Float4 rockColor(Float2 uv)
     Float3 color = lerp(Float3{0.125f, 0.118f, 0.112f}, Float3{0.30f, 0.275f, 0.245f}, clamp01(s.height));
     color = lerp(color, Float3{0.24f, 0.185f, 0.135f}, clamp01(s.tint * 1.6f));
     color = lerp(color, Float3{0.225f, 0.235f, 0.12f}, s.lichen * 0.5f);
-    color = lerp(color, Float3{0.06f, 0.055f, 0.05f}, s.crevice * 0.6f);
+    color = lerp(color, Float3{0.075f, 0.068f, 0.06f}, s.crevice * 0.4f);
     return {color.x, color.y, color.z, 1};
 }
 

@@ -152,10 +152,10 @@ TriangleMesh makeHills(float inner, float outer, uint32_t segments, uint32_t see
                                      const float far = smoothstep(inner, outer, radius);
                                      const float height =
                                          -0.4f + 2.2f * smoothstep(inner, 2 * inner, radius) +
-                                         0.22f * (outer - inner) * far * (0.25f + ridge) +
+                                         0.11f * (outer - inner) * far * (0.25f + ridge) +
                                          1.5f * fbm({xz.x * 0.09f, 1, xz.y * 0.09f}, 4, seed + 9) * uv.y;
                                      position = {xz.x, height, xz.y};
-                                     texture_uv = xz * 0.1f;
+                                     texture_uv = {uv.x * 8, far};
                                  });
     // u runs with the angle and v outwards: seen from above that is clockwise
     for (size_t i = 0; i < mesh.indices.size(); i += 3)

@@ -31,7 +31,7 @@ HeightGrid makeHeights(const TerrainShape& shape);
 /// The tile as a mesh; UVs cover the unit square once.
 TriangleMesh makeTerrain(const HeightGrid& grid);
 
-/// A ring of hills from `inner` to `outer` metres that hides the tile's end.
+/// A ring of hills from `inner` to `outer` metres that hides the tile's end; v of the UVs grows from 0 to 1 outwards.
 TriangleMesh makeHills(float inner, float outer, uint32_t segments, uint32_t seed);
 
 /// Colours by slope and height; a bare patch of earth in the clearing. Returns the material.

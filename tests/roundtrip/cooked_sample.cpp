@@ -28,11 +28,7 @@ const char* pathOf(Program program)
     case Program::clusters:
         return HEARTH_CLUSTERS_PROGRAM;
     case Program::textures:
-#ifdef HEARTH_TEXTURES_PROGRAM
         return HEARTH_TEXTURES_PROGRAM;
-#else
-        return "";
-#endif
     case Program::link:
         return HEARTH_LINK_PROGRAM;
     case Program::hearth:
@@ -116,12 +112,8 @@ CookedSample::CookedSample(const SampleSpec& spec)
     mustRun(Program::samples, arguments);
     mustRun(Program::import, {source, "-o", part});
     mustRun(Program::clusters, {part, "-o", clusters});
-#ifdef HEARTH_TEXTURES_PROGRAM
     mustRun(Program::textures, {part, "-o", textures});
     mustRun(Program::link, {part, clusters, textures, "-o", pack_path_});
-#else
-    mustRun(Program::link, {part, clusters, part, "-o", pack_path_});
-#endif
 
     pack_ = std::make_unique<pack::Pack>(must(pack::Pack::open(pack_path_)));
     geometry_ =

@@ -99,9 +99,9 @@ TEST(Cut, hasNoCrackFromAnyCamera)
         {
             SCOPED_TRACE(spec.kind + ", camera " + std::to_string(i));
             shared::Camera camera;
-            camera.position = Float3{unit(random), unit(random), unit(random)} * (0.8f * size);
+            camera.position = Float3{unit(random), unit(random), unit(random)} * (0.6f * size);
             camera.z_near = 0.001f * size;
-            const shared::FrameView frame = shared::makeFrameView(camera, 1920, 1080, 2, 1, 0);
+            const shared::FrameView frame = shared::makeFrameView(camera, 1920, 1080, 6, 1, 0);
             std::vector<uint32_t> cut;
             uint32_t least = ~0u, greatest = 0;
             for (const reference::DrawnCluster& drawn : reference::cullExhaustively(sample.pack(), frame))
@@ -114,7 +114,7 @@ TEST(Cut, hasNoCrackFromAnyCamera)
             checkCut(sample, 0, cut, source, open_edges);
         }
     }
-    EXPECT_GT(mixed_levels, 20u) << "most cuts must mix levels, or seams are not tested";
+    EXPECT_GT(mixed_levels, 12u) << "a third of the cuts must mix levels, or seams are not tested";
 }
 
 TEST(Cut, keepsTheVolumeOfAClosedMesh)
