@@ -1,5 +1,5 @@
 // OpenEXR: scanlines and tiles, every lossless and lossy compression, RGB(A), grey, and luminance with chroma.
-// The image is the display window: what the data window leaves open is black.
+// The image is the data window, as other texture tools read it: a texture has no frame that it is shown in.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/import/image_codecs.h"
 
@@ -72,21 +72,14 @@ uint16_t finiteBits(half value)
     return value.bits();
 }
 
-/// Copy one row of the data window to where it lies in the display window.
-void copyRow(const Imf::Rgba* row, int64_t y, const Window& data, const Window& display, DecodedImage& image)
+/// Store row `y` of the image.
+void storeRow(std::span<const Imf::Rgba> row, size_t y, DecodedImage& image)
 {
-    if (y < display.top || y > display.bottom)
-        return;
-    const int64_t first = std::max(data.left, display.left);
-    const int64_t last = std::min(data.right, display.right);
-    for (int64_t x = first; x <= last; ++x)
+    for (size_t x = 0; x < row.size(); ++x)
     {
-        const Imf::Rgba& texel = row[x - data.left];
-        const uint16_t bits[4] = {finiteBits(texel.r), finiteBits(texel.g), finiteBits(texel.b),
-                                  finiteBits(texel.a)};
-        const auto index =
-            static_cast<size_t>(y - display.top) * image.width + static_cast<size_t>(x - display.left);
-        std::memcpy(image.texels.data() + index * sizeof(bits), bits, sizeof(bits));
+        const uint16_t bits[4] = {finiteBits(row[x].r), finiteBits(row[x].g), finiteBits(row[x].b),
+                                  finiteBits(row[x].a)};
+        std::memcpy(image.texels.data() + (y * row.size() + x) * sizeof(bits), bits, sizeof(bits));
     }
 }
 
@@ -107,20 +100,12 @@ Result<DecodedImage> decode(const EncodedImage& source)
     MemoryStream stream(source.bytes, source.name.c_str());
     Imf::RgbaInputFile file(stream, 0);
     const Window data(file.dataWindow());
-    const Window display(file.displayWindow());
     HEARTH_TRY(checkImageSize(source, data.width(), data.height()));
     if (!file.isComplete())
         return source.malformed("EXR: parts of the image are missing");
     if ((file.channels() & (Imf::WRITE_RGB | Imf::WRITE_YC)) == 0)
         return source.unsupported("EXR images without a channel R, G, B or Y are not read");
-    HEARTH_ASSIGN_OR_RETURN(DecodedImage image,
-                            allocateImage(source, display.width(), display.height(), true));
-    if ((file.channels() & Imf::WRITE_A) == 0)
-    {
-        const uint16_t opaque[4] = {0, 0, 0, half(1.0f).bits()};
-        for (size_t at = 0; at < image.texels.size(); at += sizeof(opaque))
-            std::memcpy(image.texels.data() + at, opaque, sizeof(opaque));
-    }
+    HEARTH_ASSIGN_OR_RETURN(DecodedImage image, allocateImage(source, data.width(), data.height(), true));
 
     // one row at a time: OpenEXR addresses the frame buffer by absolute coordinates, with a row stride of 0 here
     std::vector<Imf::Rgba> row(static_cast<size_t>(data.width()));
@@ -128,7 +113,7 @@ Result<DecodedImage> decode(const EncodedImage& source)
     for (int64_t y = data.top; y <= data.bottom; ++y)
     {
         file.readPixels(static_cast<int>(y));
-        copyRow(row.data(), y, data, display, image);
+        storeRow(row, static_cast<size_t>(y - data.top), image);
     }
     return image;
 }

@@ -357,16 +357,18 @@ TEST(DecodeExr, readsCompressionsWindowsAndChroma)
     EXPECT_NEAR(lightOf(chroma, 3, 1)[2], 0.125f, 0.01f);
 }
 
-TEST(DecodeExr, theImageIsTheDisplayWindow)
+TEST(DecodeExr, theImageIsTheDataWindow)
 {
+    // the display window lies one to the left and one below
     const DecodedImage image = decodeGood(kExrPizWindow);
     ASSERT_EQ(image.width, 5u);
     ASSERT_EQ(image.height, 3u);
-    // the data window lies one to the right and one above
-    EXPECT_EQ(lightOf(image, 0, 0), (std::array<float, 4>{0, 0, 0, 1}));
-    EXPECT_EQ(lightOf(image, 1, 0), (std::array<float, 4>{0, 1, 2, 1}));
-    EXPECT_EQ(lightOf(image, 4, 1), (std::array<float, 4>{1.5f, 2, 2, 1}));
-    EXPECT_EQ(lightOf(image, 4, 2), (std::array<float, 4>{0, 0, 0, 1}));
+    forEachTexel(image,
+                 [&](size_t x, size_t y)
+                 {
+                     EXPECT_EQ(lightOf(image, x, y), (std::array<float, 4>{0.5f * static_cast<float>(x),
+                                                                           static_cast<float>(y), 2, 1}));
+                 });
 }
 
 TEST(DecodeExr, refusesCutFiles)
