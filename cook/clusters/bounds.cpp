@@ -17,7 +17,8 @@ namespace
 // More steps shrink the sphere by less than 1 % of its radius.
 constexpr int kSphereSteps = 12;
 
-// The rasteriser snaps corners to 1/256 pixel, which can turn slivers that are seen edge-on (RUNTIME 2.4).
+// The rasteriser snaps corners to 1/256 pixel, which can turn slivers that are seen edge-on (design notes,
+// RUNTIME 2.4).
 constexpr double kConeMargin = 1e-3;
 
 // Wider cones than about 84 degrees cull next to nothing.

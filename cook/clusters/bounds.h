@@ -11,7 +11,7 @@ namespace hearth::clusters
 {
 
 /// The factor by which a group's sphere and error exceed what they contain, so that the runtime's float arithmetic
-/// cannot see them inverted (RUNTIME 2.1).
+/// cannot see them inverted (design notes, RUNTIME 2.1).
 inline constexpr double kMonotoneSlack = 1.0 + 1.0 / 262144.0;
 
 /// `value` as a float that is not smaller; the largest finite float if it is beyond them.

@@ -33,7 +33,7 @@ constexpr size_t kMaxPoints = 28;
 // Facets within this part of a triangle's size are looked at first.
 constexpr float kTouching = 0.1f;
 
-// The first try with a few likely facets ends early; it serves for four triangles of five.
+// The first try with a few likely facets ends early; it serves for nine triangles of ten.
 constexpr size_t kQuickPoints = 9;
 constexpr size_t kMaxLikely = 2 * kLanes;
 

@@ -14,7 +14,7 @@ namespace hearth::clusters
 struct Config
 {
     /// Clusters of a group: merging stops at the target and never passes the maximum. Bigger groups lock fewer
-    /// vertices; past 24 the gain is under 3 % and streaming gets coarser (PEERS section 7).
+    /// vertices; past 24 the gain is under 3 % and streaming gets coarser (design notes, PEERS section 7).
     uint32_t group_target_clusters = 16;
     uint32_t group_max_clusters = 24;
 

@@ -19,7 +19,8 @@ namespace
 
 using namespace formats;
 
-// Float positions hardly compress: higher levels cost seconds on a large mesh and gain 1 % (measured in README.md).
+// Level 9 packs 45 MB a second: for two million triangles that alone would take a quarter of the time that all else
+// does. Level 1 packs 868.
 constexpr int kZstdLevel = 1;
 
 /// Give each group its page, and each cluster its place in the page.

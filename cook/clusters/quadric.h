@@ -88,8 +88,8 @@ Quadrics initialQuadrics(const GroupMesh& group);
 /// along  from one end of the edge to the other;  side: from there to the triangle's third corner
 PositionQuadric edgeQuadric(Float3 along, Float3 side, float factor);
 
-// An open border may only move along itself; this weight against the planes of the surface keeps its shape. Seams are
-// kept less strictly: the surface on their other side holds them too. (Both as in meshoptimizer, found by trial there.)
+// An open border has no surface on its other side that would hold it: a large weight against the planes of the surface
+// keeps its shape. Seams are held by both sides, and get as much again.
 inline constexpr float kBorderWeight = 10.0f;
 inline constexpr float kSeamWeight = 1.0f;
 
