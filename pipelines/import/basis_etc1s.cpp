@@ -307,7 +307,7 @@ void writeBlock(const Endpoint& endpoint, const Selector& selector, uint32_t blo
     for (uint32_t y = 0; y < std::min(4u, image.height - block_y * 4); ++y)
         for (uint32_t x = 0; x < std::min(4u, image.width - block_x * 4); ++x)
         {
-            const auto& color = colors[(selector[y] >> (2 * x)) & 3u];
+            const auto& color = colors[(uint32_t{selector[y]} >> (2 * x)) & 3u];
             const size_t index = (size_t{block_y} * 4 + y) * image.width + size_t{block_x} * 4 + x;
             auto* texel = reinterpret_cast<uint8_t*>(image.texels.data()) + index * 4;
             if (target == Target::color)

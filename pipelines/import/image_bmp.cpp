@@ -102,7 +102,7 @@ uint32_t storedValue(const uint8_t* row, uint32_t x, uint32_t depth)
     if (depth < 8)
     {
         const uint32_t per_byte = 8u / depth;
-        return (row[x / per_byte] >> (8u - depth * (x % per_byte + 1u))) & ((1u << depth) - 1u);
+        return (uint32_t{row[x / per_byte]} >> (8u - depth * (x % per_byte + 1u))) & ((1u << depth) - 1u);
     }
     uint32_t value = 0;
     for (uint32_t i = 0; i < depth / 8; ++i)

@@ -83,11 +83,10 @@ private:
         auto value = reader_.read<Bits>();
         if (value && swap_)
         {
-            Bits swapped = 0;
+            uint64_t swapped = 0;
             for (size_t i = 0; i < sizeof(Bits); ++i)
-                swapped = static_cast<Bits>(swapped | ((*value >> (8 * i)) & 0xFFu)
-                                                          << (8 * (sizeof(Bits) - 1 - i)));
-            value = swapped;
+                swapped = swapped << 8 | ((uint64_t{*value} >> (8 * i)) & 0xFFu);
+            value = static_cast<Bits>(swapped);
         }
         return value;
     }
