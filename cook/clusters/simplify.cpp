@@ -222,9 +222,9 @@ float Collapser::cost(uint32_t from, uint32_t to) const
     for (const WedgeMove& move : moves_)
     {
         const float wedge_weight = quadrics_.wedge_weight[move.from];
-        const float* attributes_from = &group_.attributes[size_t{move.from} * count];
-        const float* attributes_to = &group_.attributes[size_t{move.to} * count];
-        const AttributeGradient* gradients = &quadrics_.gradients[size_t{move.from} * count];
+        const float* attributes_from = group_.attributes.data() + size_t{move.from} * count;
+        const float* attributes_to = group_.attributes.data() + size_t{move.to} * count;
+        const AttributeGradient* gradients = quadrics_.gradients.data() + size_t{move.from} * count;
         weight += wedge_weight;
         for (uint32_t i = 0; i < count; ++i)
         {

@@ -223,7 +223,7 @@ TEST(DecodeTga, refusesCutFilesAndNoTexels)
 void append(Bytes& bytes, uint32_t value, size_t size)
 {
     for (size_t i = 0; i < size; ++i)
-        bytes.push_back(static_cast<uint8_t>(value >> (8 * i)));
+        bytes.push_back(i < sizeof(value) ? static_cast<uint8_t>(value >> (8 * i)) : uint8_t{0});
 }
 
 /// A BMP with a header of 40 bytes.

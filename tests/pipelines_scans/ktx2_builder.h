@@ -17,7 +17,7 @@ using Rgba8 = std::array<uint8_t, 4>;
 inline void append(Bytes& bytes, uint64_t value, size_t size)
 {
     for (size_t i = 0; i < size; ++i)
-        bytes.push_back(static_cast<uint8_t>(value >> (8 * i)));
+        bytes.push_back(i < sizeof(value) ? static_cast<uint8_t>(value >> (8 * i)) : uint8_t{0});
 }
 
 /// A KTX2 file; as it stands one of 2 x 2 texels RGBA8.
