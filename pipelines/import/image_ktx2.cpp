@@ -4,12 +4,13 @@
 #include "formats/container_reader.h"
 #include "formats/half.h"
 #include "pipelines/import/basis_etc1s.h"
+#include "pipelines/import/basis_uastc.h"
 #include "pipelines/import/ktx2_container.h"
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cstring>
+#include <numeric>
 
 namespace hearth::import
 {
@@ -106,19 +107,28 @@ void copyTexels(std::span<const std::byte> bytes, const TexelLayout& layout, Dec
     }
 }
 
-/// Sizes of all levels must be those of the format; each level starts on a multiple of 4 and of the texel.
-bool levelsFit(const EncodedImage& source, const Ktx2File& file, uint64_t texel_bytes)
+/// How the texels of a format come in blocks; a single texel is a block too.
+struct BlockSize
 {
-    const uint64_t alignment = texel_bytes % 4 == 0   ? texel_bytes
-                               : texel_bytes % 2 == 0 ? texel_bytes * 2
-                                                      : texel_bytes * 4;
+    uint32_t side;
+    uint64_t bytes;
+
+    uint64_t levelBytes(uint32_t width, uint32_t height) const
+    {
+        return ((uint64_t{width} + side - 1) / side) * ((uint64_t{height} + side - 1) / side) * bytes;
+    }
+};
+
+/// Sizes of all levels must be those of the format; each level starts on a multiple of 4 and of the block.
+bool levelsFit(const EncodedImage& source, const Ktx2File& file, BlockSize block)
+{
+    const uint64_t alignment = std::lcm(block.bytes, uint64_t{4});
     for (size_t i = 0; i < file.levels.size(); ++i)
     {
-        const uint64_t width = std::max(1u, file.width >> i);
-        const uint64_t height = std::max(1u, file.height >> i);
         const Ktx2Level& level = file.levels[i];
         const auto offset = static_cast<uint64_t>(level.bytes.data() - source.bytes.data());
-        if (level.uncompressed_size != width * height * texel_bytes)
+        if (level.uncompressed_size !=
+            block.levelBytes(std::max(1u, file.width >> i), std::max(1u, file.height >> i)))
             return false;
         if (file.scheme == Ktx2Scheme::none &&
             (level.bytes.size() != level.uncompressed_size || offset % alignment != 0))
@@ -127,31 +137,56 @@ bool levelsFit(const EncodedImage& source, const Ktx2File& file, uint64_t texel_
     return true;
 }
 
+/// The finest level without its supercompression.
+Result<std::vector<std::byte>> finestLevel(const EncodedImage& source, const Ktx2File& file, BlockSize block)
+{
+    if (!levelsFit(source, file, block))
+        return source.malformed("KTX2: a mip level does not have the size or place that the format asks for");
+    const Ktx2Level& level = file.levels[0];
+    if (file.scheme == Ktx2Scheme::none)
+        return std::vector<std::byte>(level.bytes.begin(), level.bytes.end());
+    if (file.scheme != Ktx2Scheme::zstd)
+        return source.unsupported("KTX2: ZLIB supercompression is not read");
+    std::vector<std::byte> texels(static_cast<size_t>(level.uncompressed_size));
+    if (!formats::decompress(level.bytes, texels))
+        return source.malformed("KTX2: the Zstandard data is damaged");
+    return texels;
+}
+
 Result<DecodedImage> decodeUncompressed(const EncodedImage& source, const Ktx2File& file,
                                         const TexelLayout& layout)
 {
-    const uint64_t texel_bytes = uint64_t{layout.channels} * bytesOfComponent(layout.component);
-    if (!levelsFit(source, file, texel_bytes))
-        return source.malformed("KTX2: a mip level does not have the size or place that the format asks for");
+    const BlockSize texel{1, uint64_t{layout.channels} * bytesOfComponent(layout.component)};
+    HEARTH_ASSIGN_OR_RETURN(const std::vector<std::byte> texels, finestLevel(source, file, texel));
     HEARTH_ASSIGN_OR_RETURN(DecodedImage image,
                             allocateImage(source, file.width, file.height, isFloat(layout.component)));
-    if (file.scheme == Ktx2Scheme::none)
-    {
-        copyTexels(file.levels[0].bytes, layout, image);
-        return image;
-    }
-    std::vector<std::byte> texels(static_cast<size_t>(file.levels[0].uncompressed_size));
-    if (!formats::decompress(file.levels[0].bytes, texels))
-        return source.malformed("KTX2: the Zstandard data is damaged");
     copyTexels(texels, layout, image);
+    return image;
+}
+
+/// What glTF asks of Basis Universal textures.
+Status checkBasisSize(const EncodedImage& source, const Ktx2File& file)
+{
+    if (file.width % 4 == 0 && file.height % 4 == 0)
+        return success();
+    return source.malformed("KTX2: KHR_texture_basisu asks for sizes that are multiples of 4, this is " +
+                            std::to_string(file.width) + " x " + std::to_string(file.height));
+}
+
+Result<DecodedImage> decodeUastcImage(const EncodedImage& source, const Ktx2File& file)
+{
+    HEARTH_TRY(checkBasisSize(source, file));
+    HEARTH_ASSIGN_OR_RETURN(const std::vector<std::byte> blocks,
+                            finestLevel(source, file, {4, kUastcBlockBytes}));
+    HEARTH_ASSIGN_OR_RETURN(DecodedImage image, allocateImage(source, file.width, file.height, false));
+    if (!decodeUastc(blocks, file.is_srgb, image))
+        return source.malformed("KTX2: UASTC: a block is damaged");
     return image;
 }
 
 Result<DecodedImage> decodeEtc1s(const EncodedImage& source, const Ktx2File& file)
 {
-    if (file.width % 4 != 0 || file.height % 4 != 0)
-        return source.malformed("KTX2: KHR_texture_basisu asks for sizes that are multiples of 4, this is " +
-                                std::to_string(file.width) + " x " + std::to_string(file.height));
+    HEARTH_TRY(checkBasisSize(source, file));
     const bool sizes_zero = std::all_of(file.levels.begin(), file.levels.end(),
                                         [](const Ktx2Level& level) { return level.uncompressed_size == 0; });
     if (!sizes_zero || file.color_model != kModelEtc1s || file.sample_channels.size() > 2)
@@ -172,14 +207,13 @@ Result<DecodedImage> decodeKtx2(const EncodedImage& source)
     HEARTH_ASSIGN_OR_RETURN(const Ktx2File file, readKtx2(source));
     if (file.scheme == Ktx2Scheme::basis_lz)
         return decodeEtc1s(source, file);
+    if (file.vk_format == 0 && file.color_model == kModelUastc)
+        return decodeUastcImage(source, file);
     const auto layout = std::find_if(kLayouts.begin(), kLayouts.end(),
                                      [&](const TexelLayout& l) { return l.vk_format == file.vk_format; });
     if (layout == kLayouts.end())
-        return source.unsupported(file.vk_format == 0
-                                      ? "KTX2: UASTC and other formats without a VkFormat are not read"
-                                      : "KTX2: VkFormat " + std::to_string(file.vk_format) + " is not read");
-    if (file.scheme == Ktx2Scheme::zlib)
-        return source.unsupported("KTX2: ZLIB supercompression is not read");
+        return source.unsupported("KTX2: VkFormat " + std::to_string(file.vk_format) + " with colour model " +
+                                  std::to_string(file.color_model) + " is not read");
     return decodeUncompressed(source, file, *layout);
 }
 

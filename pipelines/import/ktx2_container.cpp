@@ -44,6 +44,7 @@ struct LevelIndex
 
 constexpr uint32_t kDescriptorHeaderBytes = 24; ///< of the basic descriptor block, before its samples
 constexpr uint32_t kSampleBytes = 16;
+constexpr uint8_t kTransferSrgb = 2;
 
 bool hasGlobalData(uint32_t scheme)
 {
@@ -89,12 +90,15 @@ bool readDescriptor(std::span<const std::byte> bytes, Ktx2File& file)
     reader.skip(2); // version
     const auto block_size = reader.read<uint16_t>();
     const auto color_model = reader.read<uint8_t>();
-    if (!color_model || *total_size != bytes.size() || *vendor_and_type != 0)
+    reader.skip(1); // primaries
+    const auto transfer = reader.read<uint8_t>();
+    if (!transfer || *total_size != bytes.size() || *vendor_and_type != 0)
         return false;
     if (*block_size < kDescriptorHeaderBytes || *block_size > bytes.size() - sizeof(uint32_t) ||
         (*block_size - kDescriptorHeaderBytes) % kSampleBytes != 0)
         return false;
     file.color_model = *color_model;
+    file.is_srgb = *transfer == kTransferSrgb;
     const uint32_t sample_count = (*block_size - kDescriptorHeaderBytes) / kSampleBytes;
     for (uint32_t i = 0; i < sample_count; ++i)
     {

@@ -32,6 +32,7 @@ struct Ktx2File
     uint32_t height = 0;
     Ktx2Scheme scheme = Ktx2Scheme::none;
     uint32_t color_model = 0;
+    bool is_srgb = false;                  ///< transfer function of the data format descriptor
     std::vector<uint32_t> sample_channels; ///< channel of each sample of the data format descriptor
     std::span<const std::byte> global_data;
     std::vector<Ktx2Level> levels; ///< finest first

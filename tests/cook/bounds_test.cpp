@@ -54,7 +54,8 @@ TEST_F(Bounds, roundUpNeverFalls)
 // A compiler that forgets to round the centre to floats before the radius is measured fails about one time in 200.
 TEST_F(Bounds, sphereOfPointsHoldsThem)
 {
-    for (const auto& [offset, size] : {std::pair{0.0f, 1.0f}, {1000.0f, 0.1f}, {-3e6f, 10.0f}, {0.0f, 1e-20f}, {0.0f, 1e18f}})
+    for (const auto& [offset, size] :
+         {std::pair{0.0f, 1.0f}, {1000.0f, 0.1f}, {-3e6f, 10.0f}, {0.0f, 1e-20f}, {0.0f, 1e18f}})
         for (const size_t count : {1u, 2u, 3u, 97u})
             for (int i = 0; i < 500; ++i)
             {
@@ -117,8 +118,10 @@ TEST_F(Bounds, conesHideNothingThatFacesTheEye)
         for (int e = 0; e < 200; ++e)
         {
             const Float3 eye{away(random_), away(random_), away(random_)};
-            const double x = double{cone.apex.x} - eye.x, y = double{cone.apex.y} - eye.y, z = double{cone.apex.z} - eye.z;
-            const double along = (x * cone.axis.x + y * cone.axis.y + z * cone.axis.z) / std::sqrt(x * x + y * y + z * z);
+            const double x = double{cone.apex.x} - eye.x, y = double{cone.apex.y} - eye.y,
+                         z = double{cone.apex.z} - eye.z;
+            const double along =
+                (x * cone.axis.x + y * cone.axis.y + z * cone.axis.z) / std::sqrt(x * x + y * y + z * z);
             if (along < cone.cutoff)
                 continue;
             ++hidden;
@@ -127,7 +130,8 @@ TEST_F(Bounds, conesHideNothingThatFacesTheEye)
                 const Float3 a = places[t], b = places[t + 1], c = places[t + 2];
                 const double ux = double{b.x} - a.x, uy = double{b.y} - a.y, uz = double{b.z} - a.z;
                 const double vx = double{c.x} - a.x, vy = double{c.y} - a.y, vz = double{c.z} - a.z;
-                const double facing = (uy * vz - uz * vy) * (double{eye.x} - a.x) + (uz * vx - ux * vz) * (double{eye.y} - a.y) +
+                const double facing = (uy * vz - uz * vy) * (double{eye.x} - a.x) +
+                                      (uz * vx - ux * vz) * (double{eye.y} - a.y) +
                                       (ux * vy - uy * vx) * (double{eye.z} - a.z);
                 ASSERT_LE(facing, 0) << "dome " << i << ", triangle " << t / 3;
             }

@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "pipelines/import/basis_uastc.h"
+#include "tests/pipelines_scans/ktx2_builder.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+
+namespace hearth::import
+{
+
+namespace
+{
+
+using namespace test;
+
+using Patterns = std::array<uint8_t, 16>;
+
+Patterns patternOf(uint32_t seed, uint32_t count)
+{
+    Patterns pattern{};
+    for (uint32_t i = 0; i < 16; ++i)
+        pattern[i] = static_cast<uint8_t>(astcPartition(seed, count, i % 4, i / 4));
+    return pattern;
+}
+
+TEST(UastcPatterns, ofTwoPartsAreThoseOfBc7)
+{
+    // BC7's patterns 0 to 15, 17 to 26, 29, 32, 33 and 52: bit i is the part of texel i
+    constexpr std::array<uint16_t, 30> kBc7 = {0xCCCC, 0x8888, 0xEEEE, 0xECC8, 0xC880, 0xFEEC, 0xFEC8, 0xEC80,
+                                               0xC800, 0xFFEC, 0xFE80, 0xE800, 0xFFE8, 0xFF00, 0xFFF0, 0xF000,
+                                               0x008E, 0x7100, 0x08CE, 0x008C, 0x7310, 0x3100, 0x8CCE, 0x088C,
+                                               0x3110, 0x6666, 0x0FF0, 0xAAAA, 0xF0F0, 0xC936};
+    ASSERT_EQ(uastcSeeds(2).size(), kBc7.size());
+    for (size_t i = 0; i < kBc7.size(); ++i)
+    {
+        uint32_t bits = 0;
+        const Patterns pattern = patternOf(uastcSeeds(2)[i], 2);
+        for (uint32_t texel = 0; texel < 16; ++texel)
+            bits |= static_cast<uint32_t>(pattern[texel]) << texel;
+        // ASTC may number the two parts the other way
+        EXPECT_TRUE(bits == kBc7[i] || bits == (kBc7[i] ^ 0xFFFFu)) << i;
+    }
+}
+
+TEST(UastcPatterns, areDistinctAndHaveAllTheirParts)
+{
+    for (const auto& [mode, parts] : {std::pair{2u, 2u}, std::pair{3u, 3u}, std::pair{7u, 2u}})
+    {
+        std::set<Patterns> distinct;
+        for (const uint16_t seed : uastcSeeds(mode))
+        {
+            const Patterns pattern = patternOf(seed, parts);
+            EXPECT_EQ(std::set<uint8_t>(pattern.begin(), pattern.end()).size(), parts);
+            distinct.insert(pattern);
+        }
+        EXPECT_EQ(distinct.size(), uastcSeeds(mode).size());
+    }
+}
+
+class BitWriter
+{
+public:
+    void put(uint64_t value, uint32_t count)
+    {
+        for (uint32_t i = 0; i < count; ++i, ++at_)
+            block_[at_ / 8] = static_cast<uint8_t>(block_[at_ / 8] | ((value >> i) & 1u) << (at_ % 8));
+    }
+    const Bytes& block() const { return block_; }
+    uint32_t used() const { return at_; }
+
+private:
+    Bytes block_ = Bytes(16);
+    uint32_t at_ = 0;
+};
+
+/// What the specification says of each mode, by other means than the decoder's table.
+struct ModeLayout
+{
+    uint32_t mode;
+    std::string_view code; ///< first bit first
+    uint32_t hints;
+    uint32_t pattern_bits;
+    uint32_t channel_bits; ///< of the channel with weights of its own
+    uint32_t planes;
+    uint32_t components;
+    uint32_t subsets;
+    uint32_t levels; ///< of endpoints
+    uint32_t weight_bits;
+    uint32_t bits; ///< in all
+};
+constexpr std::array kLayouts = {
+    ModeLayout{0, "1000", 15, 0, 0, 1, 3, 1, 192, 4, 128},
+    ModeLayout{1, "101011", 15, 0, 0, 1, 3, 1, 256, 2, 100},
+    ModeLayout{2, "10111", 15, 5, 0, 1, 3, 2, 16, 3, 119},
+    ModeLayout{3, "11000", 15, 4, 0, 1, 3, 3, 12, 2, 118},
+    ModeLayout{4, "11001", 15, 5, 0, 1, 3, 2, 40, 2, 119},
+    ModeLayout{5, "11010", 15, 0, 0, 1, 3, 1, 256, 3, 115},
+    ModeLayout{6, "11011", 15, 0, 2, 2, 3, 1, 160, 2, 128},
+    ModeLayout{7, "11100", 15, 5, 0, 1, 3, 2, 40, 2, 119},
+    ModeLayout{9, "11110", 23, 5, 0, 1, 4, 2, 16, 2, 127},
+    ModeLayout{10, "010", 17, 0, 0, 1, 4, 1, 48, 4, 128},
+    ModeLayout{11, "00", 17, 0, 2, 2, 4, 1, 48, 2, 128},
+    ModeLayout{12, "011", 17, 0, 0, 1, 4, 1, 192, 3, 128},
+    ModeLayout{13, "11111", 23, 0, 2, 2, 4, 1, 256, 1, 124},
+    ModeLayout{14, "10110", 23, 0, 0, 1, 4, 1, 256, 2, 123},
+    ModeLayout{15, "1010000", 23, 0, 0, 1, 2, 1, 256, 4, 125},
+    ModeLayout{16, "101010", 23, 5, 0, 1, 2, 2, 256, 2, 128},
+    ModeLayout{17, "101001", 23, 0, 0, 2, 2, 1, 256, 2, 123},
+    ModeLayout{18, "1001", 15, 0, 0, 1, 3, 1, 32, 5, 128},
+};
+
+/// Endpoints of 0 and 255 only, `highs` telling which; the stored values that stand for them in each range.
+void putEndpoints(BitWriter& out, const ModeLayout& layout, const std::vector<bool>& highs)
+{
+    const uint32_t base = layout.levels % 3 == 0 ? 3 : layout.levels % 5 == 0 ? 5 : 1;
+    const uint32_t per_pack = base == 3 ? 5 : 3;
+    constexpr std::array<uint32_t, 6> kTritBits = {0, 2, 4, 5, 7, 8};
+    constexpr std::array<uint32_t, 4> kQuintBits = {0, 3, 5, 7};
+    for (size_t at = 0; base > 1 && at < highs.size(); at += per_pack)
+    {
+        const size_t count = std::min<size_t>(per_pack, highs.size() - at);
+        out.put(0, base == 3 ? kTritBits[count] : kQuintBits[count]);
+    }
+    const auto bits = static_cast<uint32_t>(std::bit_width(layout.levels / base) - 1);
+    // with trits and quints the lowest bit mirrors the range: 1 is its top
+    const uint64_t top = base == 1 ? layout.levels - 1 : 1;
+    for (const bool high : highs)
+        out.put(high ? top : 0, bits);
+}
+
+bool highWeight(uint32_t texel, bool anchor, uint32_t plane)
+{
+    return !anchor && (texel * 7 + texel / 4 + plane) % 3 != 0;
+}
+
+TEST(DecodeUastc, readsEveryMode)
+{
+    for (const ModeLayout& layout : kLayouts)
+    {
+        SCOPED_TRACE("mode " + std::to_string(layout.mode));
+        BitWriter out;
+        for (const char bit : layout.code)
+            out.put(bit == '1', 1);
+        out.put(0x2A5A5A, layout.hints); // hints for other formats mean nothing here
+        const uint32_t pattern = layout.subsets > 1 ? 9 : 0;
+        out.put(pattern, layout.pattern_bits);
+        const uint32_t channel = layout.channel_bits > 0 ? 1 : 3;
+        out.put(channel, layout.channel_bits);
+
+        // the first endpoint is low in some channels and high in others
+        const auto firstIsHigh = [](uint32_t subset, uint32_t component)
+        { return (subset + component) % 2 != 0; };
+        std::vector<bool> highs;
+        for (uint32_t subset = 0; subset < layout.subsets; ++subset)
+            for (uint32_t component = 0; component < layout.components; ++component)
+            {
+                highs.push_back(firstIsHigh(subset, component));
+                highs.push_back(!firstIsHigh(subset, component));
+            }
+        putEndpoints(out, layout, highs);
+
+        const Patterns parts =
+            layout.subsets == 1 ? Patterns{} : patternOf(uastcSeeds(layout.mode)[pattern], layout.subsets);
+        const auto isAnchor = [&](uint32_t texel)
+        { return std::find(parts.begin(), parts.end(), parts[texel]) == parts.begin() + texel; };
+        for (uint32_t texel = 0; texel < 16; ++texel)
+            for (uint32_t plane = 0; plane < layout.planes; ++plane)
+                out.put(highWeight(texel, isAnchor(texel), plane) ? 31 : 0,
+                        layout.weight_bits - (isAnchor(texel) ? 1 : 0));
+        EXPECT_EQ(out.used(), layout.bits);
+
+        DecodedImage image{4, 4, false, std::vector<std::byte>(64)};
+        ASSERT_TRUE(decodeUastc(std::as_bytes(std::span(out.block())), false, image));
+        for (uint32_t texel = 0; texel < 16; ++texel)
+            for (uint32_t c = 0; c < 4; ++c)
+            {
+                const uint32_t component = layout.components == 2 ? (c == 3 ? 1 : 0) : c;
+                const bool high_weight =
+                    highWeight(texel, isAnchor(texel), layout.planes == 2 && c == channel ? 1 : 0);
+                const bool high =
+                    component >= layout.components || firstIsHigh(parts[texel], component) != high_weight;
+                EXPECT_EQ(texelOf(image, texel % 4, texel / 4)[c], high ? 255 : 0)
+                    << "texel " << texel << " channel " << c;
+            }
+    }
+}
+
+Bytes solidBlock(const Rgba8& texel)
+{
+    BitWriter out;
+    out.put(0x17, 5);
+    for (const uint8_t channel : texel)
+        out.put(channel, 8);
+    return out.block();
+}
+
+TEST(DecodeUastc, readsSolidBlocksAndInterpolates)
+{
+    DecodedImage image{4, 4, false, std::vector<std::byte>(64)};
+    const Bytes solid = solidBlock({1, 2, 3, 4});
+    ASSERT_TRUE(decodeUastc(std::as_bytes(std::span(solid)), true, image));
+    EXPECT_EQ(texelOf(image, 3, 3), (Rgba8{1, 2, 3, 4}));
+
+    // mode 18: endpoints of 5 bits, weights of 5 bits
+    BitWriter out;
+    out.put(9, 4);
+    out.put(0, 15);
+    for (const uint32_t value : {0u, 31u, 10u, 10u, 31u, 0u})
+        out.put(value, 5);
+    for (uint32_t texel = 0; texel < 16; ++texel)
+        out.put(texel * 2, texel == 0 ? 4 : 5);
+    ASSERT_TRUE(decodeUastc(std::as_bytes(std::span(out.block())), false, image));
+    EXPECT_EQ(texelOf(image, 0, 0), (Rgba8{0, 82, 255, 255}));
+    // weight 16 of 31 is 34 of 64 (33 by its bits, and ASTC adds one beyond the middle): 65535 * 34 / 64 = 135.99 * 256
+    EXPECT_EQ(texelOf(image, 0, 2), (Rgba8{135, 82, 120, 255}));
+}
+
+Ktx2 uastcFile(const Bytes& blocks, uint32_t width, uint32_t height)
+{
+    Ktx2 ktx;
+    ktx.vk_format = 0;
+    ktx.model = 166;
+    ktx.channels = {3};
+    ktx.width = width;
+    ktx.height = height;
+    ktx.levels = {blocks};
+    ktx.uncompressed = {blocks.size()};
+    return ktx;
+}
+
+TEST(DecodeUastc, readsWholeFilesAndRefusesDamage)
+{
+    Bytes blocks = solidBlock({10, 20, 30, 40});
+    const Bytes second = solidBlock({50, 60, 70, 80});
+    blocks.insert(blocks.end(), second.begin(), second.end());
+    const auto image = decode(uastcFile(blocks, 8, 4).file());
+    ASSERT_TRUE(image.ok()) << image.error().detail;
+    EXPECT_EQ(texelOf(*image, 3, 3), (Rgba8{10, 20, 30, 40}));
+    EXPECT_EQ(texelOf(*image, 4, 0), (Rgba8{50, 60, 70, 80}));
+
+    const auto issueOf = [](const Ktx2& ktx) { return decode(ktx.file()).error().issue; };
+    EXPECT_EQ(issueOf(uastcFile(blocks, 12, 4)), Issue::image_malformed);
+    EXPECT_EQ(issueOf(uastcFile(blocks, 7, 4)), Issue::image_malformed);
+    blocks[16] = 0x45; // the one prefix code that stands for no mode
+    EXPECT_EQ(issueOf(uastcFile(blocks, 8, 4)), Issue::image_malformed);
+    blocks[16] = 0x1D; // mode 2 with pattern 31 of 30
+    blocks[18] = 0xFF;
+    blocks[19] = 0xFF;
+    EXPECT_EQ(issueOf(uastcFile(blocks, 8, 4)), Issue::image_malformed);
+}
+
+} // namespace
+
+} // namespace hearth::import
