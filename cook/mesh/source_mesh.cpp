@@ -21,7 +21,8 @@ class ArrayPacker
 {
 public:
     template <typename T>
-    void add(SourceSemantic semantic, uint32_t set, const std::vector<T>& values, uint32_t element_size = sizeof(T))
+    void add(SourceSemantic semantic, uint32_t set, const std::vector<T>& values,
+             uint32_t element_size = sizeof(T))
     {
         if (values.empty())
             return;
@@ -66,6 +67,9 @@ void addDeformation(ArrayPacker& packer, const SourceMesh& mesh)
         packer.add(SourceSemantic::joints, set, mesh.joint_sets[set]);
         packer.add(SourceSemantic::weights, set, mesh.weight_sets[set]);
     }
+    packer.add(SourceSemantic::bind_position, 0, mesh.bind_pose.positions);
+    packer.add(SourceSemantic::bind_normal, 0, mesh.bind_pose.normals);
+    packer.add(SourceSemantic::bind_tangent, 0, mesh.bind_pose.tangents);
     for (uint32_t target = 0; target < mesh.morph_targets.size(); ++target)
     {
         packer.add(SourceSemantic::morph_position, target, mesh.morph_targets[target].positions);
@@ -145,6 +149,12 @@ bool readArray(std::span<const std::byte> bytes, const SourceMeshHeader& header,
         return copyArray(bytes, array, vertices, grown(mesh.morph_targets, array.set).normals);
     case SourceSemantic::morph_tangent:
         return copyArray(bytes, array, vertices, grown(mesh.morph_targets, array.set).tangents);
+    case SourceSemantic::bind_position:
+        return copyArray(bytes, array, vertices, mesh.bind_pose.positions);
+    case SourceSemantic::bind_normal:
+        return copyArray(bytes, array, vertices, mesh.bind_pose.normals);
+    case SourceSemantic::bind_tangent:
+        return copyArray(bytes, array, vertices, mesh.bind_pose.tangents);
     }
     return false;
 }
@@ -199,7 +209,9 @@ Status writeDeformation(ContainerWriter& writer, uint32_t index, const SourceMes
 Result<SourceMesh> readSourceMesh(const ContainerReader& reader, uint32_t index)
 {
     const std::string where = chunkName(kChunkSourceMesh, index);
-    const auto damaged = [&](const char* what) { return Error{Issue::chunk_size, reader.name(), where, what}; };
+    const auto damaged = [&](const char* what) {
+        return Error{Issue::chunk_size, reader.name(), where, what};
+    };
     if (reader.find(kChunkSourceMesh, index) == nullptr)
         return Error{Issue::chunk_missing, reader.name(), where, ""};
     HEARTH_ASSIGN_OR_RETURN(const ChunkData data, reader.read(kChunkSourceMesh, index));

@@ -3,6 +3,7 @@
 
 #include "pipelines/import/gltf_animations.h"
 #include "pipelines/import/gltf_instancing.h"
+#include "pipelines/import/gltf_rest_pose.h"
 
 #include <fmt/format.h>
 
@@ -19,34 +20,6 @@ namespace
 std::string nodePointer(uint32_t node)
 {
     return fmt::format("/nodes/{}", node);
-}
-
-/// Roots first: the model has no cycles.
-std::vector<uint32_t> parentsFirst(const GltfModel& model)
-{
-    std::vector<uint32_t> order;
-    order.reserve(model.nodes.size());
-    for (uint32_t node = 0; node < model.nodes.size(); ++node)
-        if (model.nodes[node].parent == kNone)
-            order.push_back(node);
-    for (size_t i = 0; i < order.size(); ++i)
-    {
-        const std::vector<uint32_t>& children = model.nodes[order[i]].children;
-        order.insert(order.end(), children.begin(), children.end());
-    }
-    return order;
-}
-
-std::vector<Transform> worldTransforms(const GltfModel& model)
-{
-    std::vector<Transform> world_from_node(model.nodes.size());
-    for (const uint32_t node : parentsFirst(model))
-    {
-        const GltfNode& n = model.nodes[node];
-        world_from_node[node] =
-            n.parent == kNone ? n.parent_from_node : world_from_node[n.parent] * n.parent_from_node;
-    }
-    return world_from_node;
 }
 
 /// Whether each node belongs to the scene that is drawn.
@@ -181,6 +154,13 @@ Status SceneWriter::writeNode(uint32_t node)
 Transform SceneWriter::objectTransform(uint32_t node)
 {
     const GltfNode& n = model_.nodes[node];
+    if (const uint32_t posed_by = meshes_[n.mesh].posed_by; posed_by != kNone)
+    {
+        if (model_.nodes[posed_by].skin != n.skin)
+            tally_.degraded("a mesh that several skins pose: it is drawn in the pose of its first node",
+                            nodePointer(node));
+        return {};
+    }
     if (n.skin == kNone)
         return world_from_node_[node];
     const auto pose = skinnedRestPose(model_.skins[n.skin], inverse_binds_[n.skin],
@@ -191,8 +171,8 @@ Transform SceneWriter::objectTransform(uint32_t node)
                         nodePointer(node));
         return world_from_node_[node];
     }
-    if (!pose->exact)
-        tally_.degraded("a skinned mesh whose joints are posed: it is drawn in the bind pose",
+    if (!pose->rigid)
+        tally_.degraded("a skinned mesh whose pose does not fit 32-bit numbers: it is drawn in the bind pose",
                         nodePointer(node));
     return pose->world_from_object;
 }

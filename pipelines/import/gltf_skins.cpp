@@ -15,9 +15,6 @@ using namespace formats;
 namespace
 {
 
-// one part in a thousand of the transform: what exporters lose by writing two products of floats
-constexpr double kAgreement = 1e-3;
-
 Result<InverseBinds> readInverseBinds(const GltfSkin& skin, GltfAccessors& accessors)
 {
     InverseBinds matrices(skin.joints.size());
@@ -40,21 +37,6 @@ Result<InverseBinds> readInverseBinds(const GltfSkin& skin, GltfAccessors& acces
         matrices[joint] = transformFromColumns(columns);
     }
     return matrices;
-}
-
-double largestEntry(const Transform& t)
-{
-    double largest = 0;
-    for (const auto& row : t.m)
-        for (const double value : row)
-            largest = std::max(largest, std::abs(value));
-    return largest;
-}
-
-bool isFlat(const Transform& t)
-{
-    const std::optional<Affine3> narrow = narrowed(t);
-    return !narrow || determinant(*narrow) == 0.0f;
 }
 
 } // namespace
@@ -85,28 +67,6 @@ Result<std::vector<InverseBinds>> writeSkins(const GltfModel& model, GltfAccesso
     }
     context.part.counts.joints = joint_nodes.size();
     return all;
-}
-
-std::optional<SkinnedRestPose> skinnedRestPose(const GltfSkin& skin, const InverseBinds& inverse_binds,
-                                               const std::vector<bool>& used,
-                                               std::span<const Transform> world_from_node)
-{
-    HEARTH_ASSERT(used.size() <= skin.joints.size());
-    std::optional<SkinnedRestPose> pose;
-    for (size_t joint = 0; joint < used.size(); ++joint)
-    {
-        if (!used[joint])
-            continue;
-        const Transform world_from_bind = world_from_node[skin.joints[joint]] * inverse_binds[joint];
-        if (isFlat(world_from_bind))
-            continue;
-        if (!pose)
-            pose = SkinnedRestPose{world_from_bind, true};
-        else if (distance(world_from_bind, pose->world_from_object) >
-                 kAgreement * std::max(largestEntry(pose->world_from_object), 1e-6))
-            pose->exact = false;
-    }
-    return pose;
 }
 
 } // namespace hearth::import

@@ -219,15 +219,64 @@ TEST(GltfSkins, drawTheMeshWhereItsJointsCarryIt)
     EXPECT_EQ(result.mesh().joint_sets[0][2].joint[0], 1);
 }
 
-TEST(GltfSkins, sayWhenTheJointsArePosed)
+TEST(GltfSkins, drawTheRestPoseWhereJointsArePosed)
 {
-    const std::string nodes =
-        R"("nodes":[{"mesh":0,"skin":0},{"translation":[5,0,0]},{"translation":[7,1,0]}])";
+    // joint 1 carries two corners 2 to the right, and a quarter turn about z through its own place, (7, 1)
+    const std::string nodes = R"("nodes":[{"mesh":0,"skin":0,"translation":[100,0,0]},{"translation":[5,0,0]},
+        {"translation":[7,1,0],"rotation":[0,0,0.70710678,0.70710678]}])";
     const Imported posed = importSkinned(true, nodes);
     ASSERT_TRUE(posed.ok()) << posed.message();
-    EXPECT_TRUE(posed.warnsOf(Issue::degraded, "bind pose"));
-    // the second joint moves nothing here, so its pose does not matter
-    EXPECT_FALSE(importSkinned(false, nodes).warnsOf(Issue::degraded, "bind pose"));
+    EXPECT_FALSE(posed.warnsOf(Issue::degraded, "bind pose"));
+    EXPECT_EQ(instancesOf(posed)[0].world_from_object, Affine3{});
+    const mesh::SourceMesh mesh = posed.mesh();
+    const mesh::SourceMesh bound = importSkinned(false, nodes).mesh();
+    EXPECT_EQ(mesh.bind_pose.positions, bound.positions);
+    EXPECT_EQ(mesh.bind_pose.normals, bound.normals);
+    EXPECT_TRUE(bound.bind_pose.positions.empty()) << "the second joint moves nothing there";
+    ASSERT_EQ(mesh.vertexCount(), bound.vertexCount());
+    size_t turned = 0;
+    for (size_t v = 0; v < mesh.vertexCount(); ++v)
+    {
+        const Float3 p = bound.positions[v];
+        if (mesh.joint_sets[0][v].joint[0] == 0)
+        {
+            expectNear(mesh.positions[v], p);
+            continue;
+        }
+        ++turned;
+        expectNear(mesh.positions[v], {7 - (p.y - 1), 1 + (p.x - 5), p.z});
+        expectNear(mesh.normals[v], {-bound.normals[v].y, bound.normals[v].x, bound.normals[v].z});
+    }
+    EXPECT_GT(turned, 0u);
+}
+
+TEST(GltfSkins, mirroredJointsTurnTrianglesOver)
+{
+    const Imported mirrored = importSkinned(true, R"("nodes":[{"mesh":0,"skin":0},
+        {"translation":[5,0,0],"scale":[-1,1,1]},{"translation":[8,1,0],"scale":[-1,1,1]}])");
+    ASSERT_TRUE(mirrored.ok()) << mirrored.message();
+    const mesh::SourceMesh mesh = mirrored.mesh();
+    ASSERT_FALSE(mesh.bind_pose.positions.empty());
+    for (size_t i = 0; i < mesh.indices.size(); i += 3)
+    {
+        const Float3 a = mesh.positions[mesh.indices[i]];
+        const Float3 face =
+            cross(mesh.positions[mesh.indices[i + 1]] - a, mesh.positions[mesh.indices[i + 2]] - a);
+        EXPECT_GT(dot(face, mesh.normals[mesh.indices[i]]), 0.0f) << "front and normal agree";
+    }
+}
+
+TEST(GltfSkins, sayWhenAMeshHasTwoPoses)
+{
+    GltfData data = squareData();
+    data.add("VEC4", std::vector<uint8_t>{0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0});
+    data.add("VEC4", std::vector<float>{1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0});
+    const Imported result = data.import(
+        R"("meshes":[{"primitives":[{"attributes":{"POSITION":0,"JOINTS_0":2,"WEIGHTS_0":3},"indices":1}]}],
+        "skins":[{"joints":[2,3]},{"joints":[3,2]}],
+        "nodes":[{"mesh":0,"skin":0},{"mesh":0,"skin":1},{"translation":[5,0,0]},{}])");
+    ASSERT_TRUE(result.ok()) << result.message();
+    EXPECT_TRUE(result.warnsOf(Issue::degraded, "several skins"));
 }
 
 TEST(GltfAnimations, keepKeysAndMendThem)
