@@ -67,8 +67,8 @@ struct Lighting
 HEARTH_CONSTANT Float3 kSkyZenith = Float3(0.30f, 0.36f, 0.46f);
 HEARTH_CONSTANT Float3 kSkyHorizon = Float3(0.42f, 0.43f, 0.45f);
 HEARTH_CONSTANT Float3 kSkyGround = Float3(0.14f, 0.132f, 0.125f);
-HEARTH_CONSTANT Float3 kSunIlluminance = Float3(2.3f, 2.16f, 1.98f);   ///< lux after exposure
-HEARTH_CONSTANT Float3 kSunDirection = Float3(0.5f, -0.8f, -0.6f); ///< the way it shines; of any length
+HEARTH_CONSTANT Float3 kSunIlluminance = Float3(2.3f, 2.16f, 1.98f); ///< lux after exposure
+HEARTH_CONSTANT Float3 kSunDirection = Float3(0.5f, -0.8f, -0.6f);   ///< the way it shines; of any length
 
 /// The exposure rule: lights that send more than this to the middle of the scene, in lux, are dimmed to it together.
 HEARTH_CONSTANT float kKeyIlluminance = 2.2f;

@@ -15,7 +15,7 @@ struct MeshSummary
     bool has_triangles = false;
     std::vector<bool> used_joints;
     size_t morph_target_count = 0;
-    uint32_t posed_by = formats::kNone; ///< the node in whose pose, and in the scene's space, its vertices are
+    uint32_t posed_by = formats::kNone; ///< the node whose pose the vertices have, in the space of the scene
 };
 
 /// Write all nodes, and the instances, cameras and lights of the default scene (the first one, or without scenes
