@@ -116,6 +116,8 @@ enum class IssueClass : uint8_t
       "close other programs, or choose another --device")                                                    \
     X(device_limit, 4004, internal, "the scene does not fit the graphics device",                            \
       "split the scene, or use a device with higher limits")                                                 \
+    X(out_of_memory, 4005, internal, "the machine has not enough memory",                                    \
+      "close other programs, or split the source")                                                           \
     X(child_failed, 7001, internal, "a cooker ended abnormally", "report it, with the input")                \
     X(internal, 7000, internal, "Hearth has a defect", "report it, with the input")
 

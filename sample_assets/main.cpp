@@ -1,5 +1,6 @@
 // hearth-samples: writes small glTF sources made by code alone.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "formats/program.h"
 #include "sample_assets/glb_writer.h"
 #include "sample_assets/samples.h"
 
@@ -32,9 +33,7 @@ hearth::Status writeSample(const std::string& kind, const hearth::samples::Sampl
     return hearth::samples::writeFile(path, hearth::samples::encodeGlb(document));
 }
 
-} // namespace
-
-int main(int argc, char** argv)
+int program(int argc, char** argv)
 {
     CLI::App app("Writes a sample scene as GLB. The same options give the same bytes.\n"
                  "Example: hearth-samples rock --triangles 2000000 -o rock.glb");
@@ -62,4 +61,11 @@ int main(int argc, char** argv)
         return fail({hearth::Issue::usage, "", "", "name a KIND and an output file (-o)"});
     const hearth::Status written = writeSample(kind, options, output);
     return written.ok() ? 0 : fail(written.error());
+}
+
+} // namespace
+
+int main(int argc, char** argv)
+{
+    return hearth::runProgram("hearth-samples", [&] { return program(argc, argv); });
 }

@@ -1,6 +1,7 @@
 // hearth-clusters: reads an import part and writes the clusters part.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/clusters/cluster_part.h"
+#include "formats/program.h"
 
 #include <CLI/CLI.hpp>
 
@@ -49,9 +50,7 @@ int run(const Arguments& arguments)
     return 0;
 }
 
-} // namespace
-
-int main(int argc, char** argv)
+int program(int argc, char** argv)
 {
     CLI::App app(
         "Builds the cluster hierarchy of every mesh of an import part and writes the clusters part.");
@@ -72,4 +71,11 @@ int main(int argc, char** argv)
         return app.exit(error) == 0 ? 0 : 2;
     }
     return run(arguments);
+}
+
+} // namespace
+
+int main(int argc, char** argv)
+{
+    return hearth::runProgram("hearth-clusters", [&] { return program(argc, argv); });
 }

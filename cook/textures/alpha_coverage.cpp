@@ -34,7 +34,8 @@ double alphaCoverage(std::span<const std::byte> texels, float cutoff)
     size_t passing = 0;
     for (size_t at = 3; at < texels.size(); at += 4)
         passing += static_cast<uint32_t>(texels[at]) >= least ? 1u : 0u;
-    return texels.empty() ? 0 : static_cast<double>(passing) / static_cast<double>(texels.size() / 4);
+    const size_t count = texels.size() / 4;
+    return count == 0 ? 0 : static_cast<double>(passing) / static_cast<double>(count);
 }
 
 float scaleForCoverage(const FloatImage& image, float cutoff, double coverage)

@@ -1,6 +1,7 @@
 // hearth-textures: gives the images of an import part their mips.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/textures/texture_part.h"
+#include "formats/program.h"
 
 #include <CLI/CLI.hpp>
 
@@ -34,9 +35,7 @@ int run(const Arguments& arguments)
     return exitCode(written.error());
 }
 
-} // namespace
-
-int main(int argc, char** argv)
+int program(int argc, char** argv)
 {
     CLI::App app("Gives the images of an import part their mips and writes the textures part.");
     Arguments arguments;
@@ -56,4 +55,11 @@ int main(int argc, char** argv)
         return app.exit(error) == 0 ? 0 : 2;
     }
     return run(arguments);
+}
+
+} // namespace
+
+int main(int argc, char** argv)
+{
+    return hearth::runProgram("hearth-textures", [&] { return program(argc, argv); });
 }

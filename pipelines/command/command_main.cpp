@@ -1,5 +1,6 @@
 // hearth: the command that users type. Reads the command line; each verb's work is in its own file.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "formats/program.h"
 #include "pipelines/command/cook.h"
 #include "pipelines/command/explain.h"
 #include "pipelines/command/extract.h"
@@ -236,9 +237,7 @@ std::string helpOf(const CLI::App& app)
     return chosen.empty() ? app.help() : chosen.front()->help("hearth") + "\n" + command::exitCodeTable();
 }
 
-} // namespace
-
-int main(int argc, char** argv)
+int program(int argc, char** argv)
 {
     CLI::App app("Cook assets into packs that a phone can stream and draw.", "hearth");
     Work run;
@@ -271,4 +270,11 @@ int main(int argc, char** argv)
         return usageError(error.what());
     }
     return run();
+}
+
+} // namespace
+
+int main(int argc, char** argv)
+{
+    return hearth::runProgram("hearth", [&] { return program(argc, argv); });
 }

@@ -1,5 +1,6 @@
 // hearth-import: reads a source asset and writes the import part.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "formats/program.h"
 #include "pipelines/import/asset_folder.h"
 #include "pipelines/import/readers.h"
 
@@ -68,9 +69,7 @@ Status run(const Arguments& arguments)
     return part.finish();
 }
 
-} // namespace
-
-int main(int argc, char** argv)
+int program(int argc, char** argv)
 {
     CLI::App app("Reads a glTF scene, a scan or an image and writes the import part that the cookers read.");
     Arguments arguments;
@@ -93,4 +92,11 @@ int main(int argc, char** argv)
         return 0;
     std::fprintf(stderr, "%s\n", formatMessage(import::shortened(status.error())).c_str());
     return exitCode(status.error());
+}
+
+} // namespace
+
+int main(int argc, char** argv)
+{
+    return hearth::runProgram("hearth-import", [&] { return program(argc, argv); });
 }

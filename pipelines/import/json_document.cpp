@@ -246,9 +246,16 @@ std::string Json::pointer() const
         else
         {
             for (const char c : Json{*document_, at}.key())
-                step += c == '~' ? std::string("~0") : c == '/' ? std::string("~1") : std::string(1, c);
+            {
+                if (c == '~')
+                    step.append("~0");
+                else if (c == '/')
+                    step.append("~1");
+                else
+                    step.push_back(c);
+            }
         }
-        path = "/" + step + path;
+        path.insert(0, "/" + step);
         at = parent.value_;
     }
     return path;

@@ -1,12 +1,16 @@
 // hearth-link: merges import, clusters and textures parts into a pack.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "formats/program.h"
 #include "pipelines/link/link.h"
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <vector>
 
-int main(int argc, char** argv)
+namespace
+{
+
+int program(int argc, char** argv)
 {
     CLI::App app("Merge the parts of one or more sources into a pack.", "hearth-link");
     std::vector<std::string> parts;
@@ -39,4 +43,11 @@ int main(int argc, char** argv)
         return 0;
     std::fprintf(stderr, "%s\n", formatMessage(status.error()).c_str());
     return exitCode(status.error());
+}
+
+} // namespace
+
+int main(int argc, char** argv)
+{
+    return hearth::runProgram("hearth-link", [&] { return program(argc, argv); });
 }

@@ -1,5 +1,6 @@
 // hearth-render: draws a pack into a PNG file.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "formats/program.h"
 #include "runtime/pack/pack.h"
 #include "runtime/viewer/camera_fit.h"
 #include "runtime/viewer/file_output.h"
@@ -176,5 +177,9 @@ int runRender(std::span<const char* const> arguments)
 
 int main(int argc, char** argv)
 {
-    return hearth::viewer::runRender({argv + 1, static_cast<size_t>(argc > 0 ? argc - 1 : 0)});
+    return hearth::runProgram(
+        "hearth-render",
+        [&] {
+            return hearth::viewer::runRender({argv + 1, static_cast<size_t>(argc > 0 ? argc - 1 : 0)});
+        });
 }
