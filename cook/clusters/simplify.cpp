@@ -62,7 +62,8 @@ public:
           quadrics_(initialQuadrics(group)),
           version_(group.positions.size(), 0),
           best_target_(group.positions.size(), kNoPosition),
-          target_(group.positions.size())
+          target_(group.positions.size()),
+          wedge_blocked_(group.positions.size(), 0)
     {
         for (uint32_t p = 0; p < target_.size(); ++p)
             target_[p] = p;
@@ -70,19 +71,20 @@ public:
 
     size_t triangleCount() const { return mesh_.aliveCount(); }
 
+    /// Collapse until so many triangles are left or nothing more can go. `permissive` is for a second time: only the
+    /// positions that wedges held back have anything new to offer.
     void collapseUntil(size_t target_triangles, bool permissive)
     {
         permissive_ = permissive;
         heap_.clear();
         for (uint32_t p = 0; p < target_.size(); ++p)
-            if (target_[p] == p && group_.locked[p] == 0)
+            if (target_[p] == p && group_.locked[p] == 0 && (!permissive || wedge_blocked_[p] != 0))
             {
                 mesh_.gather(p);
-                if (!edges_held_)
+                if (!permissive)
                     holdEdges(p);
                 evaluateGathered(p);
             }
-        edges_held_ = true;
         while (mesh_.aliveCount() > target_triangles && !heap_.empty())
             step();
     }
@@ -93,8 +95,10 @@ public:
 
 private:
     void holdEdges(uint32_t position);
+    bool mapGathered(uint32_t from, const Spoke& spoke);
     bool mapWedges(const Spoke& spoke);
     bool mapLayers(uint32_t from, uint32_t to);
+    void mapNearest(uint32_t to);
     uint32_t nearestWedge(uint32_t wedge, uint32_t position);
     float cost(uint32_t from, uint32_t to) const;
     void gatherCandidates(uint32_t position);
@@ -110,12 +114,12 @@ private:
     const GroupMesh& group_;
     StarMesh mesh_;
     Quadrics quadrics_;
-    std::vector<uint32_t> version_;     ///< heap entries with another version are stale
-    std::vector<uint32_t> best_target_; ///< of the entry in the heap, or kNoPosition
-    std::vector<uint32_t> target_;      ///< of removed positions, the next one
+    std::vector<uint32_t> version_;      ///< heap entries with another version are stale
+    std::vector<uint32_t> best_target_;  ///< of the entry in the heap, or kNoPosition
+    std::vector<uint32_t> target_;       ///< of removed positions, the next one
+    std::vector<uint8_t> wedge_blocked_; ///< 1 where wedges without a way ruled out a collapse
     std::vector<HeapEntry> heap_;
     bool permissive_ = false;
-    bool edges_held_ = false;
 
     // scratch
     uint32_t layers_ = 1;
@@ -136,32 +140,35 @@ void Collapser::holdEdges(uint32_t position)
             continue;
         const Float3 place = group_.positions[position];
         const Float3 along = group_.positions[spoke.position] - place;
-        for (const uint32_t t : mesh_.star(position))
+        for (const Corner corner : mesh_.star(position))
         {
-            const StarMesh::Triangle& triangle = mesh_.triangle(t);
-            if (!triangle.has(spoke.position))
+            const uint32_t next = mesh_.positionAt(nextCorner(corner));
+            const uint32_t previous = mesh_.positionAt(previousCorner(corner));
+            if (next != spoke.position && previous != spoke.position)
                 continue;
-            for (const uint32_t tip : triangle.position)
-                if (tip != position && tip != spoke.position)
-                    quadrics_.position[position].add(edgeQuadric(along, group_.positions[tip] - place,
-                                                                 regular ? kSeamWeight : kBorderWeight));
+            const Float3 side = group_.positions[next == spoke.position ? previous : next] - place;
+            quadrics_.position[position].add(edgeQuadric(along, side, regular ? kSeamWeight : kBorderWeight));
         }
     }
 }
 
+/// The wedge of a position with the nearest attributes.
 uint32_t Collapser::nearestWedge(uint32_t wedge, uint32_t position)
 {
     uint32_t best = kNoPosition;
     float best_distance = std::numeric_limits<float>::infinity();
     const uint32_t count = group_.attribute_count;
-    for (const uint32_t t : mesh_.star(position))
+    const float* attributes = group_.attributes.data() + size_t{wedge} * count;
+    for (const Corner corner : mesh_.star(position))
     {
-        const StarMesh::Triangle& triangle = mesh_.triangle(t);
-        const uint32_t other = triangle.wedge[triangle.cornerAt(position)];
+        const uint32_t other = mesh_.wedgeAt(corner);
+        if (other == best)
+            continue;
+        const float* attributes_other = group_.attributes.data() + size_t{other} * count;
         float distance = 0;
         for (uint32_t i = 0; i < count; ++i)
         {
-            const float d = group_.attributes[other * count + i] - group_.attributes[wedge * count + i];
+            const float d = attributes_other[i] - attributes[i];
             distance += d * d;
         }
         if (best == kNoPosition || distance < best_distance || (distance == best_distance && other < best))
@@ -175,6 +182,11 @@ uint32_t Collapser::nearestWedge(uint32_t wedge, uint32_t position)
 
 /// Find where the wedges of the gathered position go if it collapses along the spoke, into moves_; false if one of
 /// them has no way that keeps the attributes together.
+bool Collapser::mapGathered(uint32_t from, const Spoke& spoke)
+{
+    return layers_ == 1 ? mapWedges(spoke) : mapLayers(from, spoke.position);
+}
+
 bool Collapser::mapWedges(const Spoke& spoke)
 {
     moves_.clear();
@@ -182,21 +194,27 @@ bool Collapser::mapWedges(const Spoke& spoke)
         moves_.push_back(spoke.out);
     if (spoke.in_count > 0 && (moves_.empty() || spoke.in.from != spoke.out.from))
         moves_.push_back(spoke.in);
-    else if (spoke.in_count > 0 && spoke.in.to != spoke.out.to)
+    else if (spoke.in_count > 0 && spoke.in.to != spoke.out.to && !permissive_)
         return false;
-    return moves_.size() == mesh_.wedges().size();
+    if (moves_.size() == mesh_.wedges().size())
+        return true;
+    if (permissive_)
+        mapNearest(spoke.position);
+    return permissive_;
 }
 
-/// The same where several sheets lie on each other, or where wedges without a way may take the nearest attributes.
+/// The same where several sheets lie on each other.
 bool Collapser::mapLayers(uint32_t from, uint32_t to)
 {
     moves_.clear();
-    for (const uint32_t t : mesh_.star(from))
+    for (const Corner corner : mesh_.star(from))
     {
-        const StarMesh::Triangle& triangle = mesh_.triangle(t);
-        if (!triangle.has(to))
+        const Corner next = nextCorner(corner);
+        const Corner previous = previousCorner(corner);
+        const Corner goal = mesh_.positionAt(next) == to ? next : previous;
+        if (mesh_.positionAt(goal) != to)
             continue;
-        const WedgeMove move{triangle.wedge[triangle.cornerAt(from)], triangle.wedge[triangle.cornerAt(to)]};
+        const WedgeMove move{mesh_.wedgeAt(corner), mesh_.wedgeAt(goal)};
         const auto known =
             std::find_if(moves_.begin(), moves_.end(), [&](WedgeMove m) { return m.from == move.from; });
         if (known == moves_.end())
@@ -206,10 +224,16 @@ bool Collapser::mapLayers(uint32_t from, uint32_t to)
     }
     if (moves_.size() < mesh_.wedges().size() && !permissive_)
         return false;
+    mapNearest(to);
+    return true;
+}
+
+/// Let wedges without a way take the nearest attributes.
+void Collapser::mapNearest(uint32_t to)
+{
     for (const uint32_t wedge : mesh_.wedges())
         if (std::none_of(moves_.begin(), moves_.end(), [&](WedgeMove m) { return m.from == wedge; }))
             moves_.push_back({wedge, nearestWedge(wedge, to)});
-    return true;
 }
 
 /// Quadric error of the collapse that moves_ describes.
@@ -240,6 +264,7 @@ float Collapser::cost(uint32_t from, uint32_t to) const
 void Collapser::gatherCandidates(uint32_t position)
 {
     candidates_.clear();
+    wedge_blocked_[position] = 0;
     layers_ = mesh_.layers();
     const auto ring = mesh_.ring();
     const auto irregular =
@@ -248,11 +273,12 @@ void Collapser::gatherCandidates(uint32_t position)
         return;
     for (const Spoke& spoke : ring)
     {
-        if (irregular == 2 && spoke.regular(layers_))
+        if ((irregular == 2 && spoke.regular(layers_)) || mesh_.emptiesStar(position, spoke))
             continue;
-        const bool simple = layers_ == 1 && !permissive_;
-        if (simple ? mapWedges(spoke) : mapLayers(position, spoke.position))
+        if (mapGathered(position, spoke))
             candidates_.push_back({cost(position, spoke.position), spoke.position});
+        else
+            wedge_blocked_[position] = 1;
     }
 }
 
@@ -293,14 +319,14 @@ bool Collapser::turnsOver(uint32_t from, uint32_t to)
 {
     const Float3 old_place = group_.positions[from];
     const Float3 new_place = group_.positions[to];
-    for (const uint32_t t : mesh_.star(from))
+    for (const Corner corner : mesh_.star(from))
     {
-        const StarMesh::Triangle& triangle = mesh_.triangle(t);
-        if (triangle.has(to))
+        const uint32_t next = mesh_.positionAt(nextCorner(corner));
+        const uint32_t previous = mesh_.positionAt(previousCorner(corner));
+        if (next == to || previous == to)
             continue;
-        const size_t at = triangle.cornerAt(from);
-        const Float3 a = group_.positions[triangle.position[(at + 1) % 3]];
-        const Float3 b = group_.positions[triangle.position[(at + 2) % 3]];
+        const Float3 a = group_.positions[next];
+        const Float3 b = group_.positions[previous];
         const Float3 new_a = a - new_place;
         const Float3 new_b = b - new_place;
         const Float3 old_normal = cross(a - old_place, b - old_place);
@@ -371,10 +397,7 @@ void Collapser::step()
     mesh_.gather(entry.position);
     layers_ = mesh_.layers();
     const Spoke* spoke = mesh_.spokeTo(entry.target);
-    const bool simple = layers_ == 1 && !permissive_;
-    const bool mapped =
-        spoke != nullptr && (simple ? mapWedges(*spoke) : mapLayers(entry.position, entry.target));
-    if (!mapped || !valid(entry.position, entry.target))
+    if (spoke == nullptr || !mapGathered(entry.position, *spoke) || !valid(entry.position, entry.target))
     {
         evaluateValid(entry.position, entry.cost);
         return;
@@ -402,8 +425,8 @@ bool Collapser::pruneIslands(size_t target_triangles)
         if (mesh_.alive(t))
         {
             triangles.push_back(t);
-            positions.insert(positions.end(), mesh_.triangle(t).position.begin(),
-                             mesh_.triangle(t).position.end());
+            for (const Corner corner : StarMesh::cornersOf(t))
+                positions.push_back(mesh_.positionAt(corner));
         }
     const std::vector<uint32_t> island_of = islandOfTriangles(positions, group_.positions.size());
     std::vector<Island> islands(group_.positions.size());
@@ -428,8 +451,8 @@ bool Collapser::pruneIslands(size_t target_triangles)
             break;
         for (const uint32_t t : island.triangles)
         {
-            for (const uint32_t position : mesh_.triangle(t).position)
-                target_[position] = kPruned;
+            for (const Corner corner : StarMesh::cornersOf(t))
+                target_[mesh_.positionAt(corner)] = kPruned;
             mesh_.remove(t);
         }
         pruned = true;
@@ -446,8 +469,8 @@ Simplified Collapser::result() const
     for (uint32_t t = 0; t < mesh_.triangleLimit(); ++t)
         if (mesh_.alive(t))
         {
-            const auto& wedge = mesh_.triangle(t).wedge;
-            result.corners.insert(result.corners.end(), wedge.begin(), wedge.end());
+            for (const Corner corner : StarMesh::cornersOf(t))
+                result.corners.push_back(mesh_.wedgeAt(corner));
             result.materials.push_back(group_.materials[t]);
             result.source_triangle.push_back(t);
         }
