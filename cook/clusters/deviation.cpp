@@ -75,11 +75,6 @@ struct Probe
     std::array<Lanes, kMaxBlocks> distance2;
 };
 
-float leastLane(Lanes x)
-{
-    return std::min(std::min(x[0], x[1]), std::min(x[2], x[3]));
-}
-
 /// Twice the signed area of a triangle in the plane.
 float area2(Float2 a, Float2 b, Float2 c)
 {
@@ -289,7 +284,7 @@ private:
                 (points_[p].distance2[b] <= near2) & (blocks_[b].inverse_det > allLanes(0));
             farthest = maximum(farthest, starts_here ? leaves : allLanes(0));
         }
-        const float t = std::max(std::max(farthest[0], farthest[1]), std::max(farthest[2], farthest[3]));
+        const float t = greatestLane(farthest);
         const float s = t > kShortest && t < 1 - kShortest ? t : 0.5f;
         return addPoint(points_[p].place * (1 - s) + points_[q].place * s,
                         points_[p].plane * (1 - s) + points_[q].plane * s);

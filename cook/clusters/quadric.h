@@ -64,21 +64,21 @@ struct PositionQuadric
     }
 };
 
-/// One attribute of one wedge: the area-weighted sum of its linear functions (gradient . x + offset) over the
-/// triangles it stands for, relative to the wedge's own place and value.
-struct AttributeGradient
+/// Four attributes of one wedge: the area-weighted sums of their linear functions (gradient . x + offset) over the
+/// triangles that the wedge stands for, relative to the wedge's own place and values.
+struct AttributeGradients
 {
-    Float3 gradient;
-    float offset = 0;
+    LaneVector gradient{};
+    Lanes offset{};
 };
 
 /// All quadrics of a group. Each position has one PositionQuadric, which takes in what the attributes contribute to
-/// A, b and c; each wedge has an area weight and attribute_count gradients.
+/// A, b and c; each wedge has an area weight and attribute_rows gradients.
 struct Quadrics
 {
     std::vector<PositionQuadric> position;
     std::vector<float> wedge_weight;
-    std::vector<AttributeGradient> gradients;
+    std::vector<AttributeGradients> gradients;
 };
 
 /// The planes and attributes of all triangles; what locked positions have is never asked for and left out.

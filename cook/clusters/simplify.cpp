@@ -63,6 +63,7 @@ public:
           version_(group.positions.size(), 0),
           best_target_(group.positions.size(), kNoPosition),
           target_(group.positions.size()),
+          edges_held_(group.positions.size(), 0),
           wedge_blocked_(group.positions.size(), 0)
     {
         for (uint32_t p = 0; p < target_.size(); ++p)
@@ -81,8 +82,6 @@ public:
             if (target_[p] == p && group_.locked[p] == 0 && (!permissive || wedge_blocked_[p] != 0))
             {
                 mesh_.gather(p);
-                if (!permissive)
-                    holdEdges(p);
                 evaluateGathered(p);
             }
         while (mesh_.aliveCount() > target_triangles && !heap_.empty())
@@ -117,6 +116,7 @@ private:
     std::vector<uint32_t> version_;      ///< heap entries with another version are stale
     std::vector<uint32_t> best_target_;  ///< of the entry in the heap, or kNoPosition
     std::vector<uint32_t> target_;       ///< of removed positions, the next one
+    std::vector<uint8_t> edges_held_;    ///< 1 where holdEdges was
     std::vector<uint8_t> wedge_blocked_; ///< 1 where wedges without a way ruled out a collapse
     std::vector<HeapEntry> heap_;
     bool permissive_ = false;
@@ -129,13 +129,13 @@ private:
 };
 
 /// Planes that hold open borders, edges of more than two triangles, and seams at the gathered position. Each end of an
-/// edge takes its own.
+/// edge takes its own, when it is first asked where it could go.
 void Collapser::holdEdges(uint32_t position)
 {
-    const uint32_t layers = mesh_.layers();
+    edges_held_[position] = 1;
     for (const Spoke& spoke : mesh_.ring())
     {
-        const bool regular = spoke.regular(layers);
+        const bool regular = spoke.regular(layers_);
         if (regular && spoke.out.from == spoke.in.from && spoke.out.to == spoke.in.to)
             continue;
         const Float3 place = group_.positions[position];
@@ -157,20 +157,20 @@ uint32_t Collapser::nearestWedge(uint32_t wedge, uint32_t position)
 {
     uint32_t best = kNoPosition;
     float best_distance = std::numeric_limits<float>::infinity();
-    const uint32_t count = group_.attribute_count;
-    const float* attributes = group_.attributes.data() + size_t{wedge} * count;
+    const Lanes* attributes = group_.attributesOf(wedge);
     for (const Corner corner : mesh_.star(position))
     {
         const uint32_t other = mesh_.wedgeAt(corner);
         if (other == best)
             continue;
-        const float* attributes_other = group_.attributes.data() + size_t{other} * count;
-        float distance = 0;
-        for (uint32_t i = 0; i < count; ++i)
+        const Lanes* attributes_other = group_.attributesOf(other);
+        Lanes squares{};
+        for (uint32_t r = 0; r < group_.attribute_rows; ++r)
         {
-            const float d = attributes_other[i] - attributes[i];
-            distance += d * d;
+            const Lanes d = attributes_other[r] - attributes[r];
+            squares += d * d;
         }
+        const float distance = sumOfLanes(squares);
         if (best == kNoPosition || distance < best_distance || (distance == best_distance && other < best))
         {
             best = other;
@@ -242,21 +242,24 @@ float Collapser::cost(uint32_t from, uint32_t to) const
     const Float3 t = group_.positions[to] - group_.positions[from];
     float error = quadrics_.position[from].at(t);
     float weight = 0;
-    const uint32_t count = group_.attribute_count;
+    const LaneVector t_lanes = allLanes(t);
+    const uint32_t rows = group_.attribute_rows;
+    Lanes attribute_error{};
     for (const WedgeMove& move : moves_)
     {
         const float wedge_weight = quadrics_.wedge_weight[move.from];
-        const float* attributes_from = group_.attributes.data() + size_t{move.from} * count;
-        const float* attributes_to = group_.attributes.data() + size_t{move.to} * count;
-        const AttributeGradient* gradients = quadrics_.gradients.data() + size_t{move.from} * count;
+        const Lanes* attributes_from = group_.attributesOf(move.from);
+        const Lanes* attributes_to = group_.attributesOf(move.to);
+        const AttributeGradients* g = quadrics_.gradients.data() + size_t{move.from} * rows;
         weight += wedge_weight;
-        for (uint32_t i = 0; i < count; ++i)
+        for (uint32_t r = 0; r < rows; ++r)
         {
-            const float delta = attributes_to[i] - attributes_from[i];
-            error +=
-                delta * (wedge_weight * delta - 2 * (dot(gradients[i].gradient, t) + gradients[i].offset));
+            const Lanes delta = attributes_to[r] - attributes_from[r];
+            attribute_error +=
+                delta * (wedge_weight * delta - 2 * (dot(g[r].gradient, t_lanes) + g[r].offset));
         }
     }
+    error += sumOfLanes(attribute_error);
     return std::max(error, 0.0f) + kLengthWeight * weight * dot(t, t);
 }
 
@@ -267,6 +270,10 @@ void Collapser::gatherCandidates(uint32_t position)
     wedge_blocked_[position] = 0;
     layers_ = mesh_.layers();
     const auto ring = mesh_.ring();
+    if (std::all_of(ring.begin(), ring.end(), [&](const Spoke& s) { return mesh_.emptiesStar(position, s); }))
+        return;
+    if (edges_held_[position] == 0)
+        holdEdges(position);
     const auto irregular =
         std::count_if(ring.begin(), ring.end(), [&](const Spoke& s) { return !s.regular(layers_); });
     if (irregular != 0 && irregular != 2)
@@ -348,23 +355,27 @@ void Collapser::moveQuadrics(uint32_t from, uint32_t to)
         return; // never asked for
     const Float3 t = group_.positions[to] - group_.positions[from];
     PositionQuadric moved = quadrics_.position[from];
-    const uint32_t count = group_.attribute_count;
+    const LaneVector t_lanes = allLanes(t);
+    const uint32_t rows = group_.attribute_rows;
+    Lanes moved_c{};
+    LaneVector moved_b{};
     for (const WedgeMove& move : moves_)
     {
         const float weight = quadrics_.wedge_weight[move.from];
         quadrics_.wedge_weight[move.to] += weight;
-        for (uint32_t i = 0; i < count; ++i)
+        for (uint32_t r = 0; r < rows; ++r)
         {
-            const float delta =
-                group_.attributes[move.to * count + i] - group_.attributes[move.from * count + i];
-            const AttributeGradient g = quadrics_.gradients[move.from * count + i];
-            AttributeGradient& goal = quadrics_.gradients[move.to * count + i];
-            moved.c += delta * (weight * delta - 2 * g.offset);
-            moved.b -= g.gradient * delta;
-            goal.gradient += g.gradient;
-            goal.offset += g.offset + dot(g.gradient, t) - weight * delta;
+            const Lanes delta = group_.attributesOf(move.to)[r] - group_.attributesOf(move.from)[r];
+            const AttributeGradients g = quadrics_.gradients[size_t{move.from} * rows + r];
+            AttributeGradients& goal = quadrics_.gradients[size_t{move.to} * rows + r];
+            moved_c += delta * (weight * delta - 2 * g.offset);
+            moved_b = moved_b - g.gradient * delta;
+            goal.gradient = goal.gradient + g.gradient;
+            goal.offset += g.offset + dot(g.gradient, t_lanes) - weight * delta;
         }
     }
+    moved.c += sumOfLanes(moved_c);
+    moved.b += {sumOfLanes(moved_b.x), sumOfLanes(moved_b.y), sumOfLanes(moved_b.z)};
     quadrics_.position[to].addMoved(moved, t);
 }
 
