@@ -203,12 +203,35 @@ private:
     std::vector<uint32_t> items_;
 };
 
-void addLikely(std::span<const uint32_t> star, std::vector<uint32_t>& likely)
+/// A short list of facets, each once.
+class Likely
 {
-    for (const uint32_t triangle : star)
-        if (likely.size() < kMaxLikely && std::find(likely.begin(), likely.end(), triangle) == likely.end())
-            likely.push_back(triangle);
-}
+public:
+    explicit Likely(size_t facet_count) : list_of_facet_(facet_count, 0) {}
+
+    void clear()
+    {
+        ++list_;
+        facets_.clear();
+    }
+
+    void add(std::span<const uint32_t> facets)
+    {
+        for (const uint32_t facet : facets)
+            if (list_of_facet_[facet] != list_ && facets_.size() < kMaxLikely)
+            {
+                list_of_facet_[facet] = list_;
+                facets_.push_back(facet);
+            }
+    }
+
+    std::span<const uint32_t> facets() const { return facets_; }
+
+private:
+    std::vector<uint32_t> list_of_facet_; ///< number of the last list that it was in
+    uint32_t list_ = 0;
+    std::vector<uint32_t> facets_;
+};
 
 /// Bounds the triangles from before that are gone or changed, and those that are new. What a collapse moved lies beside
 /// the star of the position that it moved to, and the new star beside that of the position that moved.
@@ -223,7 +246,9 @@ public:
           before_index_(before_),
           after_index_(after_),
           before_stars_(group, group.corners),
-          after_stars_(group, simplified.corners)
+          after_stars_(group, simplified.corners),
+          likely_before_(group.triangleCount()),
+          likely_after_(simplified.triangleCount())
     {
     }
 
@@ -257,24 +282,26 @@ private:
 
     void addBefore(size_t t)
     {
-        likely_.clear();
+        likely_after_.clear();
         for (size_t corner = t * 3; corner < t * 3 + 3; ++corner)
             if (const uint32_t target = targetOf(corner);
                 target != kPruned && target != group_.positionAt(corner))
-                addLikely(after_stars_.of(target), likely_);
-        if (likely_.empty())
+                likely_after_.add(after_stars_.of(target));
+        if (likely_after_.facets().empty())
             addNeighboursInOrder(t);
-        measure_.add({before_[t * 3], before_[t * 3 + 1], before_[t * 3 + 2]}, after_index_, likely_);
+        measure_.add({before_[t * 3], before_[t * 3 + 1], before_[t * 3 + 2]}, after_index_,
+                     likely_after_.facets());
     }
 
     void addAfter(size_t t)
     {
-        likely_.clear();
+        likely_before_.clear();
         const size_t source = simplified_.source_triangle[t];
         for (size_t corner = source * 3; corner < source * 3 + 3; ++corner)
             if (targetOf(corner) != group_.positionAt(corner))
-                addLikely(before_stars_.of(group_.positionAt(corner)), likely_);
-        measure_.add({after_[t * 3], after_[t * 3 + 1], after_[t * 3 + 2]}, before_index_, likely_);
+                likely_before_.add(before_stars_.of(group_.positionAt(corner)));
+        measure_.add({after_[t * 3], after_[t * 3 + 1], after_[t * 3 + 2]}, before_index_,
+                     likely_before_.facets());
     }
 
     /// What is left of a cluster's triangles is a fair guess for those of its islands that are gone.
@@ -286,7 +313,10 @@ private:
         const auto wanted = std::min<ptrdiff_t>(kFewLikely, count);
         const ptrdiff_t first = std::clamp<ptrdiff_t>(after - wanted / 2, 0, count - wanted);
         for (ptrdiff_t i = first; i < first + wanted; ++i)
-            likely_.push_back(static_cast<uint32_t>(i));
+        {
+            const auto facet = static_cast<uint32_t>(i);
+            likely_after_.add({&facet, 1});
+        }
     }
 
     const GroupMesh& group_;
@@ -297,7 +327,8 @@ private:
     FacetIndex after_index_;
     Stars before_stars_;
     Stars after_stars_;
-    std::vector<uint32_t> likely_;
+    Likely likely_before_;
+    Likely likely_after_;
     Measure measure_;
 };
 

@@ -98,7 +98,7 @@ private:
     bool mapWedges(const Spoke& spoke);
     bool mapLayers(uint32_t from, uint32_t to);
     void mapNearest(uint32_t to);
-    uint32_t nearestWedge(uint32_t wedge, uint32_t position);
+    float attributeDistance2(uint32_t a, uint32_t b) const;
     float cost(uint32_t from, uint32_t to) const;
     void gatherCandidates(uint32_t position);
     void push(uint32_t position, Candidate candidate);
@@ -124,6 +124,7 @@ private:
     // scratch
     uint32_t layers_ = 1;
     std::vector<WedgeMove> moves_;
+    std::vector<uint32_t> goals_;
     std::vector<Candidate> candidates_;
     std::vector<uint32_t> around_;
 };
@@ -152,32 +153,17 @@ void Collapser::holdEdges(uint32_t position)
     }
 }
 
-/// The wedge of a position with the nearest attributes.
-uint32_t Collapser::nearestWedge(uint32_t wedge, uint32_t position)
+float Collapser::attributeDistance2(uint32_t a, uint32_t b) const
 {
-    uint32_t best = kNoPosition;
-    float best_distance = std::numeric_limits<float>::infinity();
-    const Lanes* attributes = group_.attributesOf(wedge);
-    for (const Corner corner : mesh_.star(position))
+    const Lanes* attributes_a = group_.attributesOf(a);
+    const Lanes* attributes_b = group_.attributesOf(b);
+    Lanes squares{};
+    for (uint32_t r = 0; r < group_.attribute_rows; ++r)
     {
-        const uint32_t other = mesh_.wedgeAt(corner);
-        if (other == best)
-            continue;
-        const Lanes* attributes_other = group_.attributesOf(other);
-        Lanes squares{};
-        for (uint32_t r = 0; r < group_.attribute_rows; ++r)
-        {
-            const Lanes d = attributes_other[r] - attributes[r];
-            squares += d * d;
-        }
-        const float distance = sumOfLanes(squares);
-        if (best == kNoPosition || distance < best_distance || (distance == best_distance && other < best))
-        {
-            best = other;
-            best_distance = distance;
-        }
+        const Lanes d = attributes_a[r] - attributes_b[r];
+        squares += d * d;
     }
-    return best;
+    return sumOfLanes(squares);
 }
 
 /// Find where the wedges of the gathered position go if it collapses along the spoke, into moves_; false if one of
@@ -231,9 +217,25 @@ bool Collapser::mapLayers(uint32_t from, uint32_t to)
 /// Let wedges without a way take the nearest attributes.
 void Collapser::mapNearest(uint32_t to)
 {
+    goals_.clear();
+    for (const Corner corner : mesh_.star(to))
+        if (const uint32_t wedge = mesh_.wedgeAt(corner);
+            std::find(goals_.begin(), goals_.end(), wedge) == goals_.end())
+            goals_.push_back(wedge);
     for (const uint32_t wedge : mesh_.wedges())
-        if (std::none_of(moves_.begin(), moves_.end(), [&](WedgeMove m) { return m.from == wedge; }))
-            moves_.push_back({wedge, nearestWedge(wedge, to)});
+    {
+        if (std::any_of(moves_.begin(), moves_.end(), [&](WedgeMove m) { return m.from == wedge; }))
+            continue;
+        uint32_t best = goals_.front();
+        float best_distance2 = attributeDistance2(wedge, best);
+        for (const uint32_t goal : std::span(goals_).subspan(1))
+            if (const float distance2 = attributeDistance2(wedge, goal); distance2 < best_distance2)
+            {
+                best = goal;
+                best_distance2 = distance2;
+            }
+        moves_.push_back({wedge, best});
+    }
 }
 
 /// Quadric error of the collapse that moves_ describes.
