@@ -25,11 +25,6 @@ struct Facet
     float unused; ///< fills the fourth row
 };
 
-inline float inverseOr0(float x)
-{
-    return x > 0 ? 1.0f / x : 0.0f;
-}
-
 inline Facet makeFacet(Float3 a, Float3 b, Float3 c)
 {
     Facet f{};

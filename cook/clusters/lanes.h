@@ -11,6 +11,11 @@
 namespace hearth::clusters
 {
 
+inline float inverseOr0(float x)
+{
+    return x > 0 ? 1.0f / x : 0.0f;
+}
+
 /// Four numbers that are computed side by side: what every x86-64 and ARM64 processor has.
 inline constexpr size_t kLanes = 4;
 using Lanes = float __attribute__((vector_size(kLanes * sizeof(float))));

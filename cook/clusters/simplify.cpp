@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 namespace hearth::clusters
 {
@@ -35,6 +36,7 @@ struct Candidate
 {
     float cost;
     uint32_t target;
+    bool exact; ///< else the cost is a lower bound, for as long as the wedges without a way have no goals
 
     bool operator<(const Candidate& b) const { return cost != b.cost ? cost < b.cost : target < b.target; }
 };
@@ -99,9 +101,16 @@ private:
     bool mapLayers(uint32_t from, uint32_t to);
     void mapNearest(uint32_t to);
     float attributeDistance2(uint32_t a, uint32_t b) const;
+    bool mapped(uint32_t wedge) const
+    {
+        return std::any_of(moves_.begin(), moves_.end(), [&](WedgeMove m) { return m.from == wedge; });
+    }
+    bool allMapped() const { return moves_.size() == mesh_.wedges().size(); }
+    Lanes mostGain(uint32_t wedge, LaneVector t) const;
     float cost(uint32_t from, uint32_t to) const;
     void gatherCandidates(uint32_t position);
     void push(uint32_t position, Candidate candidate);
+    std::optional<Candidate> nextCandidate(uint32_t position);
     void evaluateGathered(uint32_t position);
     void evaluateValid(uint32_t position, float popped_cost);
     bool turnsOver(uint32_t from, uint32_t to);
@@ -182,11 +191,7 @@ bool Collapser::mapWedges(const Spoke& spoke)
         moves_.push_back(spoke.in);
     else if (spoke.in_count > 0 && spoke.in.to != spoke.out.to && !permissive_)
         return false;
-    if (moves_.size() == mesh_.wedges().size())
-        return true;
-    if (permissive_)
-        mapNearest(spoke.position);
-    return permissive_;
+    return permissive_ || moves_.size() == mesh_.wedges().size();
 }
 
 /// The same where several sheets lie on each other.
@@ -208,15 +213,14 @@ bool Collapser::mapLayers(uint32_t from, uint32_t to)
         else if (known->to != move.to && !permissive_)
             return false;
     }
-    if (moves_.size() < mesh_.wedges().size() && !permissive_)
-        return false;
-    mapNearest(to);
-    return true;
+    return permissive_ || moves_.size() == mesh_.wedges().size();
 }
 
 /// Let wedges without a way take the nearest attributes.
 void Collapser::mapNearest(uint32_t to)
 {
+    if (allMapped())
+        return;
     goals_.clear();
     for (const Corner corner : mesh_.star(to))
         if (const uint32_t wedge = mesh_.wedgeAt(corner);
@@ -224,7 +228,7 @@ void Collapser::mapNearest(uint32_t to)
             goals_.push_back(wedge);
     for (const uint32_t wedge : mesh_.wedges())
     {
-        if (std::any_of(moves_.begin(), moves_.end(), [&](WedgeMove m) { return m.from == wedge; }))
+        if (mapped(wedge))
             continue;
         uint32_t best = goals_.front();
         float best_distance2 = attributeDistance2(wedge, best);
@@ -238,7 +242,22 @@ void Collapser::mapNearest(uint32_t to)
     }
 }
 
-/// Quadric error of the collapse that moves_ describes.
+/// What the best possible attributes would take off the error of a wedge that moves by `t`.
+Lanes Collapser::mostGain(uint32_t wedge, LaneVector t) const
+{
+    const uint32_t rows = group_.attribute_rows;
+    const AttributeGradients* g = quadrics_.gradients.data() + size_t{wedge} * rows;
+    Lanes squares{};
+    for (uint32_t r = 0; r < rows; ++r)
+    {
+        const Lanes change = dot(g[r].gradient, t) + g[r].offset;
+        squares += change * change;
+    }
+    return squares * inverseOr0(quadrics_.wedge_weight[wedge]);
+}
+
+/// Quadric error of the collapse that moves_ describes. Wedges without a way count with the least error that any
+/// attributes could give them.
 float Collapser::cost(uint32_t from, uint32_t to) const
 {
     const Float3 t = group_.positions[to] - group_.positions[from];
@@ -261,6 +280,10 @@ float Collapser::cost(uint32_t from, uint32_t to) const
                 delta * (wedge_weight * delta - 2 * (dot(g[r].gradient, t_lanes) + g[r].offset));
         }
     }
+    if (!allMapped())
+        for (const uint32_t wedge : mesh_.wedges())
+            if (!mapped(wedge))
+                attribute_error -= mostGain(wedge, t_lanes);
     error += sumOfLanes(attribute_error);
     return std::max(error, 0.0f) + kLengthWeight * weight * dot(t, t);
 }
@@ -285,7 +308,7 @@ void Collapser::gatherCandidates(uint32_t position)
         if ((irregular == 2 && spoke.regular(layers_)) || mesh_.emptiesStar(position, spoke))
             continue;
         if (mapGathered(position, spoke))
-            candidates_.push_back({cost(position, spoke.position), spoke.position});
+            candidates_.push_back({cost(position, spoke.position), spoke.position, allMapped()});
         else
             wedge_blocked_[position] = 1;
     }
@@ -298,14 +321,35 @@ void Collapser::push(uint32_t position, Candidate candidate)
     std::push_heap(heap_.begin(), heap_.end());
 }
 
+/// Take the cheapest candidate out of the list; nullopt if it is empty.
+std::optional<Candidate> Collapser::nextCandidate(uint32_t position)
+{
+    while (!candidates_.empty())
+    {
+        const auto cheapest = std::min_element(candidates_.begin(), candidates_.end());
+        if (cheapest->exact)
+        {
+            const Candidate candidate = *cheapest;
+            *cheapest = candidates_.back();
+            candidates_.pop_back();
+            return candidate;
+        }
+        mapGathered(position, *mesh_.spokeTo(cheapest->target));
+        mapNearest(cheapest->target);
+        cheapest->cost = cost(position, cheapest->target);
+        cheapest->exact = true;
+    }
+    return std::nullopt;
+}
+
 /// Put the cheapest collapse of the gathered position into the heap; whether it is valid is seen when it comes out.
 void Collapser::evaluateGathered(uint32_t position)
 {
     ++version_[position];
     best_target_[position] = kNoPosition;
     gatherCandidates(position);
-    if (!candidates_.empty())
-        push(position, *std::min_element(candidates_.begin(), candidates_.end()));
+    if (const auto candidate = nextCandidate(position))
+        push(position, *candidate);
 }
 
 /// The same with the cheapest valid collapse.
@@ -314,12 +358,11 @@ void Collapser::evaluateValid(uint32_t position, float popped_cost)
     ++version_[position];
     best_target_[position] = kNoPosition;
     gatherCandidates(position);
-    std::sort(candidates_.begin(), candidates_.end());
-    for (Candidate candidate : candidates_)
-        if (valid(position, candidate.target))
+    while (auto candidate = nextCandidate(position))
+        if (valid(position, candidate->target))
         {
-            candidate.cost = std::max(candidate.cost, popped_cost);
-            push(position, candidate);
+            candidate->cost = std::max(candidate->cost, popped_cost);
+            push(position, *candidate);
             return;
         }
 }
@@ -415,6 +458,7 @@ void Collapser::step()
         evaluateValid(entry.position, entry.cost);
         return;
     }
+    mapNearest(entry.target);
     moveQuadrics(entry.position, entry.target);
     mesh_.collapse(entry.position, entry.target, moves_);
     target_[entry.position] = entry.target;
