@@ -193,12 +193,18 @@ std::vector<Plane> planesOf(std::span<const Float3> places)
     return planes;
 }
 
-/// Least cosine between the axis and the normals.
-double leastCosine(Double3 axis, std::span<const Plane> planes)
+struct LeastCosine
 {
-    double least = 1;
-    for (const Plane& plane : planes)
-        least = std::min(least, dot(axis, plane.normal));
+    double cosine = 1;
+    Double3 normal; ///< the one farthest from the axis
+};
+
+LeastCosine leastCosine(Double3 axis, std::span<const Plane> planes)
+{
+    LeastCosine least{dot(axis, planes.front().normal), planes.front().normal};
+    for (const Plane& plane : planes.subspan(1))
+        if (const double cosine = dot(axis, plane.normal); cosine < least.cosine)
+            least = {cosine, plane.normal};
     return least;
 }
 
@@ -213,18 +219,17 @@ Double3 coneAxis(std::span<const Plane> planes)
         return {};
     axis = axis * (1 / sum);
     Double3 best = axis;
-    double best_cosine = leastCosine(axis, planes);
+    LeastCosine least = leastCosine(axis, planes);
+    double best_cosine = least.cosine;
     for (int step = 1; step <= 6; ++step)
     {
-        const auto farthest = std::min_element(planes.begin(), planes.end(),
-                                               [&](const Plane& a, const Plane& b)
-                                               { return dot(axis, a.normal) < dot(axis, b.normal); });
-        axis = axis + (farthest->normal - axis) * (0.5 / (step + 1));
+        axis = axis + (least.normal - axis) * (0.5 / (step + 1));
         axis = axis * (1 / length(axis));
-        if (const double cosine = leastCosine(axis, planes); cosine > best_cosine)
+        least = leastCosine(axis, planes);
+        if (least.cosine > best_cosine)
         {
             best = axis;
-            best_cosine = cosine;
+            best_cosine = least.cosine;
         }
     }
     return best;
@@ -307,7 +312,7 @@ NormalCone coneOfTriangles(std::span<const Float3> places)
         return cone;
     cone.axis = narrow(wide_axis);
     const Double3 axis = widen(cone.axis) * (1 / length(widen(cone.axis)));
-    const double cosine = leastCosine(axis, planes);
+    const double cosine = std::min(1.0, leastCosine(axis, planes).cosine);
     if (cosine <= kMinConeCosine)
         return cone;
 

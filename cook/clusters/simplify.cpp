@@ -143,22 +143,23 @@ private:
 void Collapser::holdEdges(uint32_t position)
 {
     edges_held_[position] = 1;
-    for (const Spoke& spoke : mesh_.ring())
+    const Float3 place = group_.positions[position];
+    const auto hold = [&](uint32_t end, uint32_t tip)
     {
+        const Spoke& spoke = *mesh_.spokeTo(end);
         const bool regular = spoke.regular(layers_);
         if (regular && spoke.out.from == spoke.in.from && spoke.out.to == spoke.in.to)
-            continue;
-        const Float3 place = group_.positions[position];
-        const Float3 along = group_.positions[spoke.position] - place;
-        for (const Corner corner : mesh_.star(position))
-        {
-            const uint32_t next = mesh_.positionAt(nextCorner(corner));
-            const uint32_t previous = mesh_.positionAt(previousCorner(corner));
-            if (next != spoke.position && previous != spoke.position)
-                continue;
-            const Float3 side = group_.positions[next == spoke.position ? previous : next] - place;
-            quadrics_.position[position].add(edgeQuadric(along, side, regular ? kSeamWeight : kBorderWeight));
-        }
+            return;
+        quadrics_.position[position].add(edgeQuadric(group_.positions[end] - place,
+                                                     group_.positions[tip] - place,
+                                                     regular ? kSeamWeight : kBorderWeight));
+    };
+    for (const Corner corner : mesh_.star(position))
+    {
+        const uint32_t next = mesh_.positionAt(nextCorner(corner));
+        const uint32_t previous = mesh_.positionAt(previousCorner(corner));
+        hold(next, previous);
+        hold(previous, next);
     }
 }
 
