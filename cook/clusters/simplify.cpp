@@ -108,7 +108,7 @@ private:
     bool allMapped() const { return moves_.size() == mesh_.wedges().size(); }
     Lanes mostGain(uint32_t wedge, LaneVector t) const;
     float cost(uint32_t from, uint32_t to) const;
-    void gatherCandidates(uint32_t position);
+    void gatherCandidates(uint32_t position, bool along_seams);
     void push(uint32_t position, Candidate candidate);
     std::optional<Candidate> nextCandidate(uint32_t position);
     void evaluateGathered(uint32_t position);
@@ -290,7 +290,8 @@ float Collapser::cost(uint32_t from, uint32_t to) const
 }
 
 /// All collapses of the gathered position that respect borders and wedges, into candidates_.
-void Collapser::gatherCandidates(uint32_t position)
+/// along_seams  where one of them keeps two wedges on their way, those that keep fewer are left out
+void Collapser::gatherCandidates(uint32_t position, bool along_seams)
 {
     candidates_.clear();
     wedge_blocked_[position] = 0;
@@ -304,9 +305,14 @@ void Collapser::gatherCandidates(uint32_t position)
         std::count_if(ring.begin(), ring.end(), [&](const Spoke& s) { return !s.regular(layers_); });
     if (irregular != 0 && irregular != 2)
         return;
+    const auto possible = [&](const Spoke& spoke)
+    { return (irregular == 0 || !spoke.regular(layers_)) && !mesh_.emptiesStar(position, spoke); };
+    along_seams =
+        along_seams && std::any_of(ring.begin(), ring.end(),
+                                   [&](const Spoke& spoke) { return possible(spoke) && spoke.onSeam(); });
     for (const Spoke& spoke : ring)
     {
-        if ((irregular == 2 && spoke.regular(layers_)) || mesh_.emptiesStar(position, spoke))
+        if (!possible(spoke) || (along_seams && !spoke.onSeam()))
             continue;
         if (mapGathered(position, spoke))
             candidates_.push_back({cost(position, spoke.position), spoke.position, allMapped()});
@@ -348,7 +354,7 @@ void Collapser::evaluateGathered(uint32_t position)
 {
     ++version_[position];
     best_target_[position] = kNoPosition;
-    gatherCandidates(position);
+    gatherCandidates(position, permissive_);
     if (const auto candidate = nextCandidate(position))
         push(position, *candidate);
 }
@@ -358,7 +364,7 @@ void Collapser::evaluateValid(uint32_t position, float popped_cost)
 {
     ++version_[position];
     best_target_[position] = kNoPosition;
-    gatherCandidates(position);
+    gatherCandidates(position, false);
     while (auto candidate = nextCandidate(position))
         if (valid(position, candidate->target))
         {

@@ -30,6 +30,8 @@ struct Spoke
     WedgeMove in{};
 
     bool regular(uint32_t layers) const { return out_count == layers && in_count == layers; }
+    /// Whether two wedges of the center have a way along it.
+    bool onSeam() const { return out_count > 0 && in_count > 0 && out.from != in.from; }
     uint32_t triangleCount() const { return out_count + in_count; }
 };
 
