@@ -2,8 +2,6 @@
 #include "cook/clusters/facet_index.h"
 
 #include <algorithm>
-#include <array>
-#include <bit>
 
 namespace hearth::clusters
 {
@@ -13,12 +11,6 @@ namespace
 
 constexpr size_t kBlocksPerRun = 4;
 constexpr size_t kRun = kLanes * kBlocksPerRun;
-
-bool anyLane(LaneMask mask)
-{
-    const auto halves = std::bit_cast<std::array<uint64_t, 2>>(mask);
-    return (halves[0] | halves[1]) != 0;
-}
 
 } // namespace
 

@@ -5,6 +5,8 @@
 #include "formats/math.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 
@@ -32,6 +34,11 @@ inline Lanes minimum(Lanes a, Lanes b)
 inline Lanes maximum(Lanes a, Lanes b)
 {
     return a > b ? a : b;
+}
+inline bool anyLane(LaneMask mask)
+{
+    const auto halves = std::bit_cast<std::array<uint64_t, 2>>(mask);
+    return (halves[0] | halves[1]) != 0;
 }
 inline float sumOfLanes(Lanes x)
 {

@@ -202,12 +202,14 @@ uint8_t Bounder::cutEdge(uint8_t p, uint8_t q)
     Lanes farthest = allLanes(0);
     for (size_t b = 0; b < blocks_.size(); ++b)
     {
+        const LaneMask starts_here =
+            (points_[p].distance2[b] <= near2) & (blocks_[b].inverse_det > allLanes(0));
+        if (!anyLane(starts_here))
+            continue;
         const FacetBlock::Coordinates at_p = blocks_[b].project(place_p);
         const FacetBlock::Coordinates at_q = blocks_[b].project(place_q);
         const Lanes leaves = minimum(minimum(leavesAt(at_p.v, at_q.v), leavesAt(at_p.w, at_q.w)),
                                      leavesAt(allLanes(1) - at_p.v - at_p.w, allLanes(1) - at_q.v - at_q.w));
-        const LaneMask starts_here =
-            (points_[p].distance2[b] <= near2) & (blocks_[b].inverse_det > allLanes(0));
         farthest = maximum(farthest, starts_here ? leaves : allLanes(0));
     }
     const float t = greatestLane(farthest);
