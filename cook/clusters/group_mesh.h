@@ -37,6 +37,13 @@ struct GroupMesh
     uint32_t positionAt(size_t corner) const { return position_of_wedge[corners[corner]]; }
 };
 
+/// Where a wedge of a position that is removed goes.
+struct WedgeMove
+{
+    uint32_t from;
+    uint32_t to;
+};
+
 /// Collect the clusters of a group.
 GroupMesh gatherGroup(const PreparedMesh& mesh, const ClusterStore& store, std::span<const uint32_t> members,
                       std::span<const uint8_t> locked, const Config& config);

@@ -102,6 +102,47 @@ void addTriangle(Quadrics& quadrics, const GroupMesh& group, size_t first_corner
 
 } // namespace
 
+void Quadrics::move(const GroupMesh& group, uint32_t from, uint32_t to, std::span<const WedgeMove> moves)
+{
+    const Float3 t = group.positions[to] - group.positions[from];
+    const LaneVector t_lanes = allLanes(t);
+    const uint32_t rows = group.attribute_rows;
+    PositionQuadric moved = position[from];
+    Lanes moved_c{};
+    LaneVector moved_b{};
+    for (const WedgeMove& wedge : moves)
+    {
+        const float weight = wedge_weight[wedge.from];
+        wedge_weight[wedge.to] += weight;
+        for (uint32_t r = 0; r < rows; ++r)
+        {
+            const Lanes delta = group.attributesOf(wedge.to)[r] - group.attributesOf(wedge.from)[r];
+            const AttributeGradients g = gradients[size_t{wedge.from} * rows + r];
+            AttributeGradients& goal = gradients[size_t{wedge.to} * rows + r];
+            moved_c += delta * (weight * delta - 2 * g.offset);
+            moved_b = moved_b - g.gradient * delta;
+            goal.gradient = goal.gradient + g.gradient;
+            goal.offset += g.offset + dot(g.gradient, t_lanes) - weight * delta;
+        }
+    }
+    moved.c += sumOfLanes(moved_c);
+    moved.b += {sumOfLanes(moved_b.x), sumOfLanes(moved_b.y), sumOfLanes(moved_b.z)};
+    position[to].addMoved(moved, t);
+}
+
+float attributeDistance2(const GroupMesh& group, uint32_t a, uint32_t b)
+{
+    const Lanes* attributes_a = group.attributesOf(a);
+    const Lanes* attributes_b = group.attributesOf(b);
+    Lanes squares{};
+    for (uint32_t r = 0; r < group.attribute_rows; ++r)
+    {
+        const Lanes d = attributes_a[r] - attributes_b[r];
+        squares += d * d;
+    }
+    return sumOfLanes(squares);
+}
+
 Quadrics initialQuadrics(const GroupMesh& group)
 {
     Quadrics quadrics;

@@ -100,13 +100,11 @@ private:
     bool mapWedges(const Spoke& spoke);
     bool mapLayers(uint32_t from, uint32_t to);
     void mapNearest(uint32_t to);
-    float attributeDistance2(uint32_t a, uint32_t b) const;
     bool mapped(uint32_t wedge) const
     {
         return std::any_of(moves_.begin(), moves_.end(), [&](WedgeMove m) { return m.from == wedge; });
     }
     bool allMapped() const { return moves_.size() == mesh_.wedges().size(); }
-    Lanes mostGain(uint32_t wedge, LaneVector t) const;
     float cost(uint32_t from, uint32_t to) const;
     void gatherCandidates(uint32_t position, bool along_seams);
     void push(uint32_t position, Candidate candidate);
@@ -116,7 +114,6 @@ private:
     bool turnsOver(uint32_t from, uint32_t to);
     bool valid(uint32_t from, uint32_t to) { return mesh_.linkHolds(from, to) && !turnsOver(from, to); }
     void step();
-    void moveQuadrics(uint32_t from, uint32_t to);
     void evaluateAround(uint32_t removed, uint32_t center);
 
     const GroupMesh& group_;
@@ -131,7 +128,6 @@ private:
     bool permissive_ = false;
 
     // scratch
-    uint32_t layers_ = 1;
     std::vector<WedgeMove> moves_;
     std::vector<uint32_t> goals_;
     std::vector<Candidate> candidates_;
@@ -147,7 +143,7 @@ void Collapser::holdEdges(uint32_t position)
     const auto hold = [&](uint32_t end, uint32_t tip)
     {
         const Spoke& spoke = *mesh_.spokeTo(end);
-        const bool regular = spoke.regular(layers_);
+        const bool regular = spoke.regular(mesh_.layers());
         if (regular && spoke.out.from == spoke.in.from && spoke.out.to == spoke.in.to)
             return;
         quadrics_.position[position].add(edgeQuadric(group_.positions[end] - place,
@@ -163,24 +159,11 @@ void Collapser::holdEdges(uint32_t position)
     }
 }
 
-float Collapser::attributeDistance2(uint32_t a, uint32_t b) const
-{
-    const Lanes* attributes_a = group_.attributesOf(a);
-    const Lanes* attributes_b = group_.attributesOf(b);
-    Lanes squares{};
-    for (uint32_t r = 0; r < group_.attribute_rows; ++r)
-    {
-        const Lanes d = attributes_a[r] - attributes_b[r];
-        squares += d * d;
-    }
-    return sumOfLanes(squares);
-}
-
 /// Find where the wedges of the gathered position go if it collapses along the spoke, into moves_; false if one of
 /// them has no way that keeps the attributes together.
 bool Collapser::mapGathered(uint32_t from, const Spoke& spoke)
 {
-    return layers_ == 1 ? mapWedges(spoke) : mapLayers(from, spoke.position);
+    return mesh_.layers() == 1 ? mapWedges(spoke) : mapLayers(from, spoke.position);
 }
 
 bool Collapser::mapWedges(const Spoke& spoke)
@@ -232,29 +215,15 @@ void Collapser::mapNearest(uint32_t to)
         if (mapped(wedge))
             continue;
         uint32_t best = goals_.front();
-        float best_distance2 = attributeDistance2(wedge, best);
+        float best_distance2 = attributeDistance2(group_, wedge, best);
         for (const uint32_t goal : std::span(goals_).subspan(1))
-            if (const float distance2 = attributeDistance2(wedge, goal); distance2 < best_distance2)
+            if (const float distance2 = attributeDistance2(group_, wedge, goal); distance2 < best_distance2)
             {
                 best = goal;
                 best_distance2 = distance2;
             }
         moves_.push_back({wedge, best});
     }
-}
-
-/// What the best possible attributes would take off the error of a wedge that moves by `t`.
-Lanes Collapser::mostGain(uint32_t wedge, LaneVector t) const
-{
-    const uint32_t rows = group_.attribute_rows;
-    const AttributeGradients* g = quadrics_.gradients.data() + size_t{wedge} * rows;
-    Lanes squares{};
-    for (uint32_t r = 0; r < rows; ++r)
-    {
-        const Lanes change = dot(g[r].gradient, t) + g[r].offset;
-        squares += change * change;
-    }
-    return squares * inverseOr0(quadrics_.wedge_weight[wedge]);
 }
 
 /// Quadric error of the collapse that moves_ describes. Wedges without a way count with the least error that any
@@ -265,26 +234,16 @@ float Collapser::cost(uint32_t from, uint32_t to) const
     float error = quadrics_.position[from].at(t);
     float weight = 0;
     const LaneVector t_lanes = allLanes(t);
-    const uint32_t rows = group_.attribute_rows;
     Lanes attribute_error{};
     for (const WedgeMove& move : moves_)
     {
-        const float wedge_weight = quadrics_.wedge_weight[move.from];
-        const Lanes* attributes_from = group_.attributesOf(move.from);
-        const Lanes* attributes_to = group_.attributesOf(move.to);
-        const AttributeGradients* g = quadrics_.gradients.data() + size_t{move.from} * rows;
-        weight += wedge_weight;
-        for (uint32_t r = 0; r < rows; ++r)
-        {
-            const Lanes delta = attributes_to[r] - attributes_from[r];
-            attribute_error +=
-                delta * (wedge_weight * delta - 2 * (dot(g[r].gradient, t_lanes) + g[r].offset));
-        }
+        weight += quadrics_.wedge_weight[move.from];
+        attribute_error += quadrics_.attributeError(group_, move, t_lanes);
     }
     if (!allMapped())
         for (const uint32_t wedge : mesh_.wedges())
             if (!mapped(wedge))
-                attribute_error -= mostGain(wedge, t_lanes);
+                attribute_error -= quadrics_.mostGain(group_, wedge, t_lanes);
     error += sumOfLanes(attribute_error);
     return std::max(error, 0.0f) + kLengthWeight * weight * dot(t, t);
 }
@@ -295,18 +254,17 @@ void Collapser::gatherCandidates(uint32_t position, bool along_seams)
 {
     candidates_.clear();
     wedge_blocked_[position] = 0;
-    layers_ = mesh_.layers();
     const auto ring = mesh_.ring();
     if (std::all_of(ring.begin(), ring.end(), [&](const Spoke& s) { return mesh_.emptiesStar(position, s); }))
         return;
     if (edges_held_[position] == 0)
         holdEdges(position);
     const auto irregular =
-        std::count_if(ring.begin(), ring.end(), [&](const Spoke& s) { return !s.regular(layers_); });
+        std::count_if(ring.begin(), ring.end(), [&](const Spoke& s) { return !s.regular(mesh_.layers()); });
     if (irregular != 0 && irregular != 2)
         return;
     const auto possible = [&](const Spoke& spoke)
-    { return (irregular == 0 || !spoke.regular(layers_)) && !mesh_.emptiesStar(position, spoke); };
+    { return (irregular == 0 || !spoke.regular(mesh_.layers())) && !mesh_.emptiesStar(position, spoke); };
     along_seams =
         along_seams && std::any_of(ring.begin(), ring.end(),
                                    [&](const Spoke& spoke) { return possible(spoke) && spoke.onSeam(); });
@@ -401,36 +359,6 @@ bool Collapser::turnsOver(uint32_t from, uint32_t to)
     return false;
 }
 
-void Collapser::moveQuadrics(uint32_t from, uint32_t to)
-{
-    if (group_.locked[to] != 0)
-        return; // never asked for
-    const Float3 t = group_.positions[to] - group_.positions[from];
-    PositionQuadric moved = quadrics_.position[from];
-    const LaneVector t_lanes = allLanes(t);
-    const uint32_t rows = group_.attribute_rows;
-    Lanes moved_c{};
-    LaneVector moved_b{};
-    for (const WedgeMove& move : moves_)
-    {
-        const float weight = quadrics_.wedge_weight[move.from];
-        quadrics_.wedge_weight[move.to] += weight;
-        for (uint32_t r = 0; r < rows; ++r)
-        {
-            const Lanes delta = group_.attributesOf(move.to)[r] - group_.attributesOf(move.from)[r];
-            const AttributeGradients g = quadrics_.gradients[size_t{move.from} * rows + r];
-            AttributeGradients& goal = quadrics_.gradients[size_t{move.to} * rows + r];
-            moved_c += delta * (weight * delta - 2 * g.offset);
-            moved_b = moved_b - g.gradient * delta;
-            goal.gradient = goal.gradient + g.gradient;
-            goal.offset += g.offset + dot(g.gradient, t_lanes) - weight * delta;
-        }
-    }
-    moved.c += sumOfLanes(moved_c);
-    moved.b += {sumOfLanes(moved_b.x), sumOfLanes(moved_b.y), sumOfLanes(moved_b.z)};
-    quadrics_.position[to].addMoved(moved, t);
-}
-
 /// After `removed` went to `center`: new collapses for the center, for those that wanted to go to `removed`, and for
 /// those that had none.
 void Collapser::evaluateAround(uint32_t removed, uint32_t center)
@@ -458,7 +386,6 @@ void Collapser::step()
     if (entry.version != version_[entry.position])
         return;
     mesh_.gather(entry.position);
-    layers_ = mesh_.layers();
     const Spoke* spoke = mesh_.spokeTo(entry.target);
     if (spoke == nullptr || !mapGathered(entry.position, *spoke) || !valid(entry.position, entry.target))
     {
@@ -466,7 +393,8 @@ void Collapser::step()
         return;
     }
     mapNearest(entry.target);
-    moveQuadrics(entry.position, entry.target);
+    if (group_.locked[entry.target] == 0) // nobody asks for those of locked positions
+        quadrics_.move(group_, entry.position, entry.target, moves_);
     mesh_.collapse(entry.position, entry.target, moves_);
     target_[entry.position] = entry.target;
     ++version_[entry.position];

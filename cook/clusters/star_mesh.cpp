@@ -89,14 +89,9 @@ void StarMesh::gather(uint32_t center)
         if (std::find(wedges_.begin(), wedges_.end(), wedge) == wedges_.end())
             wedges_.push_back(wedge);
     }
-}
-
-uint32_t StarMesh::layers() const
-{
-    uint32_t layers = std::numeric_limits<uint32_t>::max();
+    layers_ = std::numeric_limits<uint32_t>::max();
     for (const Spoke& spoke : ring_)
-        layers = std::min(layers, std::max(spoke.out_count, spoke.in_count));
-    return layers;
+        layers_ = std::min(layers_, std::max(spoke.out_count, spoke.in_count));
 }
 
 bool StarMesh::linkHolds(uint32_t from, uint32_t to)

@@ -13,13 +13,6 @@
 namespace hearth::clusters
 {
 
-/// Where a wedge of a position that is removed goes.
-struct WedgeMove
-{
-    uint32_t from;
-    uint32_t to;
-};
-
 /// A neighbour of a position and how the triangles between them run.
 struct Spoke
 {
@@ -86,7 +79,7 @@ public:
     }
 
     /// How many sheets lie on each other around the gathered position: 1 but for faces that the source has twice.
-    uint32_t layers() const;
+    uint32_t layers() const { return layers_; }
 
     /// Whether a collapse of the gathered position along the spoke would leave an end without triangles.
     bool emptiesStar(uint32_t center, const Spoke& spoke) const
@@ -130,6 +123,7 @@ private:
 
     std::vector<Spoke> ring_;
     std::vector<uint32_t> wedges_;
+    uint32_t layers_ = 1;
     std::vector<uint32_t> mark_; ///< mark_value_ + place in ring_, for the positions in it
     uint32_t mark_value_ = 0;
     std::vector<uint32_t> tips_;
