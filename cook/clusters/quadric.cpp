@@ -130,19 +130,6 @@ void Quadrics::move(const GroupMesh& group, uint32_t from, uint32_t to, std::spa
     position[to].addMoved(moved, t);
 }
 
-float attributeDistance2(const GroupMesh& group, uint32_t a, uint32_t b)
-{
-    const Lanes* attributes_a = group.attributesOf(a);
-    const Lanes* attributes_b = group.attributesOf(b);
-    Lanes squares{};
-    for (uint32_t r = 0; r < group.attribute_rows; ++r)
-    {
-        const Lanes d = attributes_a[r] - attributes_b[r];
-        squares += d * d;
-    }
-    return sumOfLanes(squares);
-}
-
 Quadrics initialQuadrics(const GroupMesh& group)
 {
     Quadrics quadrics;

@@ -117,7 +117,18 @@ struct Quadrics
 };
 
 /// Squared distance of two wedges' attributes.
-float attributeDistance2(const GroupMesh& group, uint32_t a, uint32_t b);
+inline float attributeDistance2(const GroupMesh& group, uint32_t a, uint32_t b)
+{
+    const Lanes* attributes_a = group.attributesOf(a);
+    const Lanes* attributes_b = group.attributesOf(b);
+    Lanes squares{};
+    for (uint32_t r = 0; r < group.attribute_rows; ++r)
+    {
+        const Lanes d = attributes_a[r] - attributes_b[r];
+        squares += d * d;
+    }
+    return sumOfLanes(squares);
+}
 
 /// The planes and attributes of all triangles; what locked positions have is never asked for and left out.
 Quadrics initialQuadrics(const GroupMesh& group);

@@ -259,6 +259,12 @@ void Collapser::gatherCandidates(uint32_t position, bool along_seams)
         return;
     if (edges_held_[position] == 0)
         holdEdges(position);
+    // an edge is the way of two wedges at most
+    if (!permissive_ && mesh_.layers() == 1 && mesh_.wedges().size() > 2)
+    {
+        wedge_blocked_[position] = 1;
+        return;
+    }
     const auto irregular =
         std::count_if(ring.begin(), ring.end(), [&](const Spoke& s) { return !s.regular(mesh_.layers()); });
     if (irregular != 0 && irregular != 2)
