@@ -33,6 +33,9 @@ constexpr size_t kFewPoints = 6;
 constexpr size_t kMaxLikely = 5 * kLanes;
 constexpr size_t kQuickPoints = 16;
 
+// Rounding of planes' distances between points in [-1, 1]^3.
+constexpr float kSideMargin = 1e-5f;
+
 // A triangle is searched in at most so many parts before its bound is taken as it is.
 constexpr size_t kMaxParts = 64;
 
@@ -132,6 +135,8 @@ private:
         index.query(boxAround(piece, radius), found_);
         for (float wider = std::max(radius, 1e-3f); found_.empty(); wider *= 2)
             index.query(boxAround(piece, wider), found_);
+        if (found_.size() > kLanes)
+            dropBesides(piece, index, radius);
         if (found_.size() > kMaxCandidates)
         {
             keepNearest(piece, index);
@@ -139,6 +144,38 @@ private:
         }
         candidates_.load(index.facets(), found_);
         return bounder_.bound(piece, candidates_.blocks(), allowed2, radius);
+    }
+
+    /// Drop facets that lie beyond an edge of the piece by more than `radius`: the index knows them by their boxes only.
+    /// Keeps all if none would be left.
+    void dropBesides(const Corners& piece, const FacetIndex& index, float radius)
+    {
+        const Float3 normal = cross(piece[1] - piece[0], piece[2] - piece[0]);
+        std::array<Float3, 3> outward;
+        std::array<float, 3> limit;
+        for (size_t k = 0; k < 3; ++k)
+        {
+            outward[k] = cross(piece[(k + 1) % 3] - piece[k], normal);
+            limit[k] = std::max({hearth::dot(outward[k], piece[0]), hearth::dot(outward[k], piece[1]),
+                                 hearth::dot(outward[k], piece[2])}) +
+                       length(outward[k]) * (radius + kSideMargin);
+        }
+        const auto beside = [&](uint32_t f)
+        {
+            const Facet& facet = index.facets()[f];
+            for (size_t k = 0; k < 3; ++k)
+            {
+                const float a = hearth::dot(outward[k], facet.a);
+                const float nearest = a + std::min({0.0f, hearth::dot(outward[k], facet.ab),
+                                                    hearth::dot(outward[k], facet.ac)});
+                if (nearest > limit[k])
+                    return true;
+            }
+            return false;
+        };
+        const auto kept = std::remove_if(found_.begin(), found_.end(), beside);
+        if (kept != found_.begin())
+            found_.erase(kept, found_.end());
     }
 
     void keepNearest(const Corners& piece, const FacetIndex& index)
