@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/clusters/bounds.h"
 
+#include "cook/clusters/lanes.h"
 #include "formats/assert.h"
 
 #include <algorithm>
@@ -71,9 +72,9 @@ struct WideSphere
 void growTo(WideSphere& sphere, Double3 point)
 {
     const Double3 away = point - sphere.center;
-    const double distance = length(away);
-    if (distance <= sphere.radius)
+    if (dot(away, away) <= sphere.radius * sphere.radius)
         return;
+    const double distance = length(away);
     const double radius = (sphere.radius + distance) * 0.5;
     sphere.center = sphere.center + away * ((radius - sphere.radius) / distance);
     sphere.radius = radius;
@@ -104,27 +105,63 @@ WideSphere ritterSphere(std::span<const Float3> points)
     return sphere;
 }
 
-struct Farthest
-{
-    size_t point = 0;
-    double distance = 0;
-};
-
-Farthest farthestFrom(Double3 center, std::span<const Float3> points)
-{
-    Farthest farthest;
-    for (size_t i = 0; i < points.size(); ++i)
-        if (const Double3 away = widen(points[i]) - center; dot(away, away) > farthest.distance)
-            farthest = {i, dot(away, away)};
-    farthest.distance = std::sqrt(farthest.distance);
-    return farthest;
-}
-
 /// The center as it will be stored, and the radius that it then needs.
 Sphere storedSphere(Double3 center, std::span<const Float3> points)
 {
     const Float3 stored = narrow(center);
-    return {stored, roundUp(farthestFrom(widen(stored), points).distance)};
+    const Double3 from = widen(stored);
+    double radius2 = 0;
+    for (const Float3 point : points)
+    {
+        const Double3 away = widen(point) - from;
+        radius2 = std::max(radius2, dot(away, away));
+    }
+    return {stored, roundUp(std::sqrt(radius2))};
+}
+
+/// Points relative to a sphere around them, four side by side: floats are good enough to look for a better center.
+std::vector<LaneVector> relativeTo(const WideSphere& sphere, std::span<const Float3> points)
+{
+    const double scale = sphere.radius > 0 ? 1 / sphere.radius : 0;
+    std::vector<LaneVector> blocks((points.size() + kLanes - 1) / kLanes);
+    for (size_t i = 0; i < blocks.size() * kLanes; ++i)
+    {
+        // lanes that are left over repeat the last point
+        const Float3 place = narrow((widen(points[std::min(i, points.size() - 1)]) - sphere.center) * scale);
+        LaneVector& block = blocks[i / kLanes];
+        block.x[i % kLanes] = place.x;
+        block.y[i % kLanes] = place.y;
+        block.z[i % kLanes] = place.z;
+    }
+    return blocks;
+}
+
+struct Farthest
+{
+    Float3 point;
+    float distance = 0;
+};
+
+Farthest farthestFrom(Float3 center, std::span<const LaneVector> blocks)
+{
+    const LaneVector centers = allLanes(center);
+    Lanes farthest2 = allLanes(-1);
+    LaneMask block_of_farthest{};
+    for (size_t b = 0; b < blocks.size(); ++b)
+    {
+        const LaneVector away = blocks[b] - centers;
+        const Lanes distance2 = dot(away, away);
+        const LaneMask farther = distance2 > farthest2;
+        const auto number = static_cast<int32_t>(b);
+        farthest2 = farther ? distance2 : farthest2;
+        block_of_farthest = farther ? LaneMask{number, number, number, number} : block_of_farthest;
+    }
+    size_t lane = 0;
+    for (size_t k = 1; k < kLanes; ++k)
+        if (farthest2[k] > farthest2[lane])
+            lane = k;
+    const LaneVector& block = blocks[static_cast<size_t>(block_of_farthest[lane])];
+    return {{block.x[lane], block.y[lane], block.z[lane]}, std::sqrt(farthest2[lane])};
 }
 
 double radiusAround(Float3 center, std::span<const Sphere> spheres)
@@ -156,12 +193,18 @@ std::vector<Plane> planesOf(std::span<const Float3> places)
     return planes;
 }
 
-/// Least cosine between the axis and the normals.
-double leastCosine(Double3 axis, std::span<const Plane> planes)
+struct LeastCosine
 {
-    double least = 1;
-    for (const Plane& plane : planes)
-        least = std::min(least, dot(axis, plane.normal));
+    double cosine = 1;
+    Double3 normal; ///< the one farthest from the axis
+};
+
+LeastCosine leastCosine(Double3 axis, std::span<const Plane> planes)
+{
+    LeastCosine least{dot(axis, planes.front().normal), planes.front().normal};
+    for (const Plane& plane : planes.subspan(1))
+        if (const double cosine = dot(axis, plane.normal); cosine < least.cosine)
+            least = {cosine, plane.normal};
     return least;
 }
 
@@ -176,18 +219,17 @@ Double3 coneAxis(std::span<const Plane> planes)
         return {};
     axis = axis * (1 / sum);
     Double3 best = axis;
-    double best_cosine = leastCosine(axis, planes);
+    LeastCosine least = leastCosine(axis, planes);
+    double best_cosine = least.cosine;
     for (int step = 1; step <= 6; ++step)
     {
-        const auto farthest = std::min_element(planes.begin(), planes.end(),
-                                               [&](const Plane& a, const Plane& b)
-                                               { return dot(axis, a.normal) < dot(axis, b.normal); });
-        axis = axis + (farthest->normal - axis) * (0.5 / (step + 1));
+        axis = axis + (least.normal - axis) * (0.5 / (step + 1));
         axis = axis * (1 / length(axis));
-        if (const double cosine = leastCosine(axis, planes); cosine > best_cosine)
+        least = leastCosine(axis, planes);
+        if (least.cosine > best_cosine)
         {
             best = axis;
-            best_cosine = cosine;
+            best_cosine = least.cosine;
         }
     }
     return best;
@@ -208,20 +250,21 @@ Sphere sphereOfPoints(std::span<const Float3> points)
 {
     HEARTH_ASSERT(!points.empty());
     const WideSphere start = ritterSphere(points);
-    Double3 best = start.center;
-    double best_radius = start.radius;
-    Double3 center = start.center;
+    const std::vector<LaneVector> blocks = relativeTo(start, points);
+    Float3 best;
+    float best_radius = 1;
+    Float3 center;
     for (int step = 1; step <= kSphereSteps; ++step)
     {
-        const Farthest farthest = farthestFrom(center, points);
+        const Farthest farthest = farthestFrom(center, blocks);
         if (farthest.distance < best_radius)
         {
             best = center;
             best_radius = farthest.distance;
         }
-        center = center + (widen(points[farthest.point]) - center) * (0.3 / (step + 1));
+        center += (farthest.point - center) * (0.3f / static_cast<float>(step + 1));
     }
-    return storedSphere(best, points);
+    return storedSphere(start.center + widen(best) * start.radius, points);
 }
 
 Sphere sphereOfSpheres(std::span<const Sphere> spheres, const Sphere& start)
@@ -269,7 +312,7 @@ NormalCone coneOfTriangles(std::span<const Float3> places)
         return cone;
     cone.axis = narrow(wide_axis);
     const Double3 axis = widen(cone.axis) * (1 / length(widen(cone.axis)));
-    const double cosine = leastCosine(axis, planes);
+    const double cosine = std::min(1.0, leastCosine(axis, planes).cosine);
     if (cosine <= kMinConeCosine)
         return cone;
 

@@ -61,24 +61,24 @@ struct Build
 /// Contains the members' geometry and the spheres of all groups that they were made from.
 Sphere groupSphere(const Build& build, const Level& level, std::span<const uint32_t> members)
 {
-    std::vector<Float3> points;
+    // the finer spheres hold the points of the finer groups, and with them all of the members' points
     std::vector<Sphere> spheres;
     uint32_t last_refined = kNone;
     for (const uint32_t member : members)
-    {
-        for (const uint32_t vertex : level.store.verticesOf(level.store.shapes[member]))
-            points.push_back(build.mesh.source->positions[vertex]);
         if (const uint32_t refined = level.refined_group[member]; refined != kNone && refined != last_refined)
         {
             last_refined = refined;
             spheres.push_back(build.group(refined).sphere);
         }
-    }
-    const Sphere around_points = sphereOfPoints(points);
+    std::vector<Float3> points;
+    for (const Sphere& sphere : spheres)
+        points.push_back(sphere.center);
     if (spheres.empty())
-        return {around_points.center, roundUp(around_points.radius * kMonotoneSlack)};
-    // the finer spheres hold the points of the finer groups, and with them all of the members' points
-    const Sphere sphere = sphereOfSpheres(spheres, around_points);
+        for (const uint32_t member : members)
+            for (const uint32_t vertex : level.store.verticesOf(level.store.shapes[member]))
+                points.push_back(build.mesh.source->positions[vertex]);
+    const Sphere around_points = sphereOfPoints(points);
+    const Sphere sphere = spheres.empty() ? around_points : sphereOfSpheres(spheres, around_points);
     return {sphere.center, roundUp(sphere.radius * kMonotoneSlack)};
 }
 

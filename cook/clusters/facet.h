@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
+#include "cook/clusters/lanes.h"
 #include "formats/math.h"
 
 #include <array>
@@ -24,11 +25,6 @@ struct Facet
     float unused; ///< fills the fourth row
 };
 
-inline float inverseOr0(float x)
-{
-    return x > 0 ? 1.0f / x : 0.0f;
-}
-
 inline Facet makeFacet(Float3 a, Float3 b, Float3 c)
 {
     Facet f{};
@@ -43,50 +39,6 @@ inline Facet makeFacet(Float3 a, Float3 b, Float3 c)
     f.inverse_ab = inverseOr0(f.ab_ab);
     f.inverse_ac = inverseOr0(f.ac_ac);
     return f;
-}
-
-/// Four numbers that are computed side by side: what every x86-64 and ARM64 processor has.
-inline constexpr size_t kLanes = 4;
-using Lanes = float __attribute__((vector_size(kLanes * sizeof(float))));
-using LaneMask = int32_t __attribute__((vector_size(kLanes * sizeof(int32_t))));
-
-inline Lanes allLanes(float x)
-{
-    return Lanes{x, x, x, x};
-}
-inline Lanes minimum(Lanes a, Lanes b)
-{
-    return a < b ? a : b;
-}
-inline Lanes maximum(Lanes a, Lanes b)
-{
-    return a > b ? a : b;
-}
-/// NaN becomes 0.
-inline Lanes clampToUnit(Lanes x)
-{
-    return minimum(maximum(x, allLanes(0)), allLanes(1));
-}
-
-struct LaneVector
-{
-    Lanes x, y, z;
-};
-inline LaneVector operator-(LaneVector a, LaneVector b)
-{
-    return {a.x - b.x, a.y - b.y, a.z - b.z};
-}
-inline LaneVector operator*(LaneVector a, Lanes s)
-{
-    return {a.x * s, a.y * s, a.z * s};
-}
-inline Lanes dot(LaneVector a, LaneVector b)
-{
-    return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-inline LaneVector allLanes(Float3 p)
-{
-    return {allLanes(p.x), allLanes(p.y), allLanes(p.z)};
 }
 
 /// Facets side by side.

@@ -132,11 +132,19 @@ void gatherAttributes(GroupMesh& group, const mesh::SourceMesh& source, const Co
     const float uv_scale = source.uvs[0].empty() || config.uv_weight <= 0
                                ? 0.0f
                                : config.uv_weight * uvScale(group, source.uvs[0]);
-    group.attribute_count = (has_normal ? 3u : 0u) + (uv_scale > 0 ? 2u : 0u) + (has_color ? 4u : 0u);
-    group.attributes.reserve(group.attribute_count * group.vertex_of_wedge.size());
-    for (const uint32_t vertex : group.vertex_of_wedge)
+    const size_t count = (has_normal ? 3u : 0u) + (uv_scale > 0 ? 2u : 0u) + (has_color ? 4u : 0u);
+    group.attribute_rows = static_cast<uint32_t>((count + kLanes - 1) / kLanes);
+    group.attributes.assign(group.attribute_rows * group.vertex_of_wedge.size(), Lanes{});
+    for (size_t wedge = 0; wedge < group.vertex_of_wedge.size(); ++wedge)
     {
-        const auto add = [&](float value) { group.attributes.push_back(value); };
+        const uint32_t vertex = group.vertex_of_wedge[wedge];
+        Lanes* rows = group.attributes.data() + wedge * group.attribute_rows;
+        size_t next = 0;
+        const auto add = [&](float value)
+        {
+            rows[next / kLanes][next % kLanes] = value;
+            ++next;
+        };
         if (has_normal)
         {
             const Float3 n = source.normals[vertex] * config.normal_weight;

@@ -4,6 +4,7 @@
 
 #include "cook/clusters/cluster.h"
 #include "cook/clusters/hierarchy.h"
+#include "cook/clusters/lanes.h"
 #include "formats/math.h"
 
 #include <cstdint>
@@ -12,8 +13,6 @@
 
 namespace hearth::clusters
 {
-
-inline constexpr uint32_t kMaxSimplifyAttributes = 9; ///< normal 3, one UV set 2, colour 4
 
 /// A wedge is a vertex together with a material: where wedges of one position differ, attributes or material jump.
 struct GroupMesh
@@ -27,12 +26,22 @@ struct GroupMesh
     std::vector<uint32_t> position_of_wedge; ///< position of this mesh
     std::vector<uint32_t> corners;           ///< three wedges for each triangle
     std::vector<uint32_t> materials;         ///< for each triangle
-    uint32_t attribute_count = 0;
-    std::vector<float>
-        attributes; ///< attribute_count for each wedge, weighted: differences are local lengths
+    uint32_t attribute_rows = 0;             ///< rows of four attributes that a wedge has
+    std::vector<Lanes> attributes;           ///< rows of each wedge, weighted: differences are local lengths
 
     size_t triangleCount() const { return corners.size() / 3; }
+    const Lanes* attributesOf(uint32_t wedge) const
+    {
+        return attributes.data() + size_t{wedge} * attribute_rows;
+    }
     uint32_t positionAt(size_t corner) const { return position_of_wedge[corners[corner]]; }
+};
+
+/// Where a wedge of a position that is removed goes.
+struct WedgeMove
+{
+    uint32_t from;
+    uint32_t to;
 };
 
 /// Collect the clusters of a group.

@@ -26,6 +26,32 @@ GradientBasis gradientBasis(Float3 e1, Float3 e2)
     return {(e1 * d22 - e2 * d12) / det, (e2 * d11 - e1 * d12) / det};
 }
 
+/// The A of several planes, lane by lane.
+struct PlaneSums
+{
+    Lanes a00{}, a11{}, a22{}, a01{}, a02{}, a12{};
+
+    void add(LaneVector normal, LaneVector weighted)
+    {
+        a00 += normal.x * weighted.x;
+        a11 += normal.y * weighted.y;
+        a22 += normal.z * weighted.z;
+        a01 += normal.x * weighted.y;
+        a02 += normal.x * weighted.z;
+        a12 += normal.y * weighted.z;
+    }
+
+    void addTo(PositionQuadric& quadric) const
+    {
+        quadric.a00 += sumOfLanes(a00);
+        quadric.a11 += sumOfLanes(a11);
+        quadric.a22 += sumOfLanes(a22);
+        quadric.a01 += sumOfLanes(a01);
+        quadric.a02 += sumOfLanes(a02);
+        quadric.a12 += sumOfLanes(a12);
+    }
+};
+
 void addTriangle(Quadrics& quadrics, const GroupMesh& group, size_t first_corner)
 {
     uint32_t wedge[3];
@@ -47,17 +73,25 @@ void addTriangle(Quadrics& quadrics, const GroupMesh& group, size_t first_corner
     quadric.addPlane(normal / twice_area, weight);
 
     const GradientBasis basis = gradientBasis(e1, e2);
-    const uint32_t count = group.attribute_count;
-    for (uint32_t i = 0; i < count; ++i)
+    const LaneVector of_e1 = allLanes(basis.of_e1);
+    const LaneVector of_e2 = allLanes(basis.of_e2);
+    const uint32_t rows = group.attribute_rows;
+    PlaneSums planes;
+    for (uint32_t r = 0; r < rows; ++r)
     {
-        const float s0 = group.attributes[wedge[0] * count + i];
-        const float s1 = group.attributes[wedge[1] * count + i];
-        const float s2 = group.attributes[wedge[2] * count + i];
-        const Float3 gradient = basis.of_e1 * (s1 - s0) + basis.of_e2 * (s2 - s0);
-        quadric.addPlane(gradient, weight);
+        const Lanes s0 = group.attributesOf(wedge[0])[r];
+        const Lanes s1 = group.attributesOf(wedge[1])[r];
+        const Lanes s2 = group.attributesOf(wedge[2])[r];
+        const LaneVector gradient = of_e1 * (s1 - s0) + of_e2 * (s2 - s0);
+        const LaneVector weighted = gradient * allLanes(weight);
+        planes.add(gradient, weighted);
         for (const uint32_t w : wedge)
-            quadrics.gradients[w * count + i].gradient += gradient * weight;
+        {
+            LaneVector& sum = quadrics.gradients[size_t{w} * rows + r].gradient;
+            sum = sum + weighted;
+        }
     }
+    planes.addTo(quadric);
     for (size_t k = 0; k < 3; ++k)
     {
         quadrics.wedge_weight[wedge[k]] += weight;
@@ -68,12 +102,40 @@ void addTriangle(Quadrics& quadrics, const GroupMesh& group, size_t first_corner
 
 } // namespace
 
+void Quadrics::move(const GroupMesh& group, uint32_t from, uint32_t to, std::span<const WedgeMove> moves)
+{
+    const Float3 t = group.positions[to] - group.positions[from];
+    const LaneVector t_lanes = allLanes(t);
+    const uint32_t rows = group.attribute_rows;
+    PositionQuadric moved = position[from];
+    Lanes moved_c{};
+    LaneVector moved_b{};
+    for (const WedgeMove& wedge : moves)
+    {
+        const float weight = wedge_weight[wedge.from];
+        wedge_weight[wedge.to] += weight;
+        for (uint32_t r = 0; r < rows; ++r)
+        {
+            const Lanes delta = group.attributesOf(wedge.to)[r] - group.attributesOf(wedge.from)[r];
+            const AttributeGradients g = gradients[size_t{wedge.from} * rows + r];
+            AttributeGradients& goal = gradients[size_t{wedge.to} * rows + r];
+            moved_c += delta * (weight * delta - 2 * g.offset);
+            moved_b = moved_b - g.gradient * delta;
+            goal.gradient = goal.gradient + g.gradient;
+            goal.offset += g.offset + dot(g.gradient, t_lanes) - weight * delta;
+        }
+    }
+    moved.c += sumOfLanes(moved_c);
+    moved.b += {sumOfLanes(moved_b.x), sumOfLanes(moved_b.y), sumOfLanes(moved_b.z)};
+    position[to].addMoved(moved, t);
+}
+
 Quadrics initialQuadrics(const GroupMesh& group)
 {
     Quadrics quadrics;
     quadrics.position.resize(group.positions.size());
     quadrics.wedge_weight.resize(group.vertex_of_wedge.size());
-    quadrics.gradients.resize(group.vertex_of_wedge.size() * group.attribute_count);
+    quadrics.gradients.resize(group.vertex_of_wedge.size() * group.attribute_rows);
     for (size_t corner = 0; corner < group.corners.size(); corner += 3)
         addTriangle(quadrics, group, corner);
     return quadrics;

@@ -7,6 +7,9 @@
 #include "cook/clusters/group_mesh.h"
 #include "formats/math.h"
 
+#include <span>
+#include <vector>
+
 namespace hearth::clusters
 {
 
@@ -64,22 +67,68 @@ struct PositionQuadric
     }
 };
 
-/// One attribute of one wedge: the area-weighted sum of its linear functions (gradient . x + offset) over the
-/// triangles it stands for, relative to the wedge's own place and value.
-struct AttributeGradient
+/// Four attributes of one wedge: the area-weighted sums of their linear functions (gradient . x + offset) over the
+/// triangles that the wedge stands for, relative to the wedge's own place and values.
+struct AttributeGradients
 {
-    Float3 gradient;
-    float offset = 0;
+    LaneVector gradient{};
+    Lanes offset{};
 };
 
 /// All quadrics of a group. Each position has one PositionQuadric, which takes in what the attributes contribute to
-/// A, b and c; each wedge has an area weight and attribute_count gradients.
+/// A, b and c; each wedge has an area weight and attribute_rows gradients.
 struct Quadrics
 {
     std::vector<PositionQuadric> position;
     std::vector<float> wedge_weight;
-    std::vector<AttributeGradient> gradients;
+    std::vector<AttributeGradients> gradients;
+
+    /// What the attributes of a wedge add to the error, lane by lane, when it moves by `t`.
+    Lanes attributeError(const GroupMesh& group, WedgeMove move, LaneVector t) const
+    {
+        const float weight = wedge_weight[move.from];
+        const Lanes* from = group.attributesOf(move.from);
+        const Lanes* to = group.attributesOf(move.to);
+        const AttributeGradients* g = gradients.data() + size_t{move.from} * group.attribute_rows;
+        Lanes error{};
+        for (uint32_t r = 0; r < group.attribute_rows; ++r)
+        {
+            const Lanes delta = to[r] - from[r];
+            error += delta * (weight * delta - 2 * (dot(g[r].gradient, t) + g[r].offset));
+        }
+        return error;
+    }
+
+    /// What the best possible attributes at its goal would take off the error of a wedge.
+    Lanes mostGain(const GroupMesh& group, uint32_t wedge, LaneVector t) const
+    {
+        const AttributeGradients* g = gradients.data() + size_t{wedge} * group.attribute_rows;
+        Lanes squares{};
+        for (uint32_t r = 0; r < group.attribute_rows; ++r)
+        {
+            const Lanes change = dot(g[r].gradient, t) + g[r].offset;
+            squares += change * change;
+        }
+        return squares * inverseOr0(wedge_weight[wedge]);
+    }
+
+    /// Add the quadrics of a position to those of another that it goes to, with its wedges.
+    void move(const GroupMesh& group, uint32_t from, uint32_t to, std::span<const WedgeMove> moves);
 };
+
+/// Squared distance of two wedges' attributes.
+inline float attributeDistance2(const GroupMesh& group, uint32_t a, uint32_t b)
+{
+    const Lanes* attributes_a = group.attributesOf(a);
+    const Lanes* attributes_b = group.attributesOf(b);
+    Lanes squares{};
+    for (uint32_t r = 0; r < group.attribute_rows; ++r)
+    {
+        const Lanes d = attributes_a[r] - attributes_b[r];
+        squares += d * d;
+    }
+    return sumOfLanes(squares);
+}
 
 /// The planes and attributes of all triangles; what locked positions have is never asked for and left out.
 Quadrics initialQuadrics(const GroupMesh& group);

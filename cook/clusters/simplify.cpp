@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 namespace hearth::clusters
 {
@@ -35,6 +36,7 @@ struct Candidate
 {
     float cost;
     uint32_t target;
+    bool exact; ///< else the cost is a lower bound, for as long as the wedges without a way have no goals
 
     bool operator<(const Candidate& b) const { return cost != b.cost ? cost < b.cost : target < b.target; }
 };
@@ -62,7 +64,9 @@ public:
           quadrics_(initialQuadrics(group)),
           version_(group.positions.size(), 0),
           best_target_(group.positions.size(), kNoPosition),
-          target_(group.positions.size())
+          target_(group.positions.size()),
+          edges_held_(group.positions.size(), 0),
+          wedge_blocked_(group.positions.size(), 0)
     {
         for (uint32_t p = 0; p < target_.size(); ++p)
             target_[p] = p;
@@ -70,19 +74,18 @@ public:
 
     size_t triangleCount() const { return mesh_.aliveCount(); }
 
+    /// Collapse until so many triangles are left or nothing more can go. `permissive` is for a second time: only the
+    /// positions that wedges held back have anything new to offer.
     void collapseUntil(size_t target_triangles, bool permissive)
     {
         permissive_ = permissive;
         heap_.clear();
         for (uint32_t p = 0; p < target_.size(); ++p)
-            if (target_[p] == p && group_.locked[p] == 0)
+            if (target_[p] == p && group_.locked[p] == 0 && (!permissive || wedge_blocked_[p] != 0))
             {
                 mesh_.gather(p);
-                if (!edges_held_)
-                    holdEdges(p);
                 evaluateGathered(p);
             }
-        edges_held_ = true;
         while (mesh_.aliveCount() > target_triangles && !heap_.empty())
             step();
     }
@@ -93,88 +96,76 @@ public:
 
 private:
     void holdEdges(uint32_t position);
+    bool mapGathered(uint32_t from, const Spoke& spoke);
     bool mapWedges(const Spoke& spoke);
     bool mapLayers(uint32_t from, uint32_t to);
-    uint32_t nearestWedge(uint32_t wedge, uint32_t position);
+    void mapNearest(uint32_t to);
+    bool mapped(uint32_t wedge) const
+    {
+        return std::any_of(moves_.begin(), moves_.end(), [&](WedgeMove m) { return m.from == wedge; });
+    }
+    bool allMapped() const { return moves_.size() == mesh_.wedges().size(); }
     float cost(uint32_t from, uint32_t to) const;
-    void gatherCandidates(uint32_t position);
+    void gatherCandidates(uint32_t position, bool along_seams);
     void push(uint32_t position, Candidate candidate);
+    std::optional<Candidate> nextCandidate(uint32_t position);
     void evaluateGathered(uint32_t position);
     void evaluateValid(uint32_t position, float popped_cost);
     bool turnsOver(uint32_t from, uint32_t to);
     bool valid(uint32_t from, uint32_t to) { return mesh_.linkHolds(from, to) && !turnsOver(from, to); }
     void step();
-    void moveQuadrics(uint32_t from, uint32_t to);
     void evaluateAround(uint32_t removed, uint32_t center);
 
     const GroupMesh& group_;
     StarMesh mesh_;
     Quadrics quadrics_;
-    std::vector<uint32_t> version_;     ///< heap entries with another version are stale
-    std::vector<uint32_t> best_target_; ///< of the entry in the heap, or kNoPosition
-    std::vector<uint32_t> target_;      ///< of removed positions, the next one
+    std::vector<uint32_t> version_;      ///< heap entries with another version are stale
+    std::vector<uint32_t> best_target_;  ///< of the entry in the heap, or kNoPosition
+    std::vector<uint32_t> target_;       ///< of removed positions, the next one
+    std::vector<uint8_t> edges_held_;    ///< 1 where holdEdges was
+    std::vector<uint8_t> wedge_blocked_; ///< 1 where wedges without a way ruled out a collapse
     std::vector<HeapEntry> heap_;
     bool permissive_ = false;
-    bool edges_held_ = false;
 
     // scratch
-    uint32_t layers_ = 1;
     std::vector<WedgeMove> moves_;
+    std::vector<uint32_t> goals_;
     std::vector<Candidate> candidates_;
     std::vector<uint32_t> around_;
 };
 
 /// Planes that hold open borders, edges of more than two triangles, and seams at the gathered position. Each end of an
-/// edge takes its own.
+/// edge takes its own, when it is first asked where it could go.
 void Collapser::holdEdges(uint32_t position)
 {
-    const uint32_t layers = mesh_.layers();
-    for (const Spoke& spoke : mesh_.ring())
+    edges_held_[position] = 1;
+    const Float3 place = group_.positions[position];
+    const auto hold = [&](uint32_t end, uint32_t tip)
     {
-        const bool regular = spoke.regular(layers);
+        const Spoke& spoke = *mesh_.spokeTo(end);
+        const bool regular = spoke.regular(mesh_.layers());
         if (regular && spoke.out.from == spoke.in.from && spoke.out.to == spoke.in.to)
-            continue;
-        const Float3 place = group_.positions[position];
-        const Float3 along = group_.positions[spoke.position] - place;
-        for (const uint32_t t : mesh_.star(position))
-        {
-            const StarMesh::Triangle& triangle = mesh_.triangle(t);
-            if (!triangle.has(spoke.position))
-                continue;
-            for (const uint32_t tip : triangle.position)
-                if (tip != position && tip != spoke.position)
-                    quadrics_.position[position].add(edgeQuadric(along, group_.positions[tip] - place,
-                                                                 regular ? kSeamWeight : kBorderWeight));
-        }
-    }
-}
-
-uint32_t Collapser::nearestWedge(uint32_t wedge, uint32_t position)
-{
-    uint32_t best = kNoPosition;
-    float best_distance = std::numeric_limits<float>::infinity();
-    const uint32_t count = group_.attribute_count;
-    for (const uint32_t t : mesh_.star(position))
+            return;
+        quadrics_.position[position].add(edgeQuadric(group_.positions[end] - place,
+                                                     group_.positions[tip] - place,
+                                                     regular ? kSeamWeight : kBorderWeight));
+    };
+    for (const Corner corner : mesh_.star(position))
     {
-        const StarMesh::Triangle& triangle = mesh_.triangle(t);
-        const uint32_t other = triangle.wedge[triangle.cornerAt(position)];
-        float distance = 0;
-        for (uint32_t i = 0; i < count; ++i)
-        {
-            const float d = group_.attributes[other * count + i] - group_.attributes[wedge * count + i];
-            distance += d * d;
-        }
-        if (best == kNoPosition || distance < best_distance || (distance == best_distance && other < best))
-        {
-            best = other;
-            best_distance = distance;
-        }
+        const uint32_t next = mesh_.positionAt(nextCorner(corner));
+        const uint32_t previous = mesh_.positionAt(previousCorner(corner));
+        hold(next, previous);
+        hold(previous, next);
     }
-    return best;
 }
 
 /// Find where the wedges of the gathered position go if it collapses along the spoke, into moves_; false if one of
 /// them has no way that keeps the attributes together.
+bool Collapser::mapGathered(uint32_t from, const Spoke& spoke)
+{
+    return mesh_.layers() == 1 ? mapWedges(spoke) : mapLayers(from, spoke.position);
+}
+
 bool Collapser::mapWedges(const Spoke& spoke)
 {
     moves_.clear();
@@ -182,21 +173,23 @@ bool Collapser::mapWedges(const Spoke& spoke)
         moves_.push_back(spoke.out);
     if (spoke.in_count > 0 && (moves_.empty() || spoke.in.from != spoke.out.from))
         moves_.push_back(spoke.in);
-    else if (spoke.in_count > 0 && spoke.in.to != spoke.out.to)
+    else if (spoke.in_count > 0 && spoke.in.to != spoke.out.to && !permissive_)
         return false;
-    return moves_.size() == mesh_.wedges().size();
+    return permissive_ || moves_.size() == mesh_.wedges().size();
 }
 
-/// The same where several sheets lie on each other, or where wedges without a way may take the nearest attributes.
+/// The same where several sheets lie on each other.
 bool Collapser::mapLayers(uint32_t from, uint32_t to)
 {
     moves_.clear();
-    for (const uint32_t t : mesh_.star(from))
+    for (const Corner corner : mesh_.star(from))
     {
-        const StarMesh::Triangle& triangle = mesh_.triangle(t);
-        if (!triangle.has(to))
+        const Corner next = nextCorner(corner);
+        const Corner previous = previousCorner(corner);
+        const Corner goal = mesh_.positionAt(next) == to ? next : previous;
+        if (mesh_.positionAt(goal) != to)
             continue;
-        const WedgeMove move{triangle.wedge[triangle.cornerAt(from)], triangle.wedge[triangle.cornerAt(to)]};
+        const WedgeMove move{mesh_.wedgeAt(corner), mesh_.wedgeAt(goal)};
         const auto known =
             std::find_if(moves_.begin(), moves_.end(), [&](WedgeMove m) { return m.from == move.from; });
         if (known == moves_.end())
@@ -204,55 +197,91 @@ bool Collapser::mapLayers(uint32_t from, uint32_t to)
         else if (known->to != move.to && !permissive_)
             return false;
     }
-    if (moves_.size() < mesh_.wedges().size() && !permissive_)
-        return false;
-    for (const uint32_t wedge : mesh_.wedges())
-        if (std::none_of(moves_.begin(), moves_.end(), [&](WedgeMove m) { return m.from == wedge; }))
-            moves_.push_back({wedge, nearestWedge(wedge, to)});
-    return true;
+    return permissive_ || moves_.size() == mesh_.wedges().size();
 }
 
-/// Quadric error of the collapse that moves_ describes.
+/// Let wedges without a way take the nearest attributes.
+void Collapser::mapNearest(uint32_t to)
+{
+    if (allMapped())
+        return;
+    goals_.clear();
+    for (const Corner corner : mesh_.star(to))
+        if (const uint32_t wedge = mesh_.wedgeAt(corner);
+            std::find(goals_.begin(), goals_.end(), wedge) == goals_.end())
+            goals_.push_back(wedge);
+    for (const uint32_t wedge : mesh_.wedges())
+    {
+        if (mapped(wedge))
+            continue;
+        uint32_t best = goals_.front();
+        float best_distance2 = attributeDistance2(group_, wedge, best);
+        for (const uint32_t goal : std::span(goals_).subspan(1))
+            if (const float distance2 = attributeDistance2(group_, wedge, goal); distance2 < best_distance2)
+            {
+                best = goal;
+                best_distance2 = distance2;
+            }
+        moves_.push_back({wedge, best});
+    }
+}
+
+/// Quadric error of the collapse that moves_ describes. Wedges without a way count with the least error that any
+/// attributes could give them.
 float Collapser::cost(uint32_t from, uint32_t to) const
 {
     const Float3 t = group_.positions[to] - group_.positions[from];
     float error = quadrics_.position[from].at(t);
     float weight = 0;
-    const uint32_t count = group_.attribute_count;
+    const LaneVector t_lanes = allLanes(t);
+    Lanes attribute_error{};
     for (const WedgeMove& move : moves_)
     {
-        const float wedge_weight = quadrics_.wedge_weight[move.from];
-        const float* attributes_from = group_.attributes.data() + size_t{move.from} * count;
-        const float* attributes_to = group_.attributes.data() + size_t{move.to} * count;
-        const AttributeGradient* gradients = quadrics_.gradients.data() + size_t{move.from} * count;
-        weight += wedge_weight;
-        for (uint32_t i = 0; i < count; ++i)
-        {
-            const float delta = attributes_to[i] - attributes_from[i];
-            error +=
-                delta * (wedge_weight * delta - 2 * (dot(gradients[i].gradient, t) + gradients[i].offset));
-        }
+        weight += quadrics_.wedge_weight[move.from];
+        attribute_error += quadrics_.attributeError(group_, move, t_lanes);
     }
+    if (!allMapped())
+        for (const uint32_t wedge : mesh_.wedges())
+            if (!mapped(wedge))
+                attribute_error -= quadrics_.mostGain(group_, wedge, t_lanes);
+    error += sumOfLanes(attribute_error);
     return std::max(error, 0.0f) + kLengthWeight * weight * dot(t, t);
 }
 
 /// All collapses of the gathered position that respect borders and wedges, into candidates_.
-void Collapser::gatherCandidates(uint32_t position)
+/// along_seams  where one of them keeps two wedges on their way, those that keep fewer are left out
+void Collapser::gatherCandidates(uint32_t position, bool along_seams)
 {
     candidates_.clear();
-    layers_ = mesh_.layers();
+    wedge_blocked_[position] = 0;
     const auto ring = mesh_.ring();
+    if (std::all_of(ring.begin(), ring.end(), [&](const Spoke& s) { return mesh_.emptiesStar(position, s); }))
+        return;
+    if (edges_held_[position] == 0)
+        holdEdges(position);
+    // an edge is the way of two wedges at most
+    if (!permissive_ && mesh_.layers() == 1 && mesh_.wedges().size() > 2)
+    {
+        wedge_blocked_[position] = 1;
+        return;
+    }
     const auto irregular =
-        std::count_if(ring.begin(), ring.end(), [&](const Spoke& s) { return !s.regular(layers_); });
+        std::count_if(ring.begin(), ring.end(), [&](const Spoke& s) { return !s.regular(mesh_.layers()); });
     if (irregular != 0 && irregular != 2)
         return;
+    const auto possible = [&](const Spoke& spoke)
+    { return (irregular == 0 || !spoke.regular(mesh_.layers())) && !mesh_.emptiesStar(position, spoke); };
+    along_seams =
+        along_seams && std::any_of(ring.begin(), ring.end(),
+                                   [&](const Spoke& spoke) { return possible(spoke) && spoke.onSeam(); });
     for (const Spoke& spoke : ring)
     {
-        if (irregular == 2 && spoke.regular(layers_))
+        if (!possible(spoke) || (along_seams && !spoke.onSeam()))
             continue;
-        const bool simple = layers_ == 1 && !permissive_;
-        if (simple ? mapWedges(spoke) : mapLayers(position, spoke.position))
-            candidates_.push_back({cost(position, spoke.position), spoke.position});
+        if (mapGathered(position, spoke))
+            candidates_.push_back({cost(position, spoke.position), spoke.position, allMapped()});
+        else
+            wedge_blocked_[position] = 1;
     }
 }
 
@@ -263,14 +292,35 @@ void Collapser::push(uint32_t position, Candidate candidate)
     std::push_heap(heap_.begin(), heap_.end());
 }
 
+/// Take the cheapest candidate out of the list; nullopt if it is empty.
+std::optional<Candidate> Collapser::nextCandidate(uint32_t position)
+{
+    while (!candidates_.empty())
+    {
+        const auto cheapest = std::min_element(candidates_.begin(), candidates_.end());
+        if (cheapest->exact)
+        {
+            const Candidate candidate = *cheapest;
+            *cheapest = candidates_.back();
+            candidates_.pop_back();
+            return candidate;
+        }
+        mapGathered(position, *mesh_.spokeTo(cheapest->target));
+        mapNearest(cheapest->target);
+        cheapest->cost = cost(position, cheapest->target);
+        cheapest->exact = true;
+    }
+    return std::nullopt;
+}
+
 /// Put the cheapest collapse of the gathered position into the heap; whether it is valid is seen when it comes out.
 void Collapser::evaluateGathered(uint32_t position)
 {
     ++version_[position];
     best_target_[position] = kNoPosition;
-    gatherCandidates(position);
-    if (!candidates_.empty())
-        push(position, *std::min_element(candidates_.begin(), candidates_.end()));
+    gatherCandidates(position, permissive_);
+    if (const auto candidate = nextCandidate(position))
+        push(position, *candidate);
 }
 
 /// The same with the cheapest valid collapse.
@@ -278,13 +328,12 @@ void Collapser::evaluateValid(uint32_t position, float popped_cost)
 {
     ++version_[position];
     best_target_[position] = kNoPosition;
-    gatherCandidates(position);
-    std::sort(candidates_.begin(), candidates_.end());
-    for (Candidate candidate : candidates_)
-        if (valid(position, candidate.target))
+    gatherCandidates(position, false);
+    while (auto candidate = nextCandidate(position))
+        if (valid(position, candidate->target))
         {
-            candidate.cost = std::max(candidate.cost, popped_cost);
-            push(position, candidate);
+            candidate->cost = std::max(candidate->cost, popped_cost);
+            push(position, *candidate);
             return;
         }
 }
@@ -293,14 +342,14 @@ bool Collapser::turnsOver(uint32_t from, uint32_t to)
 {
     const Float3 old_place = group_.positions[from];
     const Float3 new_place = group_.positions[to];
-    for (const uint32_t t : mesh_.star(from))
+    for (const Corner corner : mesh_.star(from))
     {
-        const StarMesh::Triangle& triangle = mesh_.triangle(t);
-        if (triangle.has(to))
+        const uint32_t next = mesh_.positionAt(nextCorner(corner));
+        const uint32_t previous = mesh_.positionAt(previousCorner(corner));
+        if (next == to || previous == to)
             continue;
-        const size_t at = triangle.cornerAt(from);
-        const Float3 a = group_.positions[triangle.position[(at + 1) % 3]];
-        const Float3 b = group_.positions[triangle.position[(at + 2) % 3]];
+        const Float3 a = group_.positions[next];
+        const Float3 b = group_.positions[previous];
         const Float3 new_a = a - new_place;
         const Float3 new_b = b - new_place;
         const Float3 old_normal = cross(a - old_place, b - old_place);
@@ -314,32 +363,6 @@ bool Collapser::turnsOver(uint32_t from, uint32_t to)
             return true;
     }
     return false;
-}
-
-void Collapser::moveQuadrics(uint32_t from, uint32_t to)
-{
-    if (group_.locked[to] != 0)
-        return; // never asked for
-    const Float3 t = group_.positions[to] - group_.positions[from];
-    PositionQuadric moved = quadrics_.position[from];
-    const uint32_t count = group_.attribute_count;
-    for (const WedgeMove& move : moves_)
-    {
-        const float weight = quadrics_.wedge_weight[move.from];
-        quadrics_.wedge_weight[move.to] += weight;
-        for (uint32_t i = 0; i < count; ++i)
-        {
-            const float delta =
-                group_.attributes[move.to * count + i] - group_.attributes[move.from * count + i];
-            const AttributeGradient g = quadrics_.gradients[move.from * count + i];
-            AttributeGradient& goal = quadrics_.gradients[move.to * count + i];
-            moved.c += delta * (weight * delta - 2 * g.offset);
-            moved.b -= g.gradient * delta;
-            goal.gradient += g.gradient;
-            goal.offset += g.offset + dot(g.gradient, t) - weight * delta;
-        }
-    }
-    quadrics_.position[to].addMoved(moved, t);
 }
 
 /// After `removed` went to `center`: new collapses for the center, for those that wanted to go to `removed`, and for
@@ -369,17 +392,15 @@ void Collapser::step()
     if (entry.version != version_[entry.position])
         return;
     mesh_.gather(entry.position);
-    layers_ = mesh_.layers();
     const Spoke* spoke = mesh_.spokeTo(entry.target);
-    const bool simple = layers_ == 1 && !permissive_;
-    const bool mapped =
-        spoke != nullptr && (simple ? mapWedges(*spoke) : mapLayers(entry.position, entry.target));
-    if (!mapped || !valid(entry.position, entry.target))
+    if (spoke == nullptr || !mapGathered(entry.position, *spoke) || !valid(entry.position, entry.target))
     {
         evaluateValid(entry.position, entry.cost);
         return;
     }
-    moveQuadrics(entry.position, entry.target);
+    mapNearest(entry.target);
+    if (group_.locked[entry.target] == 0) // nobody asks for those of locked positions
+        quadrics_.move(group_, entry.position, entry.target, moves_);
     mesh_.collapse(entry.position, entry.target, moves_);
     target_[entry.position] = entry.target;
     ++version_[entry.position];
@@ -402,8 +423,8 @@ bool Collapser::pruneIslands(size_t target_triangles)
         if (mesh_.alive(t))
         {
             triangles.push_back(t);
-            positions.insert(positions.end(), mesh_.triangle(t).position.begin(),
-                             mesh_.triangle(t).position.end());
+            for (const Corner corner : StarMesh::cornersOf(t))
+                positions.push_back(mesh_.positionAt(corner));
         }
     const std::vector<uint32_t> island_of = islandOfTriangles(positions, group_.positions.size());
     std::vector<Island> islands(group_.positions.size());
@@ -428,8 +449,8 @@ bool Collapser::pruneIslands(size_t target_triangles)
             break;
         for (const uint32_t t : island.triangles)
         {
-            for (const uint32_t position : mesh_.triangle(t).position)
-                target_[position] = kPruned;
+            for (const Corner corner : StarMesh::cornersOf(t))
+                target_[mesh_.positionAt(corner)] = kPruned;
             mesh_.remove(t);
         }
         pruned = true;
@@ -446,8 +467,8 @@ Simplified Collapser::result() const
     for (uint32_t t = 0; t < mesh_.triangleLimit(); ++t)
         if (mesh_.alive(t))
         {
-            const auto& wedge = mesh_.triangle(t).wedge;
-            result.corners.insert(result.corners.end(), wedge.begin(), wedge.end());
+            for (const Corner corner : StarMesh::cornersOf(t))
+                result.corners.push_back(mesh_.wedgeAt(corner));
             result.materials.push_back(group_.materials[t]);
             result.source_triangle.push_back(t);
         }

@@ -4,6 +4,7 @@
 #include "cook/clusters/split.h"
 
 #include "cook/clusters/islands.h"
+#include "cook/clusters/lanes.h"
 #include "formats/assert.h"
 
 #include <algorithm>
@@ -102,12 +103,32 @@ bool appendLeaf(std::span<const SplitItem> items, std::span<const uint32_t> corn
     return true;
 }
 
+/// A box in the first three lanes.
+struct LaneBox
+{
+    Lanes min = allLanes(std::numeric_limits<float>::infinity());
+    Lanes max = allLanes(-std::numeric_limits<float>::infinity());
+
+    void add(Lanes point)
+    {
+        min = minimum(min, point);
+        max = maximum(max, point);
+    }
+    Box3 box() const { return {{min[0], min[1], min[2]}, {max[0], max[1], max[2]}}; }
+};
+
+/// An item's center in the first three lanes.
+Lanes centerLanes(const SplitItem& item)
+{
+    return Lanes{item.center.x, item.center.y, item.center.z, 0};
+}
+
 Box3 boxOf(std::span<const SplitItem> items)
 {
-    Box3 box;
+    LaneBox box;
     for (const SplitItem& item : items)
-        box.add(item.center);
-    return box;
+        box.add(centerLanes(item));
+    return box.box();
 }
 
 /// Half the surface of a box, in double: coordinates may be as large as floats go.
@@ -121,23 +142,32 @@ double halfArea(const Box3& box)
     return x * y + y * z + z * x;
 }
 
-/// Maps coordinates of one axis to bins, safely for any finite range.
+/// Maps coordinates to bins of each axis, safely for any finite range: halves do not overflow.
 class Binning
 {
 public:
-    Binning(float low, float high) : low_(low)
+    explicit Binning(const Box3& box)
     {
-        const double extent = double{high} - low;
-        scale_ = extent > 0 ? static_cast<double>(kBinCount) / extent : 0.0;
+        for (int axis = 0; axis < 3; ++axis)
+        {
+            const double extent = (double{box.max[axis]} - box.min[axis]) * 0.5;
+            const auto lane = static_cast<size_t>(axis);
+            half_low_[lane] = box.min[axis] * 0.5f;
+            // an axis too short for floats has one bin
+            if (extent > 1e-35)
+                scale_[lane] = static_cast<float>(kBinCount / extent);
+        }
     }
-    size_t operator()(float x) const
+
+    LaneMask operator()(Lanes center) const
     {
-        return std::min(static_cast<size_t>((x - low_) * scale_), kBinCount - 1);
+        const Lanes bin = (center * allLanes(0.5f) - half_low_) * scale_;
+        return __builtin_convertvector(minimum(bin, allLanes(kBinCount - 1)), LaneMask);
     }
 
 private:
-    double low_;
-    double scale_;
+    Lanes half_low_{};
+    Lanes scale_{};
 };
 
 /// The multiple of `capacity` nearest to `count` that leaves something on both sides.
@@ -166,18 +196,18 @@ struct AxisCost
     Cut cut;
 };
 
+struct Bins
+{
+    std::array<LaneBox, kBinCount> boxes;
+    std::array<size_t, kBinCount> counts{};
+};
+
 /// The cheapest bin border along one axis. Counts are rounded to full clusters before they are weighed.
-AxisCost bestCutOfAxis(std::span<const SplitItem> items, const Box3& box, int axis, size_t capacity)
+AxisCost bestCutOfAxis(const Bins& bins, int axis, size_t item_count, size_t capacity)
 {
     std::array<Box3, kBinCount> boxes;
-    std::array<size_t, kBinCount> counts{};
-    const Binning bin(box.min[axis], box.max[axis]);
-    for (const SplitItem& item : items)
-    {
-        const size_t b = bin(item.center[axis]);
-        boxes[b].add(item.center);
-        ++counts[b];
-    }
+    for (size_t b = 0; b < kBinCount; ++b)
+        boxes[b] = bins.boxes[b].box();
     std::array<double, kBinCount> right_area{};
     Box3 right;
     for (size_t b = kBinCount; b-- > 1;)
@@ -191,11 +221,11 @@ AxisCost bestCutOfAxis(std::span<const SplitItem> items, const Box3& box, int ax
     for (size_t b = 0; b + 1 < kBinCount; ++b)
     {
         left.add(boxes[b]);
-        left_count += counts[b];
-        const size_t cut = roundToFull(left_count, items.size(), capacity);
+        left_count += bins.counts[b];
+        const size_t cut = roundToFull(left_count, item_count, capacity);
         const double cost = halfArea(left) * static_cast<double>(cut) +
-                            right_area[b + 1] * static_cast<double>(items.size() - cut);
-        if (left_count > 0 && left_count < items.size() && cost < best.cost)
+                            right_area[b + 1] * static_cast<double>(item_count - cut);
+        if (left_count > 0 && left_count < item_count && cost < best.cost)
             best = {cost, {axis, cut}};
     }
     return best;
@@ -206,10 +236,25 @@ Cut bestCut(std::span<const SplitItem> items, size_t capacity)
     const Box3 box = boxOf(items);
     if (items.size() > kMedianOnly)
         return medianCut(box, items.size(), capacity);
+    const Binning binning(box);
+    std::array<Bins, 3> bins;
+    for (const SplitItem& item : items)
+    {
+        const Lanes center = centerLanes(item);
+        const LaneMask bin = binning(center);
+        for (size_t axis = 0; axis < 3; ++axis)
+        {
+            const auto b = static_cast<size_t>(bin[axis]);
+            bins[axis].boxes[b].add(center);
+            ++bins[axis].counts[b];
+        }
+    }
     AxisCost best{std::numeric_limits<double>::infinity(), medianCut(box, items.size(), capacity)};
     for (int axis = 0; axis < 3; ++axis)
         if (box.max[axis] > box.min[axis])
-            if (const AxisCost found = bestCutOfAxis(items, box, axis, capacity); found.cost < best.cost)
+            if (const AxisCost found =
+                    bestCutOfAxis(bins[static_cast<size_t>(axis)], axis, items.size(), capacity);
+                found.cost < best.cost)
                 best = found;
     return best.cut;
 }

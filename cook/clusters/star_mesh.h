@@ -4,6 +4,7 @@
 
 #include "cook/clusters/group_mesh.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -11,13 +12,6 @@
 
 namespace hearth::clusters
 {
-
-/// Where a wedge of a position that is removed goes.
-struct WedgeMove
-{
-    uint32_t from;
-    uint32_t to;
-};
 
 /// A neighbour of a position and how the triangles between them run.
 struct Spoke
@@ -29,29 +23,48 @@ struct Spoke
     WedgeMove in{};
 
     bool regular(uint32_t layers) const { return out_count == layers && in_count == layers; }
+    /// Whether two wedges of the center have a way along it.
+    bool onSeam() const { return out_count > 0 && in_count > 0 && out.from != in.from; }
+    uint32_t triangleCount() const { return out_count + in_count; }
 };
+
+/// A corner k of triangle t is named 4 t + k: steps around a triangle then need no division.
+using Corner = uint32_t;
+
+inline uint32_t triangleOf(Corner corner)
+{
+    return corner >> 2;
+}
+inline Corner nextCorner(Corner corner)
+{
+    return (corner & 3) == 2 ? corner - 2 : corner + 1;
+}
+inline Corner previousCorner(Corner corner)
+{
+    return (corner & 3) == 0 ? corner + 2 : corner - 1;
+}
 
 class StarMesh
 {
 public:
     explicit StarMesh(const GroupMesh& group);
 
-    struct Triangle
-    {
-        std::array<uint32_t, 3> position;
-        std::array<uint32_t, 3> wedge;
-
-        bool has(uint32_t p) const { return position[0] == p || position[1] == p || position[2] == p; }
-        size_t cornerAt(uint32_t p) const { return position[0] == p ? 0 : position[1] == p ? 1 : 2; }
-    };
-
-    size_t triangleLimit() const { return triangles_.size(); }
-    const Triangle& triangle(uint32_t t) const { return triangles_[t]; }
-    bool alive(uint32_t t) const { return alive_[t] != 0; }
+    size_t triangleLimit() const { return alive_.size(); }
+    bool alive(uint32_t triangle) const { return alive_[triangle] != 0; }
     size_t aliveCount() const { return alive_count_; }
 
-    /// The triangles around a position, without those that are gone.
-    std::span<const uint32_t> star(uint32_t position);
+    static std::array<Corner, 3> cornersOf(uint32_t triangle)
+    {
+        return {triangle * 4, triangle * 4 + 1, triangle * 4 + 2};
+    }
+    uint32_t positionAt(Corner corner) const { return position_of_corner_[corner]; }
+    uint32_t wedgeAt(Corner corner) const { return wedge_of_corner_[corner]; }
+
+    /// How many triangles are around a position.
+    uint32_t degree(uint32_t position) const { return stars_[position].alive; }
+
+    /// Their corners at the position.
+    std::span<const Corner> star(uint32_t position);
 
     /// Collect the ring of a position: its neighbours, each once, and the wedges that its triangles use there.
     void gather(uint32_t center);
@@ -66,7 +79,13 @@ public:
     }
 
     /// How many sheets lie on each other around the gathered position: 1 but for faces that the source has twice.
-    uint32_t layers() const;
+    uint32_t layers() const { return layers_; }
+
+    /// Whether a collapse of the gathered position along the spoke would leave an end without triangles.
+    bool emptiesStar(uint32_t center, const Spoke& spoke) const
+    {
+        return spoke.triangleCount() == degree(center) || spoke.triangleCount() == degree(spoke.position);
+    }
 
     /// Whether the gathered position can go to another without gluing sheets together (link condition), without a
     /// triangle falling onto another, and without emptying a star.
@@ -81,17 +100,30 @@ private:
     struct Star
     {
         uint32_t first = 0;
-        uint32_t count = 0;
+        uint32_t count = 0; ///< with triangles that are gone
+        uint32_t alive = 0;
     };
 
-    std::vector<Triangle> triangles_;
-    std::vector<uint8_t> alive_;
+    bool has(uint32_t triangle, uint32_t position) const
+    {
+        const uint32_t* at = &position_of_corner_[size_t{triangle} * 4];
+        return at[0] == position || at[1] == position || at[2] == position;
+    }
+    bool isTip(uint32_t position) const
+    {
+        return std::find(tips_.begin(), tips_.end(), position) != tips_.end();
+    }
+
+    std::vector<uint32_t> position_of_corner_;
+    std::vector<uint32_t> wedge_of_corner_;
+    std::vector<uint8_t> alive_; ///< for each triangle
     size_t alive_count_;
     std::vector<Star> stars_; ///< pieces of star_items_, which may name triangles that are gone
-    std::vector<uint32_t> star_items_;
+    std::vector<Corner> star_items_;
 
     std::vector<Spoke> ring_;
     std::vector<uint32_t> wedges_;
+    uint32_t layers_ = 1;
     std::vector<uint32_t> mark_; ///< mark_value_ + place in ring_, for the positions in it
     uint32_t mark_value_ = 0;
     std::vector<uint32_t> tips_;
