@@ -34,21 +34,38 @@ double dot(Double3 a, Double3 b)
     return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
-double toSegment2(Double3 p, Double3 a, Double3 b)
+/// Where on a triangle, and how far from there.
+struct OnTriangle
+{
+    double v = 0, w = 0;
+    double distance2 = 0;
+
+    void take(const OnTriangle& other)
+    {
+        if (other.distance2 < distance2)
+            *this = other;
+    }
+};
+
+/// Nearest to p on the edge from a to b, which are the corners with (v, w) of `from` and `to`.
+OnTriangle onEdge(Double3 p, Double3 a, Double3 b, Float2 from, Float2 to)
 {
     const Double3 ab = b - a;
     const double length2 = dot(ab, ab);
     const double t = length2 > 0 ? std::clamp(dot(p - a, ab) / length2, 0.0, 1.0) : 0.0;
     const Double3 away = p - a - ab * t;
-    return dot(away, away);
+    return {double{from.x} + t * (to.x - from.x), double{from.y} + t * (to.y - from.y), dot(away, away)};
 }
 
-double toTriangle2(Double3 p, Double3 a, Double3 b, Double3 c)
+OnTriangle onTriangle(Double3 p, Double3 a, Double3 b, Double3 c)
 {
+    constexpr Float2 kA{0, 0}, kB{1, 0}, kC{0, 1};
     const Double3 ab = b - a, ac = c - a, ap = p - a;
     const double d11 = dot(ab, ab), d12 = dot(ab, ac), d22 = dot(ac, ac);
     const double det = d11 * d22 - d12 * d12;
-    double least = std::min({toSegment2(p, a, b), toSegment2(p, b, c), toSegment2(p, c, a)});
+    OnTriangle nearest = onEdge(p, a, b, kA, kB);
+    nearest.take(onEdge(p, b, c, kB, kC));
+    nearest.take(onEdge(p, c, a, kC, kA));
     if (det > 0)
     {
         const double v = (d22 * dot(ab, ap) - d12 * dot(ac, ap)) / det;
@@ -56,10 +73,10 @@ double toTriangle2(Double3 p, Double3 a, Double3 b, Double3 c)
         if (v >= 0 && w >= 0 && v + w <= 1)
         {
             const Double3 away = ap - ab * v - ac * w;
-            least = std::min(least, dot(away, away));
+            nearest.take({v, w, dot(away, away)});
         }
     }
-    return least;
+    return nearest;
 }
 
 } // namespace
@@ -84,19 +101,21 @@ struct Query
 {
     std::span<const Float3> corners;
     Double3 point;
-    double nearest2 = std::numeric_limits<double>::infinity();
+    OnTriangle nearest{0, 0, std::numeric_limits<double>::infinity()};
+    uint32_t triangle = 0;
 };
 
 bool visitTriangle(RTCPointQueryFunctionArguments* arguments)
 {
     auto& query = *static_cast<Query*>(arguments->userPtr);
     const Float3* corner = &query.corners[size_t{arguments->primID} * 3];
-    const double distance2 = toTriangle2(query.point, widen(corner[0]), widen(corner[1]), widen(corner[2]));
-    if (!(distance2 < query.nearest2))
+    const OnTriangle here = onTriangle(query.point, widen(corner[0]), widen(corner[1]), widen(corner[2]));
+    if (!(here.distance2 < query.nearest.distance2))
         return false;
-    query.nearest2 = distance2;
+    query.nearest = here;
+    query.triangle = arguments->primID;
     // a little more, so that rounding here does not hide what is as near
-    arguments->query->radius = static_cast<float>(std::sqrt(distance2) * (1 + 1e-6) + 1e-30);
+    arguments->query->radius = static_cast<float>(std::sqrt(here.distance2) * (1 + 1e-6) + 1e-30);
     return true;
 }
 
@@ -138,7 +157,7 @@ SurfaceDistance::SurfaceDistance(std::span<const Float3> positions, std::span<co
 
 SurfaceDistance::~SurfaceDistance() = default;
 
-double SurfaceDistance::to(Float3 point) const
+SurfaceDistance::Nearest SurfaceDistance::nearest(Float3 point) const
 {
     Query query{state_->corners, widen(point)};
     RTCPointQuery ball{};
@@ -149,39 +168,53 @@ double SurfaceDistance::to(Float3 point) const
     RTCPointQueryContext context;
     rtcInitPointQueryContext(&context);
     rtcPointQuery(state_->scene, &ball, &context, visitTriangle, &query);
-    return std::sqrt(query.nearest2);
+    return {std::sqrt(query.nearest.distance2), {query.triangle, query.nearest.v, query.nearest.w}};
 }
 
-double largestDistance(std::span<const Float3> positions, std::span<const uint32_t> triangles, size_t count,
-                       const SurfaceDistance& surface)
+Float3 valueAt(const SurfacePoint& point, std::span<const Float3> of_vertices,
+               std::span<const uint32_t> triangles)
 {
-    double total_area = 0;
-    const auto place = [&](size_t corner) { return positions[triangles[corner]]; };
+    const uint32_t* corner = &triangles[size_t{point.triangle} * 3];
+    const Float3 a = of_vertices[corner[0]];
+    return a + (of_vertices[corner[1]] - a) * static_cast<float>(point.v) +
+           (of_vertices[corner[2]] - a) * static_cast<float>(point.w);
+}
+
+std::vector<SurfacePoint> evenlySpread(std::span<const Float3> positions, std::span<const uint32_t> triangles,
+                                       size_t count)
+{
     const auto areaOf = [&](size_t t)
-    { return double{length(cross(place(t + 1) - place(t), place(t + 2) - place(t)))}; };
+    {
+        const Float3 a = positions[triangles[t]];
+        return double{length(cross(positions[triangles[t + 1]] - a, positions[triangles[t + 2]] - a))};
+    };
+    double total_area = 0;
     for (size_t t = 0; t < triangles.size(); t += 3)
         total_area += areaOf(t);
-    double largest = 0;
+    std::vector<SurfacePoint> points;
     double due = 0;
-    uint64_t sample = 0;
     for (size_t t = 0; t < triangles.size(); t += 3)
-    {
-        for (size_t k = 0; k < 3; ++k)
-            largest = std::max(largest, surface.to(place(t + k)));
         for (due += static_cast<double>(count) * areaOf(t) / total_area; due >= 1; due -= 1)
         {
-            ++sample;
-            double v = radicalInverse(sample, 2), w = radicalInverse(sample, 3);
+            double v = radicalInverse(points.size() + 1, 2), w = radicalInverse(points.size() + 1, 3);
             if (v + w > 1)
             {
                 v = 1 - v;
                 w = 1 - w;
             }
-            const Float3 point = place(t) + (place(t + 1) - place(t)) * static_cast<float>(v) +
-                                 (place(t + 2) - place(t)) * static_cast<float>(w);
-            largest = std::max(largest, surface.to(point));
+            points.push_back({static_cast<uint32_t>(t / 3), v, w});
         }
-    }
+    return points;
+}
+
+double largestDistance(std::span<const Float3> positions, std::span<const uint32_t> triangles, size_t count,
+                       const SurfaceDistance& surface)
+{
+    double largest = 0;
+    for (const uint32_t corner : triangles)
+        largest = std::max(largest, surface.to(positions[corner]));
+    for (const SurfacePoint& point : evenlySpread(positions, triangles, count))
+        largest = std::max(largest, surface.to(valueAt(point, positions, triangles)));
     return largest;
 }
 

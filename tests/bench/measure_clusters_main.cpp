@@ -1,0 +1,256 @@
+// Measures the hierarchies of whole meshes: speed, shape, bytes, quality and honesty, with the peers' figures beside
+// them. `./dev bench clusters` makes the meshes and runs it.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "formats/program.h"
+#include "tests/bench/cut_quality.h"
+#include "tests/bench/peer_figures.h"
+
+#include <meshoptimizer.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <functional>
+#include <optional>
+
+#include <sys/resource.h>
+
+#include <tbb/global_control.h>
+
+namespace
+{
+
+using namespace hearth;
+
+// From the finest to the coarsest, dense enough to read between them.
+constexpr double kShares[] = {0.9, 0.7, 0.5, 0.4, 0.3, 0.2, 0.1, 0.07, 0.05, 0.03, 0.01, 0.007, 0.005};
+
+struct Times
+{
+    double user = 0;
+    double wall = 0;
+};
+
+double userSeconds()
+{
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return static_cast<double>(usage.ru_utime.tv_sec) + static_cast<double>(usage.ru_utime.tv_usec) * 1e-6;
+}
+
+Times timesOf(const std::function<void()>& work)
+{
+    const double user = userSeconds();
+    const auto begin = std::chrono::steady_clock::now();
+    work();
+    return {userSeconds() - user,
+            std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count()};
+}
+
+/// Debian's meshoptimizer on the same mesh: what tells one machine from another (clusters once, one halving).
+double calibrationSeconds(const mesh::SourceMesh& mesh)
+{
+    constexpr size_t kVertices = 255, kTriangles = 128;
+    return timesOf(
+               [&]
+               {
+                   const size_t bound =
+                       meshopt_buildMeshletsBound(mesh.indices.size(), kVertices, kTriangles);
+                   std::vector<meshopt_Meshlet> meshlets(bound);
+                   std::vector<unsigned int> vertices(bound * kVertices);
+                   std::vector<unsigned char> triangles(bound * kTriangles * 3);
+                   meshopt_buildMeshlets(meshlets.data(), vertices.data(), triangles.data(),
+                                         mesh.indices.data(), mesh.indices.size(), &mesh.positions[0].x,
+                                         mesh.vertexCount(), sizeof(Float3), kVertices, kTriangles, 0);
+                   std::vector<unsigned int> half(mesh.indices.size());
+                   meshopt_simplify(half.data(), mesh.indices.data(), mesh.indices.size(),
+                                    &mesh.positions[0].x, mesh.vertexCount(), sizeof(Float3),
+                                    mesh.indices.size() / 2, 1e30f, 0, nullptr);
+               })
+        .user;
+}
+
+size_t trianglesAt(const clusters::Hierarchy& hierarchy, double error)
+{
+    size_t triangles = 0;
+    for (const auto& cluster : hierarchy.clusters)
+        if (cluster.error <= error && hierarchy.groups[cluster.group].error > error)
+            triangles += cluster.triangle_count;
+    return triangles;
+}
+
+/// The least error whose cut has no more than so many triangles.
+double errorFor(const clusters::Hierarchy& hierarchy, std::span<const float> errors, size_t triangles)
+{
+    return *std::partition_point(errors.begin(), errors.end() - 1,
+                                 [&](float e) { return trianglesAt(hierarchy, double{e}) > triangles; });
+}
+
+std::vector<bench::CutQuality> measureCuts(const clusters::Hierarchy& hierarchy, size_t samples)
+{
+    const auto decoded = clusters::decodeHierarchy(hierarchy);
+    HEARTH_ASSERT(decoded.ok());
+    std::vector<float> errors{0};
+    for (const auto& group : hierarchy.groups)
+        if (std::isfinite(group.error))
+            errors.push_back(group.error);
+    std::sort(errors.begin(), errors.end());
+    const bench::CutSurface source = bench::surfaceOfCut(hierarchy, *decoded, -1);
+    const bench::CutMeter meter(source, samples);
+    std::vector<bench::CutQuality> cuts;
+    for (const double share : kShares)
+    {
+        const auto triangles = static_cast<size_t>(share * static_cast<double>(source.triangleCount()));
+        const auto cut = bench::surfaceOfCut(hierarchy, *decoded, errorFor(hierarchy, errors, triangles));
+        if (cut.triangleCount() < source.triangleCount() &&
+            (cuts.empty() || cut.triangleCount() < cuts.back().triangles))
+            cuts.push_back(meter.measure(cut));
+    }
+    return cuts;
+}
+
+/// How many triangles reach a value of a figure that grows from cut to cut, between the cuts by powers.
+std::optional<double> trianglesFor(std::span<const bench::CutQuality> cuts, double bench::CutQuality::*figure,
+                                   double value)
+{
+    for (size_t i = 1; i < cuts.size(); ++i)
+    {
+        const double fine = cuts[i - 1].*figure, coarse = cuts[i].*figure;
+        if (!(fine <= value && value <= coarse) || !(fine > 0) || !(coarse > fine))
+            continue;
+        const double t = std::log(value / fine) / std::log(coarse / fine);
+        return std::exp(std::log(static_cast<double>(cuts[i - 1].triangles)) * (1 - t) +
+                        std::log(static_cast<double>(cuts[i].triangles)) * t);
+    }
+    return std::nullopt;
+}
+
+void printRatio(const char* what, std::optional<double> triangles, double of_peer)
+{
+    if (triangles)
+        std::printf("  %s %.2f", what, *triangles / of_peer);
+    else
+        std::printf("  %s beyond the cuts", what);
+}
+
+void printQuality(const bench::PeerFigures* peer, std::span<const bench::CutQuality> cuts, double diagonal,
+                  size_t source_triangles)
+{
+    std::printf("  %9s %7s %10s %10s %9s %12s\n", "triangles", "share", "rms 1e-4", "max 1e-4", "normal",
+                "max / stored");
+    std::vector<double> tightness;
+    size_t broken = 0;
+    for (const auto& cut : cuts)
+    {
+        tightness.push_back(cut.max / cut.stored_error);
+        broken += cut.max > cut.stored_error + 1e-6 * diagonal ? 1 : 0;
+        std::printf("  %9zu %6.1f%% %10.3f %10.2f %8.2f%s %12.2f\n", cut.triangles,
+                    100.0 * static_cast<double>(cut.triangles) / static_cast<double>(source_triangles),
+                    cut.rms / diagonal * 1e4, cut.max / diagonal * 1e4, cut.normal_rms_deg, "\u00b0",
+                    tightness.back());
+    }
+    if (tightness.empty())
+        return;
+    std::sort(tightness.begin(), tightness.end());
+    std::printf("  honesty: %zu of %zu cuts beyond their error; stored / measured %.2f in the median\n",
+                broken, cuts.size(), 1 / tightness[tightness.size() / 2]);
+    for (const bench::PeerCut& cut : peer == nullptr ? decltype(peer->cuts){} : peer->cuts)
+    {
+        if (cut.share == 0)
+            continue;
+        const double of_peer = cut.share * static_cast<double>(source_triangles);
+        std::printf("  triangles / clod's at %.0f %%:", cut.share * 100);
+        printRatio("equal rms", trianglesFor(cuts, &bench::CutQuality::rms, cut.rms * diagonal), of_peer);
+        printRatio("equal normals",
+                   trianglesFor(cuts, &bench::CutQuality::normal_rms_deg, cut.normal_rms_deg), of_peer);
+        std::printf("\n");
+    }
+}
+
+void printShape(const clusters::Hierarchy& hierarchy)
+{
+    double all = 0;
+    for (const auto& level : hierarchy.levels)
+        all += level.triangle_count;
+    const auto source = static_cast<double>(hierarchy.levels.front().triangle_count);
+    const auto records = static_cast<double>(hierarchy.clusters.size() * sizeof(formats::ClusterRecord) +
+                                             hierarchy.groups.size() * sizeof(formats::GroupRecord) +
+                                             hierarchy.pages.size() * sizeof(formats::PageRecord));
+    const auto& root = hierarchy.levels.back();
+    std::printf("  %zu levels, fill %.1f %%, triangles over all levels / source %.3f, coarsest level %u "
+                "clusters of %u "
+                "triangles, %llu stuck groups\n",
+                hierarchy.levels.size(), 100 * all / (128.0 * static_cast<double>(hierarchy.clusters.size())),
+                all / source, root.clusters.count, root.triangle_count,
+                static_cast<unsigned long long>(hierarchy.counts.stuck_groups));
+    std::printf("  %.2f bytes a source triangle: pages %.2f, records %.2f\n",
+                (static_cast<double>(hierarchy.page_bytes.size()) + records) / source,
+                static_cast<double>(hierarchy.page_bytes.size()) / source, records / source);
+}
+
+void measureMesh(const std::string& name, const mesh::SourceMesh& mesh, size_t samples)
+{
+    const auto* peer = std::find_if(bench::kPeerFigures.begin(), bench::kPeerFigures.end(),
+                                    [&](const auto& p) { return p.mesh == name; });
+    if (peer == bench::kPeerFigures.end())
+        peer = nullptr;
+    clusters::Hierarchy hierarchy;
+    const auto build = [&] { hierarchy = clusters::buildHierarchy(mesh); };
+    Times one, two;
+    {
+        const tbb::global_control threads(tbb::global_control::max_allowed_parallelism, 1);
+        one = timesOf(build);
+    }
+    {
+        const tbb::global_control threads(tbb::global_control::max_allowed_parallelism, 2);
+        two = timesOf(build);
+    }
+    const double calibration = calibrationSeconds(mesh);
+    const double ktris = static_cast<double>(mesh.triangleCount()) / 1000;
+    std::printf("%s: %zu triangles\n", name.c_str(), mesh.triangleCount());
+    std::printf("  %.0f k triangles a user second on one thread", ktris / one.user);
+    if (peer != nullptr)
+        std::printf(" (clod %.0f on its machine)", peer->ktris_per_second);
+    std::printf("; time / that of meshlets and one halving by meshoptimizer 0.18: %.2f; two threads %.2f "
+                "times as fast\n",
+                one.user / calibration, one.wall / two.wall);
+    if (hierarchy.clusters.empty())
+        return;
+    printShape(hierarchy);
+    const double diagonal = double{length(hierarchy.mesh.box_max - hierarchy.mesh.box_min)};
+    printQuality(peer, measureCuts(hierarchy, samples), diagonal, hierarchy.levels.front().triangle_count);
+    std::fflush(stdout);
+}
+
+int program(int argc, char** argv)
+{
+    CLI::App app("Measures the cluster hierarchies of the meshes of import parts.");
+    std::vector<std::string> parts;
+    size_t samples = 200000;
+    app.add_option("PART", parts, "import parts; their file names name the meshes")->required();
+    app.add_option("--samples", samples, "points on each of two surfaces that are compared");
+    CLI11_PARSE(app, argc, argv);
+    for (const std::string& path : parts)
+    {
+        const auto reader = formats::ContainerReader::open(path);
+        const auto mesh =
+            reader.ok() ? mesh::readSourceMesh(*reader, 0) : Result<mesh::SourceMesh>(reader.error());
+        if (!mesh.ok())
+        {
+            std::fprintf(stderr, "%s\n", formatMessage(mesh.error()).c_str());
+            return exitCode(mesh.error());
+        }
+        const std::string file = path.substr(path.find_last_of('/') + 1);
+        measureMesh(file.substr(0, file.find('.')), *mesh, samples);
+    }
+    return 0;
+}
+
+} // namespace
+
+int main(int argc, char** argv)
+{
+    return hearth::runProgram("hearth_measure_clusters", [&] { return program(argc, argv); });
+}
