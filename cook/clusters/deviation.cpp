@@ -74,18 +74,26 @@ public:
     float worst2() const { return worst2_; }
     uint64_t loosePieces() const { return loose_pieces_; }
 
+    /// Whether a few facets show that the bound holds for the triangle.
+    bool holds(const Corners& triangle, const FacetIndex& index, std::span<const uint32_t> guess)
+    {
+        candidates_.load(index.facets(), guess);
+        return bounder_.bound(triangle, candidates_.blocks(), worst2_, 0, kFewPoints).upper2 <= worst2_;
+    }
+
     /// Raise the bound until it holds for the triangle.
-    /// likely  facets that probably lie beside it, likeliest first: if they bound it well enough, no others are searched
+    /// likely  facets that probably lie beside it, likeliest first: if they bound it well enough, no others are
+    ///         searched; may be empty
     void add(const Corners& triangle, const FacetIndex& index, std::span<const uint32_t> likely)
     {
         const float size = sizeOf(triangle);
         const float floor2 = size * size * kFinest2;
-        const Bound quick = boundByLikely(triangle, index, likely, allowed2(floor2));
-        if (quick.closed)
-        {
-            worst2_ = std::max(worst2_, quick.upper2);
-            return;
-        }
+        if (!likely.empty())
+            if (const Bound quick = boundByLikely(triangle, index, likely, allowed2(floor2)); quick.closed)
+            {
+                worst2_ = std::max(worst2_, quick.upper2);
+                return;
+            }
         stack_.assign(1, triangle);
         for (size_t parts = 1; !stack_.empty(); ++parts)
         {
@@ -324,10 +332,9 @@ private:
             if (const uint32_t target = targetOf(corner);
                 target != kPruned && target != group_.positionAt(corner))
                 likely_after_.add(after_stars_.of(target));
-        if (likely_after_.facets().empty())
-            addNeighboursInOrder(t);
-        measure_.add({before_[t * 3], before_[t * 3 + 1], before_[t * 3 + 2]}, after_index_,
-                     likely_after_.facets());
+        const Corners corners{before_[t * 3], before_[t * 3 + 1], before_[t * 3 + 2]};
+        if (!likely_after_.facets().empty() || !measure_.holds(corners, after_index_, neighboursInOrder(t)))
+            measure_.add(corners, after_index_, likely_after_.facets());
     }
 
     void addAfter(size_t t)
@@ -341,19 +348,18 @@ private:
                      likely_before_.facets());
     }
 
-    /// What is left of a cluster's triangles is a fair guess for those of its islands that are gone.
-    void addNeighboursInOrder(size_t source)
+    /// New triangles that were near an old one in the clusters' order: a fair guess for those of islands that are gone.
+    std::array<uint32_t, kFewLikely> neighboursInOrder(size_t source) const
     {
         const auto& left = simplified_.source_triangle;
-        const auto after = std::lower_bound(left.begin(), left.end(), source) - left.begin();
-        const auto count = static_cast<ptrdiff_t>(left.size());
-        const auto wanted = std::min<ptrdiff_t>(kFewLikely, count);
-        const ptrdiff_t first = std::clamp<ptrdiff_t>(after - wanted / 2, 0, count - wanted);
-        for (ptrdiff_t i = first; i < first + wanted; ++i)
-        {
-            const auto facet = static_cast<uint32_t>(i);
-            likely_after_.add({&facet, 1});
-        }
+        const auto after =
+            static_cast<size_t>(std::lower_bound(left.begin(), left.end(), source) - left.begin());
+        const size_t last_start = left.size() - std::min(left.size(), kFewLikely);
+        const size_t start = std::min(after - std::min(after, kFewLikely / 2), last_start);
+        std::array<uint32_t, kFewLikely> neighbours;
+        for (size_t i = 0; i < kFewLikely; ++i)
+            neighbours[i] = static_cast<uint32_t>(std::min(start + i, left.size() - 1));
+        return neighbours;
     }
 
     const GroupMesh& group_;
