@@ -71,6 +71,9 @@ std::pair<Corners, Corners> halve(const Corners& c)
 class Measure
 {
 public:
+    /// carried  the error that the distance will be added to
+    explicit Measure(float carried) : slack_of_carried_(carried * (kSlack - 1)) {}
+
     float worst2() const { return worst2_; }
     uint64_t loosePieces() const { return loose_pieces_; }
 
@@ -133,8 +136,13 @@ private:
         return bounder_.bound(triangle, candidates_.blocks(), allowed2, 0, kQuickPoints);
     }
 
-    /// What need not be searched for: as far as any found so far, or 10 % more than what is sure.
-    float allowed2(float floor2) const { return std::max({worst2_, sure2_ * kSlack2, floor2}); }
+    /// What need not be searched for: as far as any found so far, or what raises the sum of both errors by 10 % of
+    /// what is sure.
+    float allowed2(float floor2) const
+    {
+        const float allowed = std::sqrt(sure2_) * kSlack + slack_of_carried_;
+        return std::max({worst2_, allowed * allowed, floor2});
+    }
 
     /// Bound the distance to the facets within `radius`; if there are none, to those within a larger one. Where there
     /// are more than fit, those with the nearest centers serve.
@@ -205,7 +213,8 @@ private:
 
     std::vector<std::pair<float, uint32_t>> by_distance_;
     float worst2_ = 0; ///< no point is farther away, squared
-    float sure2_ = 0;  ///< some point is as far away
+    float slack_of_carried_;
+    float sure2_ = 0; ///< some point is as far away
     uint64_t loose_pieces_ = 0;
     std::vector<Corners> stack_;
     std::vector<uint32_t> found_;
@@ -283,7 +292,7 @@ private:
 class GroupMeasure
 {
 public:
-    GroupMeasure(const GroupMesh& group, const Simplified& simplified)
+    GroupMeasure(const GroupMesh& group, const Simplified& simplified, float carried)
         : group_(group),
           simplified_(simplified),
           before_(placesOf(group, group.corners)),
@@ -293,7 +302,8 @@ public:
           before_stars_(group, group.corners),
           after_stars_(group, simplified.corners),
           likely_before_(group.triangleCount()),
-          likely_after_(simplified.triangleCount())
+          likely_after_(simplified.triangleCount()),
+          measure_(carried)
     {
     }
 
@@ -377,10 +387,10 @@ private:
 
 } // namespace
 
-Deviation boundDeviation(const GroupMesh& group, const Simplified& simplified)
+Deviation boundDeviation(const GroupMesh& group, const Simplified& simplified, double carried)
 {
     HEARTH_ASSERT(simplified.triangleCount() > 0);
-    return GroupMeasure(group, simplified).run();
+    return GroupMeasure(group, simplified, static_cast<float>(carried)).run();
 }
 
 } // namespace hearth::clusters

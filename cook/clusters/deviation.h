@@ -21,7 +21,8 @@ struct Deviation
 ///
 /// The largest distance of a triangle to one other triangle is at a corner, because the distance to a convex set is
 /// convex. Triangles that lie across several others are cut where the nearest one changes until the pieces' bounds
-/// are within 10 % of the largest distance found so far.
-Deviation boundDeviation(const GroupMesh& group, const Simplified& simplified);
+/// are good enough: when the error that the distance is added to, `carried`, and the distance together are within 10 %
+/// of what they are for sure.
+Deviation boundDeviation(const GroupMesh& group, const Simplified& simplified, double carried);
 
 } // namespace hearth::clusters

@@ -21,7 +21,8 @@ inline constexpr size_t kMaxCandidates = kLanes * kMaxBlocks;
 inline constexpr size_t kMaxPoints = 28;
 
 // Pieces are cut until they are this close to the largest distance that the group has anyway.
-inline constexpr float kSlack2 = 1.1f * 1.1f;
+inline constexpr float kSlack = 1.1f;
+inline constexpr float kSlack2 = kSlack * kSlack;
 
 /// The facets that a piece is held against, at most kMaxCandidates.
 class Candidates

@@ -82,7 +82,7 @@ Reduced reduceGroup(const PreparedMesh& mesh, const ClusterStore& store, std::sp
     reduced.clusters = splitSimplified(group, simplified);
     if (reduced.clusters.shapes.size() >= members.size())
         return reduced;
-    const Deviation deviation = boundDeviation(group, simplified);
+    const Deviation deviation = boundDeviation(group, simplified, double{members_error} / group.scale);
     reduced.loose_pieces = deviation.loose_pieces;
     reduced.error = roundUp((members_error + deviation.distance * group.scale) * kMonotoneSlack);
     // an error beyond the floats cannot be stored: what it belongs to is a root
