@@ -54,7 +54,7 @@ struct Glb
 
     template <typename T>
     int addAccessor(std::span<const T> values, int component, const char* type, int target,
-                    Json bounds = Json())
+                    const Json& bounds = Json())
     {
         Json accessor{{"bufferView", addView(std::as_bytes(values), target)},
                       {"componentType", component},
