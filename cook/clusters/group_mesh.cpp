@@ -3,6 +3,7 @@
 
 #include <bit>
 #include <cmath>
+#include <utility>
 
 namespace hearth::clusters
 {
@@ -40,8 +41,9 @@ private:
     size_t mask_;
 };
 
-void gatherTriangles(GroupMesh& group, const PreparedMesh& mesh, const ClusterStore& store,
-                     std::span<const uint32_t> members, std::span<const uint8_t> locked)
+/// Returns the material of each wedge.
+std::vector<uint32_t> gatherTriangles(GroupMesh& group, const PreparedMesh& mesh, const ClusterStore& store,
+                                      std::span<const uint32_t> members, std::span<const uint8_t> locked)
 {
     size_t vertex_count = 0;
     size_t triangle_count = 0;
@@ -55,6 +57,7 @@ void gatherTriangles(GroupMesh& group, const PreparedMesh& mesh, const ClusterSt
     KeyNumbers wedges(vertex_count);
     KeyNumbers positions(vertex_count);
     std::vector<uint32_t> wedge_of_local;
+    std::vector<uint32_t> material_of_wedge;
     for (const uint32_t member : members)
     {
         const ClusterShape& shape = store.shapes[member];
@@ -71,6 +74,7 @@ void gatherTriangles(GroupMesh& group, const PreparedMesh& mesh, const ClusterSt
             const uint32_t position = positions.numberOf(global, next_position);
             group.vertex_of_wedge.push_back(vertex);
             group.position_of_wedge.push_back(position);
+            material_of_wedge.push_back(shape.material);
             if (position != next_position)
                 continue;
             group.global_position.push_back(global);
@@ -80,6 +84,7 @@ void gatherTriangles(GroupMesh& group, const PreparedMesh& mesh, const ClusterSt
             group.corners.push_back(wedge_of_local[index]);
         group.materials.insert(group.materials.end(), shape.triangle_count, shape.material);
     }
+    return material_of_wedge;
 }
 
 void placePositions(GroupMesh& group, std::span<const Float3> source_positions)
@@ -123,6 +128,34 @@ float uvScale(const GroupMesh& group, std::span<const Float2> uvs)
     const double scale = texture > 0 ? std::sqrt(surface / texture) : 0.0;
     // UVs so large or small that their differences are no longer useful numbers do not steer the simplification
     return std::isfinite(scale) && scale < 1e6 && scale > 1e-6 ? static_cast<float>(scale) : 0.0f;
+}
+
+/// Whether two vertices have the same attributes but for normal and tangent: a hard edge may lie between them, but no
+/// border of a texture.
+bool sameChart(const mesh::SourceMesh& source, uint32_t a, uint32_t b)
+{
+    for (const auto& uvs : source.uvs)
+        if (!uvs.empty() && !(uvs[a] == uvs[b]))
+            return false;
+    return source.colors.empty() || source.colors[a] == source.colors[b];
+}
+
+/// Name each chart at a position by its first wedge.
+void nameCharts(GroupMesh& group, const mesh::SourceMesh& source, std::span<const uint32_t> material_of_wedge)
+{
+    constexpr uint32_t kNoWedge = 0xFFFFFFFFu;
+    std::vector<uint32_t> latest(group.global_position.size(), kNoWedge);
+    std::vector<uint32_t> before(group.vertex_of_wedge.size());
+    group.chart_of_wedge.resize(group.vertex_of_wedge.size());
+    for (uint32_t w = 0; w < group.vertex_of_wedge.size(); ++w)
+    {
+        before[w] = std::exchange(latest[group.position_of_wedge[w]], w);
+        group.chart_of_wedge[w] = w;
+        for (uint32_t other = before[w]; other != kNoWedge; other = before[other])
+            if (material_of_wedge[w] == material_of_wedge[other] &&
+                sameChart(source, group.vertex_of_wedge[w], group.vertex_of_wedge[other]))
+                group.chart_of_wedge[w] = group.chart_of_wedge[other];
+    }
 }
 
 void gatherAttributes(GroupMesh& group, const mesh::SourceMesh& source, const Config& config)
@@ -170,7 +203,8 @@ GroupMesh gatherGroup(const PreparedMesh& mesh, const ClusterStore& store, std::
                       std::span<const uint8_t> locked, const Config& config)
 {
     GroupMesh group;
-    gatherTriangles(group, mesh, store, members, locked);
+    const std::vector<uint32_t> material_of_wedge = gatherTriangles(group, mesh, store, members, locked);
+    nameCharts(group, *mesh.source, material_of_wedge);
     placePositions(group, mesh.source->positions);
     gatherAttributes(group, *mesh.source, config);
     return group;

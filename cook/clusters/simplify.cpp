@@ -104,8 +104,11 @@ private:
     {
         return std::any_of(moves_.begin(), moves_.end(), [&](WedgeMove m) { return m.from == wedge; });
     }
+    uint32_t chartOf(uint32_t wedge) const { return group_.chart_of_wedge[wedge]; }
+    const WedgeMove* moveOfChart(uint32_t wedge) const;
     bool allMapped() const { return moves_.size() == mesh_.wedges().size(); }
     float cost(uint32_t from, uint32_t to) const;
+    bool moreChartsThanTwo() const;
     void gatherCandidates(uint32_t position, bool along_seams);
     void push(uint32_t position, Candidate candidate);
     std::optional<Candidate> nextCandidate(uint32_t position);
@@ -173,9 +176,10 @@ bool Collapser::mapWedges(const Spoke& spoke)
         moves_.push_back(spoke.out);
     if (spoke.in_count > 0 && (moves_.empty() || spoke.in.from != spoke.out.from))
         moves_.push_back(spoke.in);
-    else if (spoke.in_count > 0 && spoke.in.to != spoke.out.to && !permissive_)
+    else if (spoke.in_count > 0 && chartOf(spoke.in.to) != chartOf(spoke.out.to) && !permissive_)
         return false;
-    return permissive_ || moves_.size() == mesh_.wedges().size();
+    return permissive_ || std::all_of(mesh_.wedges().begin(), mesh_.wedges().end(),
+                                      [&](uint32_t wedge) { return moveOfChart(wedge) != nullptr; });
 }
 
 /// The same where several sheets lie on each other.
@@ -200,7 +204,15 @@ bool Collapser::mapLayers(uint32_t from, uint32_t to)
     return permissive_ || moves_.size() == mesh_.wedges().size();
 }
 
-/// Let wedges without a way take the nearest attributes.
+/// The move of a wedge of the same chart, or nullptr.
+const WedgeMove* Collapser::moveOfChart(uint32_t wedge) const
+{
+    const auto found = std::find_if(moves_.begin(), moves_.end(),
+                                    [&](WedgeMove m) { return chartOf(m.from) == chartOf(wedge); });
+    return found == moves_.end() ? nullptr : &*found;
+}
+
+/// Let wedges without a way take the nearest attributes, in the chart that wedges of their own chart go to, if any.
 void Collapser::mapNearest(uint32_t to)
 {
     if (allMapped())
@@ -214,14 +226,19 @@ void Collapser::mapNearest(uint32_t to)
     {
         if (mapped(wedge))
             continue;
-        uint32_t best = goals_.front();
+        const WedgeMove* guide = moveOfChart(wedge);
+        uint32_t best = guide != nullptr ? guide->to : goals_.front();
         float best_distance2 = attributeDistance2(group_, wedge, best);
-        for (const uint32_t goal : std::span(goals_).subspan(1))
+        for (const uint32_t goal : goals_)
+        {
+            if (guide != nullptr && chartOf(goal) != chartOf(guide->to))
+                continue;
             if (const float distance2 = attributeDistance2(group_, wedge, goal); distance2 < best_distance2)
             {
                 best = goal;
                 best_distance2 = distance2;
             }
+        }
         moves_.push_back({wedge, best});
     }
 }
@@ -248,6 +265,25 @@ float Collapser::cost(uint32_t from, uint32_t to) const
     return std::max(error, 0.0f) + kLengthWeight * weight * dot(t, t);
 }
 
+bool Collapser::moreChartsThanTwo() const
+{
+    const auto wedges = mesh_.wedges();
+    if (wedges.size() <= 2)
+        return false;
+    const uint32_t first = chartOf(wedges[0]);
+    uint32_t second = first;
+    for (const uint32_t wedge : wedges.subspan(1))
+    {
+        const uint32_t chart = chartOf(wedge);
+        if (chart == first || chart == second)
+            continue;
+        if (second != first)
+            return true;
+        second = chart;
+    }
+    return false;
+}
+
 /// All collapses of the gathered position that respect borders and wedges, into candidates_.
 /// along_seams  where one of them keeps two wedges on their way, those that keep fewer are left out
 void Collapser::gatherCandidates(uint32_t position, bool along_seams)
@@ -259,8 +295,8 @@ void Collapser::gatherCandidates(uint32_t position, bool along_seams)
         return;
     if (edges_held_[position] == 0)
         holdEdges(position);
-    // an edge is the way of two wedges at most
-    if (!permissive_ && mesh_.layers() == 1 && mesh_.wedges().size() > 2)
+    // an edge is the way of two charts at most
+    if (!permissive_ && mesh_.layers() == 1 && moreChartsThanTwo())
     {
         wedge_blocked_[position] = 1;
         return;

@@ -29,7 +29,8 @@ struct Simplified
 /// What holds after every collapse:
 /// - locked positions stay;
 /// - every wedge of the removed position goes to a wedge of the target along their common edge, so that attributes and
-///   materials do not jump (unless `permissive`: then wedges without such an edge take the nearest attributes);
+///   materials do not jump (unless `permissive`: then wedges without such an edge take the nearest attributes). Wedges
+///   that differ from one with a way in the normal alone need none: hard edges cost what they change;
 /// - open borders, and edges of more than two triangles, only shorten along themselves;
 /// - no triangle turns over, no two sheets are glued together (link condition), no island disappears.
 /// If that is not enough, whole islands go, the smallest first (`pruned`); one triangle always stays.

@@ -138,6 +138,40 @@ TEST(Hierarchy, respectsSeams)
     expectSound(mesh, hierarchy);
 }
 
+/// Every triangle with three vertices of its own and the normal of its plane; no other attributes.
+mesh::SourceMesh flatShaded(const mesh::SourceMesh& smooth)
+{
+    mesh::SourceMesh flat;
+    for (size_t t = 0; t < smooth.indices.size(); t += 3)
+    {
+        const Float3 a = smooth.positions[smooth.indices[t]];
+        const Float3 b = smooth.positions[smooth.indices[t + 1]];
+        const Float3 c = smooth.positions[smooth.indices[t + 2]];
+        for (const Float3 corner : {a, b, c})
+        {
+            flat.indices.push_back(static_cast<uint32_t>(flat.positions.size()));
+            flat.positions.push_back(corner);
+            flat.normals.push_back(normalizeOr(cross(b - a, c - a), {0, 0, 1}));
+        }
+    }
+    flat.triangle_materials.assign(smooth.triangleCount(), formats::kNone);
+    return flat;
+}
+
+TEST(Hierarchy, ofHardEdgesIsAsNearAsOfSmoothOnes)
+{
+    mesh::SourceMesh smooth = shapes::rock(24, 0.3f);
+    smooth.uvs[0].clear();
+    const mesh::SourceMesh flat = flatShaded(smooth);
+    const Hierarchy of_smooth = buildHierarchy(smooth);
+    const Hierarchy of_flat = buildHierarchy(flat);
+    expectSound(flat, of_flat);
+    EXPECT_EQ(of_flat.counts.permissive_groups, 0u) << "no border of a texture is crossed";
+    EXPECT_EQ(of_flat.levels.size(), of_smooth.levels.size());
+    for (size_t l = 1; l < std::min(of_flat.levels.size(), of_smooth.levels.size()); ++l)
+        EXPECT_LT(of_flat.levels[l].max_error, of_smooth.levels[l].max_error * 2) << "level " << l;
+}
+
 TEST(Hierarchy, mergesLooseQuadsBySpace)
 {
     const SourceMesh mesh = shapes::foliage(6000);
