@@ -24,12 +24,11 @@ struct GroupMesh
     std::vector<uint32_t> global_position;   ///< for each position, that of the prepared mesh
     std::vector<uint32_t> vertex_of_wedge;   ///< vertex of the source
     std::vector<uint32_t> position_of_wedge; ///< position of this mesh
-    std::vector<uint32_t>
-        chart_of_wedge;              ///< the same for wedges of a position that differ in the normal alone
-    std::vector<uint32_t> corners;   ///< three wedges for each triangle
-    std::vector<uint32_t> materials; ///< for each triangle
-    uint32_t attribute_rows = 0;     ///< rows of four attributes that a wedge has
-    std::vector<Lanes> attributes;   ///< rows of each wedge, weighted: differences are local lengths
+    std::vector<uint32_t> chart_of_wedge;    ///< one number for wedges that differ in the normal alone
+    std::vector<uint32_t> corners;           ///< three wedges for each triangle
+    std::vector<uint32_t> materials;         ///< for each triangle
+    uint32_t attribute_rows = 0;             ///< rows of four attributes that a wedge has
+    std::vector<Lanes> attributes;           ///< rows of each wedge, weighted: differences are local lengths
 
     size_t triangleCount() const { return corners.size() / 3; }
     const Lanes* attributesOf(uint32_t wedge) const
