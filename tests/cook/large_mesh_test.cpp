@@ -38,8 +38,7 @@ TEST(RealMeshes, areSound)
     const char* assets = std::getenv("HEARTH_ASSETS");
     if (assets == nullptr)
         GTEST_SKIP() << "HEARTH_ASSETS does not name a folder of assets";
-    if (!std::filesystem::exists(HEARTH_IMPORT))
-        GTEST_SKIP() << "hearth-import is not built";
+    ASSERT_TRUE(std::filesystem::exists(HEARTH_IMPORT)) << "hearth-import is not built";
     std::vector<std::filesystem::path> sources;
     for (const auto& entry :
          std::filesystem::recursive_directory_iterator(std::filesystem::path(assets) / "good"))
