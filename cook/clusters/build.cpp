@@ -76,7 +76,7 @@ Sphere groupSphere(const Build& build, const Level& level, std::span<const uint3
     if (spheres.empty())
         for (const uint32_t member : members)
             for (const uint32_t vertex : level.store.verticesOf(level.store.shapes[member]))
-                points.push_back(build.mesh.source->positions[vertex]);
+                points.push_back(build.mesh.vertices.positions[vertex]);
     const Sphere around_points = sphereOfPoints(points);
     const Sphere sphere = spheres.empty() ? around_points : sphereOfSpheres(spheres, around_points);
     return {sphere.center, roundUp(sphere.radius * kMonotoneSlack)};
@@ -84,7 +84,7 @@ Sphere groupSphere(const Build& build, const Level& level, std::span<const uint3
 
 float largestError(const Build& build, const Level& level, std::span<const uint32_t> members)
 {
-    float error = 0;
+    float error = build.mesh.grid.error;
     for (const uint32_t member : members)
         if (level.refined_group[member] != kNone)
             error = std::max(error, build.group(level.refined_group[member]).error);
@@ -204,7 +204,7 @@ ClusterRecord clusterRecord(const PreparedMesh& mesh, const ClusterStore& store,
     Box3 box;
     for (const uint32_t vertex : store.verticesOf(shape))
     {
-        points.push_back(mesh.source->positions[vertex]);
+        points.push_back(mesh.vertices.positions[vertex]);
         box.add(points.back());
     }
     std::vector<Float3> places;
@@ -322,21 +322,25 @@ void writeRecords(Build& build, Hierarchy& hierarchy)
     buildPages(build.mesh, store, shapes, hierarchy);
 }
 
-void fillMeshRecord(const mesh::SourceMesh& source, const PreparedMesh& prepared, Hierarchy& hierarchy)
+void fillSourceCounts(const mesh::SourceMesh& source, MeshRecord& mesh)
 {
-    MeshRecord& mesh = hierarchy.mesh;
-    mesh.attributes = prepared.attributes;
     mesh.source_faces = source.face_count;
     mesh.source_triangles = static_cast<uint32_t>(source.triangleCount());
     mesh.source_vertices = source.source_vertex_count;
+    mesh.skinned = source.joint_sets.empty() ? 0 : 1;
+    mesh.morph_target_count = static_cast<uint32_t>(source.morph_targets.size());
+}
+
+void fillMeshRecord(const PreparedMesh& prepared, Hierarchy& hierarchy)
+{
+    MeshRecord& mesh = hierarchy.mesh;
+    mesh.attributes = prepared.attributes;
     mesh.degenerate_triangles = prepared.degenerate_count;
     mesh.lod_count = static_cast<uint32_t>(hierarchy.levels.size());
     mesh.levels = {0, mesh.lod_count};
     mesh.groups = {0, static_cast<uint32_t>(hierarchy.groups.size())};
     mesh.clusters = {0, static_cast<uint32_t>(hierarchy.clusters.size())};
     mesh.pages = {0, static_cast<uint32_t>(hierarchy.pages.size())};
-    mesh.skinned = source.joint_sets.empty() ? 0 : 1;
-    mesh.morph_target_count = static_cast<uint32_t>(source.morph_targets.size());
     Box3 box;
     for (const ClusterRecord& cluster : hierarchy.clusters)
         box.add(Box3{cluster.box_min, cluster.box_max});
@@ -346,10 +350,11 @@ void fillMeshRecord(const mesh::SourceMesh& source, const PreparedMesh& prepared
 
 } // namespace
 
-Hierarchy buildHierarchy(const mesh::SourceMesh& source, const Config& config)
+Hierarchy buildHierarchy(mesh::SourceMesh source, const Config& config)
 {
     Hierarchy hierarchy;
-    const PreparedMesh prepared = prepareMesh(source);
+    fillSourceCounts(source, hierarchy.mesh);
+    const PreparedMesh prepared = prepareMesh(std::move(source));
     if (prepared.triangleCount() > 0)
     {
         Build build{prepared, config, {}};
@@ -357,7 +362,7 @@ Hierarchy buildHierarchy(const mesh::SourceMesh& source, const Config& config)
         countOutcomes(build, hierarchy.counts);
         writeRecords(build, hierarchy);
     }
-    fillMeshRecord(source, prepared, hierarchy);
+    fillMeshRecord(prepared, hierarchy);
     return hierarchy;
 }
 

@@ -117,13 +117,14 @@ Status writeClustersPart(const std::string& import_path, const std::string& outp
     HEARTH_TRY(writer.beginChunk({.type = kChunkPages}, 1));
     for (uint32_t i = 0; i < mesh_count; ++i)
     {
-        HEARTH_ASSIGN_OR_RETURN(const mesh::SourceMesh source, mesh::readSourceMesh(reader, i));
-        Hierarchy hierarchy = buildHierarchy(source, config);
+        HEARTH_ASSIGN_OR_RETURN(mesh::SourceMesh source, mesh::readSourceMesh(reader, i));
+        const std::string name = source.name;
+        Hierarchy hierarchy = buildHierarchy(std::move(source), config);
         addCounts(counts, hierarchy.counts);
         const uint64_t page_offset = writer.chunkSize();
         HEARTH_TRY(writer.append(hierarchy.page_bytes));
         hierarchy.page_bytes = {};
-        appendTables(tables, std::move(hierarchy), page_offset, source.name);
+        appendTables(tables, std::move(hierarchy), page_offset, name);
         if (!fits(tables))
             return Error{Issue::input_too_large, import_path, chunkName(kChunkSourceMesh, i),
                          "more than 2^31 clusters"};

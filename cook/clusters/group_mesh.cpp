@@ -204,9 +204,9 @@ GroupMesh gatherGroup(const PreparedMesh& mesh, const ClusterStore& store, std::
 {
     GroupMesh group;
     const std::vector<uint32_t> material_of_wedge = gatherTriangles(group, mesh, store, members, locked);
-    nameCharts(group, *mesh.source, material_of_wedge);
-    placePositions(group, mesh.source->positions);
-    gatherAttributes(group, *mesh.source, config);
+    nameCharts(group, mesh.vertices, material_of_wedge);
+    placePositions(group, mesh.vertices.positions);
+    gatherAttributes(group, mesh.vertices, config);
     return group;
 }
 
