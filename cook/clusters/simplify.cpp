@@ -5,6 +5,7 @@
 #include "cook/clusters/islands.h"
 #include "cook/clusters/quadric.h"
 #include "cook/clusters/star_mesh.h"
+#include "cook/clusters/turning.h"
 #include "formats/assert.h"
 
 #include <algorithm>
@@ -19,12 +20,6 @@ namespace
 {
 
 constexpr uint32_t kNoPosition = 0xFFFFFFFFu;
-
-// A collapse may turn a triangle by up to 75 degrees.
-constexpr float kMinTurnCosine = 0.25f;
-
-// Height of a triangle against its longest side below which its area is mostly rounding.
-constexpr float kNeedle = 1e-4f;
 
 // Where the surface is flat all collapses cost nothing: then short edges of small areas go first.
 constexpr float kLengthWeight = 1e-6f;
@@ -66,7 +61,8 @@ public:
           best_target_(group.positions.size(), kNoPosition),
           target_(group.positions.size()),
           edges_held_(group.positions.size(), 0),
-          wedge_blocked_(group.positions.size(), 0)
+          wedge_blocked_(group.positions.size(), 0),
+          grown_(group.positions.size(), 0)
     {
         for (uint32_t p = 0; p < target_.size(); ++p)
             target_[p] = p;
@@ -92,7 +88,7 @@ public:
 
     bool pruneIslands(size_t target_triangles);
 
-    Simplified result() const;
+    Simplified result();
 
 private:
     void holdEdges(uint32_t position);
@@ -127,6 +123,7 @@ private:
     std::vector<uint32_t> target_;       ///< of removed positions, the next one
     std::vector<uint8_t> edges_held_;    ///< 1 where holdEdges was
     std::vector<uint8_t> wedge_blocked_; ///< 1 where wedges without a way ruled out a collapse
+    std::vector<uint8_t> grown_;         ///< 1 for positions that others went to
     std::vector<HeapEntry> heap_;
     bool permissive_ = false;
 
@@ -376,26 +373,13 @@ void Collapser::evaluateValid(uint32_t position, float popped_cost)
 
 bool Collapser::turnsOver(uint32_t from, uint32_t to)
 {
-    const Float3 old_place = group_.positions[from];
-    const Float3 new_place = group_.positions[to];
     for (const Corner corner : mesh_.star(from))
     {
         const uint32_t next = mesh_.positionAt(nextCorner(corner));
         const uint32_t previous = mesh_.positionAt(previousCorner(corner));
-        if (next == to || previous == to)
-            continue;
-        const Float3 a = group_.positions[next];
-        const Float3 b = group_.positions[previous];
-        const Float3 new_a = a - new_place;
-        const Float3 new_b = b - new_place;
-        const Float3 old_normal = cross(a - old_place, b - old_place);
-        const Float3 new_normal = cross(new_a, new_b);
-        const float old_area2 = dot(old_normal, old_normal);
-        const float new_area2 = dot(new_normal, new_normal);
-        const float longest2 = std::max(dot(new_a, new_a), dot(new_b, new_b));
-        const bool needle = !(new_area2 > kNeedle * kNeedle * longest2 * longest2);
-        if (!(new_area2 > 0) || (needle && new_area2 < old_area2) ||
-            dot(old_normal, new_normal) < kMinTurnCosine * std::sqrt(old_area2 * new_area2))
+        if (next != to && previous != to &&
+            turnsTriangle(group_.positions[next], group_.positions[previous], group_.positions[from],
+                          group_.positions[to]))
             return true;
     }
     return false;
@@ -439,6 +423,7 @@ void Collapser::step()
         quadrics_.move(group_, entry.position, entry.target, moves_);
     mesh_.collapse(entry.position, entry.target, moves_);
     target_[entry.position] = entry.target;
+    grown_[entry.target] = 1;
     ++version_[entry.position];
     evaluateAround(entry.position, entry.target);
 }
@@ -494,7 +479,7 @@ bool Collapser::pruneIslands(size_t target_triangles)
     return pruned;
 }
 
-Simplified Collapser::result() const
+Simplified Collapser::result()
 {
     Simplified result;
     result.corners.reserve(mesh_.aliveCount() * 3);
@@ -516,6 +501,10 @@ Simplified Collapser::result() const
             target = target_[target];
         result.target_of_position[p] = target;
     }
+    for (uint32_t p = 0; p < target_.size(); ++p)
+        if (target_[p] != p || group_.locked[p] != 0 || edges_held_[p] == 0)
+            grown_[p] = 0;
+    result.placement = placeOptimally(group_, mesh_, quadrics_, grown_);
     return result;
 }
 
