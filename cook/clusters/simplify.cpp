@@ -78,10 +78,7 @@ public:
         heap_.clear();
         for (uint32_t p = 0; p < target_.size(); ++p)
             if (target_[p] == p && group_.locked[p] == 0 && (!permissive || wedge_blocked_[p] != 0))
-            {
-                mesh_.gather(p);
-                evaluateGathered(p);
-            }
+                evaluate(p);
         while (mesh_.aliveCount() > target_triangles && !heap_.empty())
             step();
     }
@@ -102,7 +99,20 @@ private:
     }
     uint32_t chartOf(uint32_t wedge) const { return group_.chart_of_wedge[wedge]; }
     const WedgeMove* moveOfChart(uint32_t wedge) const;
-    bool allMapped() const { return moves_.size() == mesh_.wedges().size(); }
+    bool allMapped() const { return plain_ || moves_.size() == mesh_.wedges().size(); }
+    void gather(uint32_t position)
+    {
+        plain_ = mesh_.gatherFan(position);
+        if (!plain_)
+            mesh_.gather(position);
+    }
+    void evaluate(uint32_t position)
+    {
+        gather(position);
+        evaluateGathered(position);
+    }
+    bool mapTo(uint32_t from, uint32_t to);
+    void gatherFanCandidates(uint32_t position);
     float cost(uint32_t from, uint32_t to) const;
     bool moreChartsThanTwo() const;
     void gatherCandidates(uint32_t position, bool along_seams);
@@ -126,6 +136,7 @@ private:
     std::vector<uint8_t> grown_;         ///< 1 for positions that others went to
     std::vector<HeapEntry> heap_;
     bool permissive_ = false;
+    bool plain_ = false; ///< a fan is gathered, else a ring
 
     // scratch
     std::vector<WedgeMove> moves_;
@@ -164,6 +175,21 @@ void Collapser::holdEdges(uint32_t position)
 bool Collapser::mapGathered(uint32_t from, const Spoke& spoke)
 {
     return mesh_.layers() == 1 ? mapWedges(spoke) : mapLayers(from, spoke.position);
+}
+
+/// The same for any neighbour, and false for other positions.
+bool Collapser::mapTo(uint32_t from, uint32_t to)
+{
+    if (!plain_)
+    {
+        const Spoke* spoke = mesh_.spokeTo(to);
+        return spoke != nullptr && mapGathered(from, *spoke);
+    }
+    const FanEnd* end = mesh_.endAt(to);
+    if (end == nullptr)
+        return false;
+    moves_.assign(1, {mesh_.fanWedge(), end->wedge});
+    return true;
 }
 
 bool Collapser::mapWedges(const Spoke& spoke)
@@ -281,12 +307,28 @@ bool Collapser::moreChartsThanTwo() const
     return false;
 }
 
+void Collapser::gatherFanCandidates(uint32_t position)
+{
+    edges_held_[position] = 1;
+    if (mesh_.degree(position) <= 2)
+        return;
+    for (const FanEnd end : mesh_.fan())
+    {
+        if (mesh_.degree(end.position) <= 2)
+            continue;
+        moves_.assign(1, {mesh_.fanWedge(), end.wedge});
+        candidates_.push_back({cost(position, end.position), end.position, true});
+    }
+}
+
 /// All collapses of the gathered position that respect borders and wedges, into candidates_.
 /// along_seams  where one of them keeps two wedges on their way, those that keep fewer are left out
 void Collapser::gatherCandidates(uint32_t position, bool along_seams)
 {
     candidates_.clear();
     wedge_blocked_[position] = 0;
+    if (plain_)
+        return gatherFanCandidates(position);
     const auto ring = mesh_.ring();
     if (std::all_of(ring.begin(), ring.end(), [&](const Spoke& s) { return mesh_.emptiesStar(position, s); }))
         return;
@@ -389,19 +431,22 @@ bool Collapser::turnsOver(uint32_t from, uint32_t to)
 /// those that had none.
 void Collapser::evaluateAround(uint32_t removed, uint32_t center)
 {
-    mesh_.gather(center);
+    gather(center);
     around_.clear();
+    const auto note = [&](uint32_t position)
+    {
+        if (group_.locked[position] == 0 &&
+            (best_target_[position] == removed || best_target_[position] == kNoPosition))
+            around_.push_back(position);
+    };
+    for (const FanEnd& end : mesh_.fan())
+        note(end.position);
     for (const Spoke& spoke : mesh_.ring())
-        if (group_.locked[spoke.position] == 0 &&
-            (best_target_[spoke.position] == removed || best_target_[spoke.position] == kNoPosition))
-            around_.push_back(spoke.position);
+        note(spoke.position);
     if (group_.locked[center] == 0)
         evaluateGathered(center);
     for (const uint32_t position : around_)
-    {
-        mesh_.gather(position);
-        evaluateGathered(position);
-    }
+        evaluate(position);
 }
 
 void Collapser::step()
@@ -411,9 +456,8 @@ void Collapser::step()
     heap_.pop_back();
     if (entry.version != version_[entry.position])
         return;
-    mesh_.gather(entry.position);
-    const Spoke* spoke = mesh_.spokeTo(entry.target);
-    if (spoke == nullptr || !mapGathered(entry.position, *spoke) || !valid(entry.position, entry.target))
+    gather(entry.position);
+    if (!mapTo(entry.position, entry.target) || !valid(entry.position, entry.target))
     {
         evaluateValid(entry.position, entry.cost);
         return;
