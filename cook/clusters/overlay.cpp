@@ -82,13 +82,13 @@ HEARTH_INLINE Seen see(Eight x, Eight y, Eight z, const View& view)
 /// Collects heights, and what forbids to trust them.
 struct Finding
 {
-    Eight height{};
+    Eight height = Eight{} - 1.0f; ///< around one center; negative: it has nothing over the triangle
     EightMask failed{};
     EightMask covered[3]{};
 
     HEARTH_INLINE void add(EightMask mask, Eight h)
     {
-        height = greater(height, mask ? greater(h, -h) : Eight{});
+        height = greater(height, mask ? greater(h, -h) : Eight{} - 1.0f);
     }
 };
 
@@ -204,10 +204,11 @@ HEARTH_INLINE void addBlock(const StarBlock& block, const Seen& center, bool cen
 
 /// The greatest height where corners or edges of triangle and patch meet, or infinity.
 HEARTH_EIGHT_LANES float greatestHeight(const Surface& surface, const StarBlocks& blocks,
-                                        std::span<const uint8_t> open, std::span<const uint32_t> centers,
-                                        const View& view)
+                                        std::span<const uint8_t> open, std::span<const float> added,
+                                        std::span<const uint32_t> centers, const View& view)
 {
     Finding finding;
+    Eight sums{};
     for (const uint32_t position : centers)
     {
         const Float3 place = surface.place_of_position[position];
@@ -215,13 +216,15 @@ HEARTH_EIGHT_LANES float greatestHeight(const Surface& surface, const StarBlocks
         finding.add(isOver(center, -kMargin), center.h);
         for (const StarBlock& block : blocks.of(position))
             addBlock(block, center, open[position] != 0, centers, view, finding);
+        sums = greater(sums, finding.height < 0.0f ? Eight{} : finding.height + added[position]);
+        finding.height = Eight{} - 1.0f;
     }
     if (anySet(finding.failed) || !anySet(finding.covered[0]) || !anySet(finding.covered[1]) ||
         !anySet(finding.covered[2]))
         return kInfinity;
     float greatest = 0;
     for (size_t lane = 0; lane < kEight; ++lane)
-        greatest = std::max(greatest, finding.height[lane]);
+        greatest = std::max(greatest, sums[lane]);
     return greatest;
 }
 
@@ -256,7 +259,7 @@ float Overlay::heightOver(const Corners& triangle) const
     View view;
     if (!makeView(triangle, view))
         return kInfinity;
-    return greatestHeight(surface_, blocks_, open_, centers_, view) + 4 * kMargin * view.size;
+    return greatestHeight(surface_, blocks_, open_, added_, centers_, view) + 4 * kMargin * view.size;
 }
 
 } // namespace hearth::clusters

@@ -58,7 +58,7 @@ std::vector<uint32_t> makeVertices(const PreparedMesh& mesh, const GroupMesh& gr
 
 /// Cut what is left into clusters, material by material in order of their numbers.
 ClusterStore splitSimplified(const GroupMesh& group, const Simplified& simplified,
-                             std::span<const uint32_t> vertex_of_wedge)
+                             std::span<const uint32_t> vertex_of_wedge, std::span<const float> errors)
 {
     const size_t count = simplified.triangleCount();
     std::vector<uint32_t> vertices(count * 3);
@@ -86,7 +86,7 @@ ClusterStore splitSimplified(const GroupMesh& group, const Simplified& simplifie
         size_t last = first;
         while (last < count && materials[items[last].triangle] == material)
             ++last;
-        splitIntoClusters(std::span(items).subspan(first, last - first), vertices, material, out);
+        splitIntoClusters(std::span(items).subspan(first, last - first), {vertices, errors, material}, out);
         first = last;
     }
     return out;
@@ -105,12 +105,19 @@ Reduced reduceGroup(const PreparedMesh& mesh, const ClusterStore& store, std::sp
     if (static_cast<float>(simplified.triangleCount()) >
         config.stuck_ratio * static_cast<float>(group.triangleCount()))
         return reduced;
-    reduced.clusters = splitSimplified(group, simplified, makeVertices(mesh, group, simplified, reduced));
+    Deviation deviation = boundDeviation(group, simplified);
+    reduced.loose_pieces = deviation.loose_pieces;
+    reduced.error = members_error;
+    for (float& error : deviation.errors)
+    {
+        error = roundUp(error * group.scale);
+        reduced.error = std::max(reduced.error, error);
+    }
+    reduced.error = roundUp(reduced.error * kMonotoneSlack);
+    reduced.clusters =
+        splitSimplified(group, simplified, makeVertices(mesh, group, simplified, reduced), deviation.errors);
     if (reduced.clusters.shapes.size() >= members.size())
         return reduced;
-    const Deviation deviation = boundDeviation(group, simplified, double{members_error} / group.scale);
-    reduced.loose_pieces = deviation.loose_pieces;
-    reduced.error = roundUp((members_error + deviation.distance * group.scale) * kMonotoneSlack);
     // an error beyond the floats cannot be stored: what it belongs to is a root
     reduced.progressed = reduced.error < std::numeric_limits<float>::max();
     return reduced;
