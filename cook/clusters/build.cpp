@@ -210,6 +210,7 @@ void countOutcomes(const Build& build, BuildCounts& counts)
         {
             counts.permissive_groups += group.outcome.permissive ? 1 : 0;
             counts.pruned_groups += group.outcome.pruned ? 1 : 0;
+            counts.merged_groups += group.outcome.merged ? 1 : 0;
             counts.retried_groups += group.retried ? 1 : 0;
             counts.stuck_groups += group.stuck ? 1 : 0;
             counts.loose_pieces += group.outcome.loose_pieces;

@@ -95,6 +95,7 @@ void addCounts(BuildCounts& total, const BuildCounts& counts)
 {
     total.permissive_groups += counts.permissive_groups;
     total.pruned_groups += counts.pruned_groups;
+    total.merged_groups += counts.merged_groups;
     total.retried_groups += counts.retried_groups;
     total.stuck_groups += counts.stuck_groups;
     total.loose_pieces += counts.loose_pieces;

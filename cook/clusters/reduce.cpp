@@ -2,6 +2,7 @@
 #include "cook/clusters/reduce.h"
 
 #include "cook/clusters/bounds.h"
+#include "cook/clusters/cell_merge.h"
 #include "cook/clusters/deviation.h"
 #include "cook/clusters/group_mesh.h"
 #include "cook/clusters/islands.h"
@@ -99,12 +100,23 @@ Reduced reduceGroup(const PreparedMesh& mesh, const ClusterStore& store, std::sp
 {
     Reduced reduced;
     const GroupMesh group = gatherGroup(mesh, store, members, locked, config);
-    const Simplified simplified = simplifyGroup(group, targetTriangles(group.triangleCount(), config));
+    const size_t target = targetTriangles(group.triangleCount(), config);
+    Simplified simplified = simplifyGroup(group, target);
+    const auto stuck = [&]
+    {
+        return static_cast<float>(simplified.triangleCount()) >
+               config.stuck_ratio * static_cast<float>(group.triangleCount());
+    };
+    if (stuck())
+    {
+        mergeByCells(group, target, simplified);
+        simplified.merged = true;
+    }
+    if (stuck())
+        return reduced;
     reduced.permissive = simplified.permissive;
     reduced.pruned = simplified.pruned;
-    if (static_cast<float>(simplified.triangleCount()) >
-        config.stuck_ratio * static_cast<float>(group.triangleCount()))
-        return reduced;
+    reduced.merged = simplified.merged;
     Deviation deviation = boundDeviation(group, simplified);
     reduced.loose_pieces = deviation.loose_pieces;
     reduced.error = members_error;

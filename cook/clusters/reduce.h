@@ -23,6 +23,7 @@ struct Reduced
     float error = 0; ///< object space: of the clusters against the source
     bool permissive = false;
     bool pruned = false;
+    bool merged = false;
     uint64_t loose_pieces = 0;
 };
 
