@@ -26,6 +26,9 @@ constexpr float kRounding = 2e-6f;
 constexpr size_t kMaxLikely = 5 * kLanes;
 constexpr size_t kNeighbours = 2 * kLanes;
 
+// A distance below this part of a triangle's size is mostly rounding.
+constexpr float kFlat = 1e-4f;
+
 // Of an error that is carried on, this part may be added to a distance without a closer look.
 constexpr float kSlackOfCarried = kSlack - 1;
 
@@ -180,12 +183,31 @@ private:
         while (!totals_.empty() && totals_.front().upper > worst_)
         {
             const Total total = totals_.front();
-            total.before ? searchBefore(total.triangle) : searchAfter(total.triangle);
+            if (isRounding(total))
+                take(total);
+            else
+                total.before ? searchBefore(total.triangle) : searchAfter(total.triangle);
             std::pop_heap(totals_.begin(), totals_.end());
             totals_.pop_back();
         }
         for (const Total& total : totals_)
-            total.before ? giveTargets(total.triangle, total.upper) : give(total.triangle, total.upper);
+            take(total);
+    }
+
+    void take(const Total& total)
+    {
+        total.before ? giveTargets(total.triangle, total.upper) : give(total.triangle, total.upper);
+        worst_ = std::max(worst_, total.upper);
+    }
+
+    /// On a plane there is nothing to search for: all distances are rounding.
+    bool isRounding(const Total& total) const
+    {
+        const Surface& surface = total.before ? before_ : after_;
+        const Corners corners = surface.cornersOf(total.triangle);
+        const Float3 e1 = corners[1] - corners[0], e2 = corners[2] - corners[0];
+        const float carried = total.before ? group_.errors[total.triangle] : 0.0f;
+        return total.upper - carried <= kFlat * std::sqrt(std::max(dot(e1, e1), dot(e2, e2)));
     }
 
     void give(uint32_t facet, float error) { errors_[facet] = std::max(errors_[facet], error); }
