@@ -3,7 +3,6 @@
 
 #include "cook/clusters/nearest_bound.h"
 #include "cook/clusters/overlay.h"
-#include "cook/clusters/set_hash.h"
 #include "cook/clusters/surface.h"
 #include "formats/assert.h"
 
@@ -65,20 +64,6 @@ private:
     uint32_t list_ = 0;
     std::vector<uint32_t> facets_;
 };
-
-/// Where triangles do not close around a position. Both surfaces are open at the same ones: collapses keep borders.
-std::vector<uint8_t> openPositions(const GroupMesh& group)
-{
-    std::vector<uint64_t> difference(group.positions.size(), 0);
-    for (size_t t = 0; t < group.corners.size(); t += 3)
-        for (size_t k = 0; k < 3; ++k)
-            difference[group.positionAt(t + k)] +=
-                hashOf(group.positionAt(t + (k + 1) % 3)) - hashOf(group.positionAt(t + (k + 2) % 3));
-    std::vector<uint8_t> open(difference.size());
-    for (size_t p = 0; p < open.size(); ++p)
-        open[p] = difference[p] != 0 ? 1 : 0;
-    return open;
-}
 
 std::vector<uint32_t> positionsOf(const GroupMesh& group, std::span<const uint32_t> wedges)
 {
