@@ -171,6 +171,7 @@ Level nextLevel(PreparedMesh& mesh, Level& level)
         next.store.append(group.clusters);
         group.clusters = {};
     }
+    level.store.errors = {};
     return next;
 }
 
@@ -181,6 +182,8 @@ void buildLevels(Build& build)
     std::vector<uint8_t> locked = pinned;
     Level first;
     first.store = splitMesh(build.mesh);
+    build.mesh.corners = {};
+    build.mesh.materials = {};
     first.refined_group.assign(first.store.shapes.size(), kNone);
     first.retries.assign(first.store.shapes.size(), 0);
     build.levels.push_back(std::move(first));
