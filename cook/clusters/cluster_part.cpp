@@ -91,41 +91,36 @@ Status addTable(ContainerWriter& writer, uint32_t type, const std::vector<T>& re
     return writer.addRecords(type, std::span<const T>(records));
 }
 
-void addCounts(BuildCounts& total, const BuildCounts& counts)
-{
-    total.permissive_groups += counts.permissive_groups;
-    total.pruned_groups += counts.pruned_groups;
-    total.retried_groups += counts.retried_groups;
-    total.stuck_groups += counts.stuck_groups;
-    total.loose_pieces += counts.loose_pieces;
-}
-
 } // namespace
 
-Status writeClustersPart(const std::string& import_path, const std::string& output_path, const Config& config,
-                         BuildCounts& counts)
+uint32_t meshCount(const ContainerReader& part)
 {
-    HEARTH_ASSIGN_OR_RETURN(const ContainerReader reader,
-                            ContainerReader::open(import_path, Check::structure));
+    uint32_t count = 0;
+    while (part.find(kChunkSourceMesh, count) != nullptr)
+        ++count;
+    return count;
+}
+
+Status writeClustersPart(const ContainerReader& part, const std::string& output_path, const Config& config,
+                         const MeshObserver& observe)
+{
     HEARTH_ASSIGN_OR_RETURN(ContainerWriter writer,
                             ContainerWriter::create(output_path, ContainerKind::part));
-    uint32_t mesh_count = 0;
-    while (reader.find(kChunkSourceMesh, mesh_count) != nullptr)
-        ++mesh_count;
-
+    const uint32_t mesh_count = meshCount(part);
     Tables tables;
     HEARTH_TRY(writer.beginChunk({.type = kChunkPages}, 1));
     for (uint32_t i = 0; i < mesh_count; ++i)
     {
-        HEARTH_ASSIGN_OR_RETURN(const mesh::SourceMesh source, mesh::readSourceMesh(reader, i));
+        HEARTH_ASSIGN_OR_RETURN(const mesh::SourceMesh source, mesh::readSourceMesh(part, i));
         Hierarchy hierarchy = buildHierarchy(source, config);
-        addCounts(counts, hierarchy.counts);
+        if (observe)
+            HEARTH_TRY(observe(i, source, hierarchy));
         const uint64_t page_offset = writer.chunkSize();
         HEARTH_TRY(writer.append(hierarchy.page_bytes));
         hierarchy.page_bytes = {};
         appendTables(tables, std::move(hierarchy), page_offset, source.name);
         if (!fits(tables))
-            return Error{Issue::input_too_large, import_path, chunkName(kChunkSourceMesh, i),
+            return Error{Issue::input_too_large, part.name(), chunkName(kChunkSourceMesh, i),
                          "more than 2^31 clusters"};
     }
     HEARTH_TRY(writer.endChunk());
@@ -134,7 +129,7 @@ Status writeClustersPart(const std::string& import_path, const std::string& outp
     for (uint32_t i = 0; i < mesh_count; ++i)
         if (tables.meshes[i].skinned != 0 || tables.meshes[i].morph_target_count != 0)
         {
-            HEARTH_ASSIGN_OR_RETURN(const mesh::SourceMesh source, mesh::readSourceMesh(reader, i));
+            HEARTH_ASSIGN_OR_RETURN(const mesh::SourceMesh source, mesh::readSourceMesh(part, i));
             HEARTH_TRY(mesh::writeDeformation(writer, i, source));
         }
     HEARTH_TRY(writer.addText(kChunkStrings, tables.strings));

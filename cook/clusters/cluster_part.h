@@ -3,17 +3,26 @@
 #pragma once
 
 #include "cook/clusters/hierarchy.h"
-#include "formats/result.h"
+#include "formats/container_reader.h"
 
+#include <functional>
 #include <string>
 
 namespace hearth::clusters
 {
 
-/// Build the hierarchies of all meshes of the part at `import_path` and write them to `output_path`.
-/// Adds up what happened in `counts`.
-/// errors: those of ContainerReader, readSourceMesh and ContainerWriter; input_too_large where an index would not fit.
-Status writeClustersPart(const std::string& import_path, const std::string& output_path, const Config& config,
-                         BuildCounts& counts);
+/// Sees each mesh when it has been built, before it is written; an error ends the work.
+using MeshObserver =
+    std::function<Status(uint32_t index, const mesh::SourceMesh& source, const Hierarchy& hierarchy)>;
+
+/// The meshes that an import part has.
+uint32_t meshCount(const formats::ContainerReader& part);
+
+/// Build the hierarchies of all meshes of an import part and write them to `output_path`.
+///
+/// observe   may be empty
+/// errors    those of readSourceMesh, ContainerWriter and `observe`; input_too_large where an index would not fit
+Status writeClustersPart(const formats::ContainerReader& part, const std::string& output_path,
+                         const Config& config, const MeshObserver& observe);
 
 } // namespace hearth::clusters

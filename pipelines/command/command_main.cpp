@@ -1,12 +1,12 @@
 // hearth: the command that users type. Reads the command line; each verb's work is in its own file.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/tools/suggest.h"
 #include "formats/program.h"
 #include "pipelines/command/cook.h"
 #include "pipelines/command/explain.h"
 #include "pipelines/command/extract.h"
 #include "pipelines/command/inspect.h"
 #include "pipelines/command/open_pack.h"
-#include "pipelines/command/suggest.h"
 #include "pipelines/command/verify.h"
 
 #include <CLI/CLI.hpp>
@@ -214,7 +214,7 @@ std::string unknownWord(const CLI::App& app, const std::vector<std::string>& wor
             for (const CLI::Option* option : verb->get_options())
                 for (const std::string& long_name : option->get_lnames())
                     names.push_back("--" + long_name);
-            return describe("option", name, command::nearestMatch(name, names));
+            return describe("option", name, tools::nearestMatch(name, names));
         }
         if (verb != &app)
             continue;
@@ -226,7 +226,7 @@ std::string unknownWord(const CLI::App& app, const std::vector<std::string>& wor
                 verb = known;
         }
         if (verb == &app)
-            return describe("verb", word, command::nearestMatch(word, names));
+            return describe("verb", word, tools::nearestMatch(word, names));
     }
     return "";
 }

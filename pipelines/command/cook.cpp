@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/command/cook.h"
 
+#include "cook/tools/child_processes.h"
+#include "cook/tools/private_folder.h"
+#include "cook/tools/whole_file.h"
 #include "formats/pack_view.h"
-#include "pipelines/command/child_processes.h"
-#include "pipelines/command/private_folder.h"
-#include "pipelines/command/whole_file.h"
 
 #include <algorithm>
 #include <cerrno>
@@ -14,6 +14,8 @@
 
 namespace hearth::command
 {
+
+using namespace tools;
 
 namespace
 {
@@ -296,10 +298,7 @@ std::optional<Failure> cookInPrivate(const CookOptions& options, CookOutcome& ou
     const Result<PrivateFolder> beside = PrivateFolder::create(folderOf(options.output), options.output);
     if (!beside.ok())
         return fail(beside.error());
-    const char* temporary = std::getenv("TMPDIR");
-    const bool has_temporary = temporary != nullptr && *temporary != '\0';
-    const Result<PrivateFolder> parts =
-        PrivateFolder::create(has_temporary ? temporary : beside->path(), options.output);
+    const Result<PrivateFolder> parts = PrivateFolder::create(temporaryOr(beside->path()), options.output);
     if (!parts.ok())
         return fail(parts.error());
 

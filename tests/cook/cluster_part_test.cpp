@@ -39,8 +39,19 @@ TEST(ClustersPart, holdsTheHierarchiesOfAllMeshes)
     meshes[2].joint_sets.push_back(std::vector<mesh::Joints4>(meshes[2].vertexCount()));
     meshes[2].weight_sets.push_back(std::vector<Float4>(meshes[2].vertexCount(), {1, 0, 0, 0}));
     writeImportPart(import_path, meshes);
-    clusters::BuildCounts counts;
-    ASSERT_EQ(messageOf(clusters::writeClustersPart(import_path, output_path, {}, counts)), "");
+    std::vector<std::string> seen;
+    const auto observe =
+        [&](uint32_t index, const mesh::SourceMesh& source, const clusters::Hierarchy& hierarchy)
+    {
+        EXPECT_EQ(index, seen.size());
+        EXPECT_EQ(hierarchy.mesh.source_triangles, source.triangleCount());
+        seen.push_back(source.name);
+        return success();
+    };
+    const auto import_part = formats::ContainerReader::open(import_path);
+    ASSERT_TRUE(import_part.ok());
+    ASSERT_EQ(messageOf(clusters::writeClustersPart(*import_part, output_path, {}, observe)), "");
+    EXPECT_EQ(seen, (std::vector<std::string>{"rock", "", "", "terrain"}));
 
     auto reader = formats::ContainerReader::open(output_path);
     ASSERT_TRUE(reader.ok());
@@ -56,15 +67,19 @@ TEST(ClustersPart, holdsTheHierarchiesOfAllMeshes)
     EXPECT_EQ(view->container().find(formats::kChunkDeformation, 0), nullptr);
 }
 
-TEST(ClustersPart, saysWhatIsWrongWithItsInput)
+TEST(ClustersPart, doesNotAppearWhereTheObserverFails)
 {
     const test::TemporaryFolder folder;
-    clusters::BuildCounts counts;
-    const Status missing =
-        clusters::writeClustersPart(folder.file("no.part"), folder.file("out.part"), {}, counts);
-    ASSERT_FALSE(missing.ok());
-    EXPECT_EQ(missing.error().issue, Issue::input_missing);
-    EXPECT_FALSE(std::filesystem::exists(folder.file("out.part")));
+    writeImportPart(folder.file("import.part"), {shapes::rock(8, 0.3f)});
+    const auto import_part = formats::ContainerReader::open(folder.file("import.part"));
+    ASSERT_TRUE(import_part.ok());
+    const auto fails = [](uint32_t, const mesh::SourceMesh&, const clusters::Hierarchy&) -> Status {
+        return Error{Issue::usage, "", "", "no such level"};
+    };
+    const Status status = clusters::writeClustersPart(*import_part, folder.file("out.part"), {}, fails);
+    ASSERT_FALSE(status.ok());
+    EXPECT_EQ(status.error().detail, "no such level");
+    EXPECT_EQ(folder.files(), std::set<std::string>{"import.part"});
 }
 
 } // namespace

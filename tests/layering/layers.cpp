@@ -19,13 +19,15 @@ struct Layer
     Folders may_include; ///< besides itself
 };
 
-// The first line that a path starts with holds. A folder of cook/ that is not named sees formats and cook/mesh only.
+// The first line that a path starts with holds. A folder of cook/ that is not named sees formats, cook/tools and
+// cook/mesh only.
 const std::vector<Layer>& layers()
 {
     static const std::vector<Layer> list = {
         {"formats/", {}},
+        {"cook/tools/", {"formats/"}},
         {"cook/mesh/", {"formats/"}},
-        {"cook/", {"formats/", "cook/mesh/"}},
+        {"cook/", {"formats/", "cook/tools/", "cook/mesh/"}},
         // extract draws the cut that the runtime would draw
         {"pipelines/command/", {"formats/", "cook/", "pipelines/", "runtime/pack/"}},
         {"pipelines/", {"formats/", "cook/", "pipelines/"}},
