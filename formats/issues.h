@@ -74,6 +74,11 @@ enum class IssueClass : uint8_t
     X(dropped, 1400, warning, "a part of the source is not kept", "")                                        \
     X(degraded, 1401, warning, "a part of the source is drawn in a simpler way", "")                         \
     X(repaired, 1402, warning, "a part of the source was repaired", "")                                      \
+    X(profile_syntax, 1500, malformed, "a profile is not valid TOML",                                        \
+      "see https://toml.io for how TOML is written")                                                         \
+    X(profile_key, 1501, malformed, "a profile has a key that is not known", "check its spelling")           \
+    X(profile_value, 1502, malformed, "a value of a profile is not allowed",                                 \
+      "correct the value in the profile")                                                                    \
     X(container_truncated, 2000, malformed, "the file is too short", "cook the asset again")                 \
     X(container_magic, 2001, malformed, "the file is not a Hearth container", "name a .hearth file")         \
     X(container_version, 2002, malformed, "the file was written by another major version",                   \

@@ -2,12 +2,14 @@
 #include "cook/clusters/bounds.h"
 #include "cook/clusters/grouping.h"
 #include "cook/clusters/hierarchy.h"
+#include "cook/clusters/level_plan.h"
 #include "cook/clusters/pages.h"
 #include "cook/clusters/reduce.h"
 #include "cook/clusters/split.h"
 #include "formats/assert.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include <tbb/parallel_for.h>
@@ -24,7 +26,8 @@ using namespace formats;
 struct BuiltGroup
 {
     Sphere sphere;
-    float error = 0;       ///< infinity for a root
+    float distance = 0;    ///< bound of the distance of what replaces it to the source
+    float error = 0;       ///< the distance as it counts for the cut; infinity for a root
     ClusterStore clusters; ///< what replaces it, until the next level has taken it
     bool stuck = false;
     bool retried = false;
@@ -38,6 +41,7 @@ struct Level
     std::vector<uint8_t> retries;        ///< for each cluster, how often it was passed on unchanged
     Groups groups;
     uint32_t first_group = 0; ///< number of its first group
+    uint64_t drawn_below = 0; ///< triangles of the roots of finer levels
     std::vector<BuiltGroup> built;
 };
 
@@ -82,48 +86,109 @@ Sphere groupSphere(const Build& build, const Level& level, std::span<const uint3
     return {sphere.center, roundUp(sphere.radius * kMonotoneSlack)};
 }
 
-float largestError(const Build& build, const Level& level, std::span<const uint32_t> members)
+/// The largest value that the groups have which the members were made from.
+float largestOf(const Build& build, const Level& level, std::span<const uint32_t> members,
+                float BuiltGroup::*value)
 {
-    float error = 0;
+    float largest = 0;
     for (const uint32_t member : members)
         if (level.refined_group[member] != kNone)
-            error = std::max(error, build.group(level.refined_group[member]).error);
-    return error;
+            largest = std::max(largest, build.group(level.refined_group[member]).*value);
+    return largest;
+}
+
+/// Pass a stuck group on unchanged, if it has not been tried too often.
+void passOn(const Build& build, const Level& level, std::span<const uint32_t> members, BuiltGroup& group)
+{
+    const auto tries =
+        std::min_element(members.begin(), members.end(),
+                         [&](uint32_t a, uint32_t b) { return level.retries[a] < level.retries[b]; });
+    const bool alone = level.store.shapes.size() == members.size();
+    if (alone || level.retries[*tries] >= build.config.max_retries)
+    {
+        group.stuck = !alone;
+        return;
+    }
+    group.retried = true;
+    group.distance = largestOf(build, level, members, &BuiltGroup::distance);
+    group.error = roundUp(largestOf(build, level, members, &BuiltGroup::error) * kMonotoneSlack);
+    for (const uint32_t member : members)
+        group.clusters.appendCluster(level.store, level.store.shapes[member]);
 }
 
 /// Simplify a group, or decide what to do with one that is stuck: pass it on, or leave it as a root.
 BuiltGroup buildGroup(const Build& build, const Level& level, std::span<const uint32_t> members,
-                      std::span<const uint8_t> locked)
+                      std::span<const uint8_t> locked, const GroupGoal& goal)
 {
     BuiltGroup group;
     group.sphere = groupSphere(build, level, members);
     group.error = std::numeric_limits<float>::infinity();
-    const bool alone = level.store.shapes.size() == members.size();
-    if (alone && members.size() == 1)
+    if (level.store.shapes.size() == 1)
         return group;
 
-    const float members_error = largestError(build, level, members);
-    Reduced reduced = reduceGroup(build.mesh, level.store, members, locked, members_error, build.config);
-    if (reduced.progressed)
+    const float members_distance = largestOf(build, level, members, &BuiltGroup::distance);
+    const float members_error = largestOf(build, level, members, &BuiltGroup::error);
+    Reduced reduced =
+        reduceGroup(build.mesh, level.store, members, locked, members_distance, goal, build.config);
+    const float error = std::max(roundUp(double{reduced.distance} * double{goal.error_weight}),
+                                 roundUp(members_error * kMonotoneSlack));
+    // an error beyond the floats cannot be stored: what it belongs to is a root
+    if (!reduced.progressed || error >= std::numeric_limits<float>::max())
     {
-        group.error = reduced.error;
-        group.clusters = std::move(reduced.clusters);
-        group.outcome = std::move(reduced);
+        passOn(build, level, members, group);
         return group;
     }
-    const auto tries =
-        std::min_element(members.begin(), members.end(),
-                         [&](uint32_t a, uint32_t b) { return level.retries[a] < level.retries[b]; });
-    if (alone || level.retries[*tries] >= build.config.max_retries)
-    {
-        group.stuck = !alone;
-        return group;
-    }
-    group.retried = true;
-    group.error = roundUp(members_error * kMonotoneSlack);
-    for (const uint32_t member : members)
-        group.clusters.appendCluster(level.store, level.store.shapes[member]);
+    group.distance = reduced.distance;
+    group.error = error;
+    group.clusters = std::move(reduced.clusters);
+    group.outcome = std::move(reduced);
     return group;
+}
+
+size_t trianglesOf(const ClusterStore& store)
+{
+    size_t count = 0;
+    for (const ClusterShape& shape : store.shapes)
+        count += shape.triangle_count;
+    return count;
+}
+
+/// Triangles that are drawn in place of each group of the level, or that it has itself where it is a root.
+std::vector<size_t> keptTriangles(const Level& level)
+{
+    std::vector<size_t> kept;
+    for (size_t g = 0; g < level.built.size(); ++g)
+    {
+        kept.push_back(trianglesOf(level.built[g].clusters));
+        if (std::isinf(level.built[g].error))
+            for (const uint32_t member : level.groups.membersOf(g))
+                kept.back() += level.store.shapes[member].triangle_count;
+    }
+    return kept;
+}
+
+/// Build the level's groups as the merge coefficient asks; where a target is not met because some groups could not do
+/// their share, the others do more.
+void buildGroups(const Build& build, Level& level, std::span<const uint8_t> locked)
+{
+    // what the first correction asks is met but for what groups cannot do; each costs the level once more
+    constexpr int kMaxCorrections = 3;
+    LevelPlan plan = planLevel(build.config.reduction, static_cast<uint32_t>(build.levels.size() - 1),
+                               level.store, level.groups, level.drawn_below);
+    std::vector<uint8_t> wanted(level.groups.count(), 1);
+    level.built.resize(level.groups.count());
+    for (int correction = 0; correction <= kMaxCorrections; ++correction)
+    {
+        tbb::parallel_for(size_t{0}, level.groups.count(),
+                          [&](size_t g)
+                          {
+                              if (wanted[g] != 0)
+                                  level.built[g] = buildGroup(build, level, level.groups.membersOf(g), locked,
+                                                              plan.goals[g]);
+                          });
+        if (!correctPlan(plan, keptTriangles(level), wanted))
+            return;
+    }
 }
 
 /// Positions of roots can never move again: what lies beside them is drawn together with them.
@@ -141,6 +206,7 @@ Level nextLevel(Level& level)
 {
     Level next;
     next.first_group = level.first_group + static_cast<uint32_t>(level.groups.count());
+    next.drawn_below = level.drawn_below;
     for (uint32_t g = 0; g < level.groups.count(); ++g)
     {
         BuiltGroup& group = level.built[g];
@@ -153,6 +219,9 @@ Level nextLevel(Level& level)
         }
         next.store.append(group.clusters);
         group.clusters = {};
+        if (std::isinf(group.error))
+            for (const uint32_t member : members)
+                next.drawn_below += level.store.shapes[member].triangle_count;
     }
     return next;
 }
@@ -172,10 +241,7 @@ void buildLevels(Build& build)
         Level& level = build.levels.back();
         level.groups = groupClusters(build.mesh, level.store, locked, build.config);
         locked = lockSharedPositions(build.mesh, level.store, level.groups, pinned);
-        level.built.resize(level.groups.count());
-        tbb::parallel_for(size_t{0}, level.groups.count(),
-                          [&](size_t g)
-                          { level.built[g] = buildGroup(build, level, level.groups.membersOf(g), locked); });
+        buildGroups(build, level, locked);
         pinRoots(build.mesh, level, pinned);
         Level next = nextLevel(level);
         if (next.store.shapes.empty())

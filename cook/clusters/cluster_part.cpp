@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/clusters/cluster_part.h"
 
-#include "formats/scene.h"
+#include "formats/pack_view.h"
 
 #include <limits>
 
@@ -101,8 +101,17 @@ uint32_t meshCount(const ContainerReader& part)
     return count;
 }
 
-Status writeClustersPart(const ContainerReader& part, const std::string& output_path, const Config& config,
-                         const MeshObserver& observe)
+Result<std::vector<std::string>> materialNames(const ContainerReader& part)
+{
+    HEARTH_ASSIGN_OR_RETURN(const PackView view, PackView::read(part));
+    std::vector<std::string> names;
+    for (const MaterialRecord& material : view.materials())
+        names.emplace_back(view.text(material.name));
+    return names;
+}
+
+Status writeClustersPart(const ContainerReader& part, const std::string& output_path,
+                         const MeshConfigurer& configure, const MeshObserver& observe)
 {
     HEARTH_ASSIGN_OR_RETURN(ContainerWriter writer,
                             ContainerWriter::create(output_path, ContainerKind::part));
@@ -112,7 +121,7 @@ Status writeClustersPart(const ContainerReader& part, const std::string& output_
     for (uint32_t i = 0; i < mesh_count; ++i)
     {
         HEARTH_ASSIGN_OR_RETURN(const mesh::SourceMesh source, mesh::readSourceMesh(part, i));
-        Hierarchy hierarchy = buildHierarchy(source, config);
+        Hierarchy hierarchy = buildHierarchy(source, configure ? configure(source) : Config{});
         if (observe)
             HEARTH_TRY(observe(i, source, hierarchy));
         const uint64_t page_offset = writer.chunkSize();

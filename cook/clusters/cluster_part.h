@@ -7,9 +7,13 @@
 
 #include <functional>
 #include <string>
+#include <vector>
 
 namespace hearth::clusters
 {
+
+/// How a mesh of the part is built.
+using MeshConfigurer = std::function<Config(const mesh::SourceMesh& source)>;
 
 /// Sees each mesh when it has been built, before it is written; an error ends the work.
 using MeshObserver =
@@ -18,11 +22,14 @@ using MeshObserver =
 /// The meshes that an import part has.
 uint32_t meshCount(const formats::ContainerReader& part);
 
+/// The names of its materials, in their order. errors: those of PackView.
+Result<std::vector<std::string>> materialNames(const formats::ContainerReader& part);
+
 /// Build the hierarchies of all meshes of an import part and write them to `output_path`.
 ///
-/// observe   may be empty
-/// errors    those of readSourceMesh, ContainerWriter and `observe`; input_too_large where an index would not fit
+/// configure, observe   may be empty
+/// errors               those of readSourceMesh, ContainerWriter and `observe`; input_too_large where an index would not fit
 Status writeClustersPart(const formats::ContainerReader& part, const std::string& output_path,
-                         const Config& config, const MeshObserver& observe);
+                         const MeshConfigurer& configure, const MeshObserver& observe);
 
 } // namespace hearth::clusters

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/clusters/cluster_part.h"
 #include "cook/clusters/debug_mesh.h"
+#include "cook/clusters/profile.h"
 #include "cook/clusters/source_part.h"
 #include "cook/clusters/statistics.h"
 #include "cook/tools/whole_file.h"
@@ -11,6 +12,7 @@
 
 #include <chrono>
 #include <cstdio>
+#include <fmt/format.h>
 #include <memory>
 #include <string>
 
@@ -26,6 +28,7 @@ struct Arguments
     std::string input;
     std::string output;
     size_t jobs = 0;
+    std::string profile;
     std::string statistics;
     bool statistics_with_times = false;
     uint32_t debug_mesh = 0;
@@ -39,17 +42,30 @@ int fail(const Error& error)
     return exitCode(error);
 }
 
+void printWarning(const Arguments& arguments, std::string detail)
+{
+    const Error warning{Issue::degraded, arguments.input, "", std::move(detail)};
+    std::fprintf(stderr, "%s\n", formatMessage(warning).c_str());
+}
+
 void printWarnings(const Arguments& arguments, std::span<const clusters::MeshStatistics> meshes)
 {
     uint64_t stuck_groups = 0;
     for (const clusters::MeshStatistics& mesh : meshes)
+    {
         stuck_groups += mesh.counts.stuck_groups;
-    if (stuck_groups == 0)
-        return;
-    const Error warning{Issue::degraded, arguments.input, "",
-                        std::to_string(stuck_groups) +
-                            " groups of clusters cannot be simplified further and are drawn at any distance"};
-    std::fprintf(stderr, "%s\n", formatMessage(warning).c_str());
+        for (const clusters::TargetStatistics& target : mesh.targets)
+            if (!target.met())
+                printWarning(arguments,
+                             fmt::format("mesh {} '{}' has no {} triangles at level {}, but {}", mesh.index,
+                                         mesh.name, target.wanted, target.level,
+                                         target.triangles ? std::to_string(*target.triangles)
+                                                          : fmt::format("{} levels", mesh.levels.size())));
+    }
+    if (stuck_groups != 0)
+        printWarning(arguments,
+                     std::to_string(stuck_groups) +
+                         " groups of clusters cannot be simplified further and are drawn at any distance");
 }
 
 /// Errors: usage where the options ask for what the part does not have.
@@ -79,15 +95,23 @@ Status writeStatistics(const Arguments& arguments, std::span<const clusters::Mes
     return file.finish();
 }
 
-Status cook(const Arguments& arguments, const formats::ContainerReader& part)
+Status cook(const Arguments& arguments, const clusters::Profile& profile,
+            const formats::ContainerReader& part)
 {
     HEARTH_TRY(checkArguments(arguments, part));
+    HEARTH_ASSIGN_OR_RETURN(const std::vector<std::string> materials, clusters::materialNames(part));
+    const auto configure = [&](const mesh::SourceMesh& source)
+    {
+        clusters::Config config;
+        config.reduction = clusters::reductionOf(profile, source.name, materials);
+        return config;
+    };
     std::vector<clusters::MeshStatistics> meshes;
     auto start = std::chrono::steady_clock::now();
     const auto observe = [&](uint32_t index, const mesh::SourceMesh& source,
                              const clusters::Hierarchy& hierarchy) -> Status
     {
-        meshes.push_back(clusters::statisticsOf(hierarchy, index, source.name));
+        meshes.push_back(clusters::statisticsOf(hierarchy, configure(source), index, source.name));
         if (arguments.statistics_with_times)
             meshes.back().seconds =
                 std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -96,9 +120,14 @@ Status cook(const Arguments& arguments, const formats::ContainerReader& part)
         start = std::chrono::steady_clock::now();
         return success();
     };
-    HEARTH_TRY(clusters::writeClustersPart(part, arguments.output, {}, observe));
+    HEARTH_TRY(clusters::writeClustersPart(part, arguments.output, configure, observe));
     printWarnings(arguments, meshes);
     return arguments.statistics.empty() ? success() : writeStatistics(arguments, meshes);
+}
+
+Result<clusters::Profile> profileOf(const Arguments& arguments)
+{
+    return arguments.profile.empty() ? clusters::Profile{} : clusters::readProfile(arguments.profile);
 }
 
 int run(const Arguments& arguments)
@@ -107,10 +136,13 @@ int run(const Arguments& arguments)
     if (arguments.jobs > 0)
         limit = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism,
                                                       arguments.jobs);
+    const Result<clusters::Profile> profile = profileOf(arguments);
+    if (!profile.ok())
+        return fail(profile.error());
     const clusters::SourcePart source = clusters::openSourcePart(arguments.input, arguments.output);
     if (!source.part)
         return source.exit_code;
-    const Status status = cook(arguments, *source.part);
+    const Status status = cook(arguments, *profile, *source.part);
     return status.ok() ? 0 : fail(status.error());
 }
 
@@ -122,6 +154,8 @@ int program(int argc, char** argv)
         ->required();
     app.add_option("-o,--output", arguments.output, "clusters part to write")->required();
     app.add_option("-j,--jobs", arguments.jobs, "threads to use; the result does not depend on it");
+    app.add_option("--profile", arguments.profile,
+                   "TOML file that says how far each level is simplified; see cook/clusters/README.md");
     auto* statistics = app.add_option("--stats", arguments.statistics,
                                       "write what became of each mesh as JSON; - is standard output");
     app.add_flag("--stats-times", arguments.statistics_with_times,

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
+#include "cook/clusters/reduction.h"
 #include "cook/mesh/source_mesh.h"
 #include "formats/mesh.h"
 
@@ -18,12 +19,8 @@ struct Config
     uint32_t group_target_clusters = 16;
     uint32_t group_max_clusters = 24;
 
-    /// Triangles that a group keeps, as part of what it has.
-    float simplify_ratio = 0.5f;
-
-    /// A group that keeps more than this part of its triangles is stuck: halving it again would cost more memory
-    /// than it saves drawing.
-    float stuck_ratio = 0.85f;
+    /// How far each level is simplified, and how much its error counts.
+    Reduction reduction;
 
     /// How often a stuck group passes unchanged to the next level, to be tried with other neighbours, before it
     /// stays as a root. Each time costs a copy of its geometry.

@@ -9,24 +9,12 @@
 #include "cook/clusters/split.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 
 namespace hearth::clusters
 {
 
 namespace
 {
-
-using formats::kClusterMaxTriangles;
-
-/// Half of the triangles, as full clusters where that is at least one.
-size_t targetTriangles(size_t triangle_count, const Config& config)
-{
-    const auto part = static_cast<size_t>(static_cast<float>(triangle_count) * config.simplify_ratio);
-    return std::max<size_t>(
-        1, part >= kClusterMaxTriangles ? part / kClusterMaxTriangles * kClusterMaxTriangles : part);
-}
 
 /// Cut what is left into clusters, material by material in order of their numbers.
 ClusterStore splitSimplified(const GroupMesh& group, const Simplified& simplified)
@@ -69,24 +57,25 @@ ClusterStore splitSimplified(const GroupMesh& group, const Simplified& simplifie
 } // namespace
 
 Reduced reduceGroup(const PreparedMesh& mesh, const ClusterStore& store, std::span<const uint32_t> members,
-                    std::span<const uint8_t> locked, float members_error, const Config& config)
+                    std::span<const uint8_t> locked, float members_distance, const GroupGoal& goal,
+                    const Config& config)
 {
     Reduced reduced;
     const GroupMesh group = gatherGroup(mesh, store, members, locked, config);
-    const Simplified simplified = simplifyGroup(group, targetTriangles(group.triangleCount(), config));
+    const Simplified simplified = simplifyGroup(group, goal.triangles);
     reduced.permissive = simplified.permissive;
     reduced.pruned = simplified.pruned;
-    if (static_cast<float>(simplified.triangleCount()) >
-        config.stuck_ratio * static_cast<float>(group.triangleCount()))
+    reduced.triangle_count = simplified.triangleCount();
+    if (static_cast<float>(reduced.triangle_count) >
+        goal.stuck_ratio * static_cast<float>(group.triangleCount()))
         return reduced;
     reduced.clusters = splitSimplified(group, simplified);
-    if (reduced.clusters.shapes.size() >= members.size())
+    if (reduced.clusters.shapes.size() >= members.size() + (goal.exact ? 1 : 0))
         return reduced;
-    const Deviation deviation = boundDeviation(group, simplified, double{members_error} / group.scale);
+    const Deviation deviation = boundDeviation(group, simplified, double{members_distance} / group.scale);
     reduced.loose_pieces = deviation.loose_pieces;
-    reduced.error = roundUp((members_error + deviation.distance * group.scale) * kMonotoneSlack);
-    // an error beyond the floats cannot be stored: what it belongs to is a root
-    reduced.progressed = reduced.error < std::numeric_limits<float>::max();
+    reduced.distance = roundUp((members_distance + deviation.distance * group.scale) * kMonotoneSlack);
+    reduced.progressed = true;
     return reduced;
 }
 

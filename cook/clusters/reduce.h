@@ -1,9 +1,10 @@
-// What becomes of one group: clusters with half the triangles, and the error of drawing them instead.
+// What becomes of one group: clusters with fewer triangles, and the error of drawing them instead.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
 #include "cook/clusters/cluster.h"
 #include "cook/clusters/hierarchy.h"
+#include "cook/clusters/level_plan.h"
 
 #include <cstdint>
 #include <span>
@@ -15,7 +16,8 @@ struct Reduced
 {
     bool progressed = false; ///< false: the group is stuck and the rest says nothing
     ClusterStore clusters;
-    float error = 0; ///< object space: of the clusters against the source
+    size_t triangle_count = 0;
+    float distance = 0; ///< object space: bound of the clusters' distance to the source
     bool permissive = false;
     bool pruned = false;
     uint64_t loose_pieces = 0;
@@ -23,10 +25,11 @@ struct Reduced
 
 /// Gather, simplify, measure and split a group.
 ///
-/// members         clusters of `store`
-/// locked          [position_count] positions that must stay
-/// members_error   largest error of the members against the source
+/// members            clusters of `store`
+/// locked             [position_count] positions that must stay
+/// members_distance   largest distance of the members to the source
 Reduced reduceGroup(const PreparedMesh& mesh, const ClusterStore& store, std::span<const uint32_t> members,
-                    std::span<const uint8_t> locked, float members_error, const Config& config);
+                    std::span<const uint8_t> locked, float members_distance, const GroupGoal& goal,
+                    const Config& config);
 
 } // namespace hearth::clusters

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/clusters/statistics.h"
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 namespace hearth::clusters
@@ -26,6 +27,19 @@ LevelStatistics levelStatistics(const Hierarchy& hierarchy, const LevelRecord& l
     return statistics;
 }
 
+/// What is drawn at a level: its clusters, and the roots of finer levels.
+TargetStatistics targetStatistics(const Hierarchy& hierarchy, const LevelTarget& target)
+{
+    TargetStatistics statistics{target.level, target.triangles, std::nullopt};
+    if (target.level >= hierarchy.levels.size())
+        return statistics;
+    statistics.triangles = hierarchy.levels[target.level].triangle_count;
+    for (const ClusterRecord& cluster : hierarchy.clusters)
+        if (cluster.level < target.level && std::isinf(hierarchy.groups[cluster.group].error))
+            *statistics.triangles += cluster.triangle_count;
+    return statistics;
+}
+
 double ratio(uint64_t part, uint64_t whole)
 {
     return whole == 0 ? 0.0 : static_cast<double>(part) / static_cast<double>(whole);
@@ -38,6 +52,14 @@ Json levelJson(const LevelStatistics& level)
             {"fill", level.fill},
             {"max_error", level.max_error},
             {"mean_error", level.mean_error}};
+}
+
+Json targetJson(const TargetStatistics& target)
+{
+    Json json{{"level", target.level}, {"wanted", target.wanted}, {"triangles", nullptr}};
+    if (target.triangles)
+        json["triangles"] = *target.triangles;
+    return json;
 }
 
 Json countsJson(const BuildCounts& counts)
@@ -71,6 +93,10 @@ Json meshJson(const MeshStatistics& mesh)
               {"bytes", bytesJson(mesh)}};
     for (const LevelStatistics& level : mesh.levels)
         json["levels"].push_back(levelJson(level));
+    if (!mesh.targets.empty())
+        json["targets"] = Json::array();
+    for (const TargetStatistics& target : mesh.targets)
+        json["targets"].push_back(targetJson(target));
     if (mesh.seconds)
         json["seconds"] = *mesh.seconds;
     return json;
@@ -78,7 +104,14 @@ Json meshJson(const MeshStatistics& mesh)
 
 } // namespace
 
-MeshStatistics statisticsOf(const Hierarchy& hierarchy, uint32_t index, std::string name)
+bool TargetStatistics::met() const
+{
+    return triangles && std::abs(static_cast<double>(*triangles) - static_cast<double>(wanted)) <=
+                            0.03 * static_cast<double>(wanted);
+}
+
+MeshStatistics statisticsOf(const Hierarchy& hierarchy, const Config& config, uint32_t index,
+                            std::string name)
 {
     MeshStatistics statistics;
     statistics.index = index;
@@ -96,6 +129,8 @@ MeshStatistics statisticsOf(const Hierarchy& hierarchy, uint32_t index, std::str
     }
     for (const LevelRecord& level : hierarchy.levels)
         statistics.levels.push_back(levelStatistics(hierarchy, level));
+    for (const LevelTarget& target : config.reduction.targets)
+        statistics.targets.push_back(targetStatistics(hierarchy, target));
     statistics.counts = hierarchy.counts;
     return statistics;
 }

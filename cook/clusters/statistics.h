@@ -22,6 +22,15 @@ struct LevelStatistics
     double mean_error = 0; ///< over the triangles
 };
 
+/// What became of a LevelTarget.
+struct TargetStatistics
+{
+    uint32_t level = 0;
+    uint64_t wanted = 0;
+    std::optional<uint64_t> triangles; ///< nothing where the hierarchy has no such level
+    bool met() const;                  ///< within 3 %, what users are promised
+};
+
 struct MeshStatistics
 {
     uint32_t index = 0;
@@ -35,12 +44,15 @@ struct MeshStatistics
     uint64_t page_bytes = 0;        ///< decoded
     uint64_t stored_page_bytes = 0; ///< as they lie in the file
     std::vector<LevelStatistics> levels;
+    std::vector<TargetStatistics> targets;
     BuildCounts counts;
     std::optional<double>
         seconds; ///< that building took; what differs from run to run is only there on request
 };
 
-MeshStatistics statisticsOf(const Hierarchy& hierarchy, uint32_t index, std::string name);
+/// `config` is what the hierarchy was built with.
+MeshStatistics statisticsOf(const Hierarchy& hierarchy, const Config& config, uint32_t index,
+                            std::string name);
 
 /// Schema "hearth.clusters/1". `source` is the name of what was read.
 std::string statisticsJson(const std::string& source, std::span<const MeshStatistics> meshes);

@@ -71,6 +71,8 @@ void addCook(CLI::App& app, Work& run)
     verb->add_option("-j,--jobs", options->jobs, "cookers that run at once")
         ->check(CLI::Range(1, 1024))
         ->capture_default_str();
+    verb->add_option("--profile", options->profile,
+                     "TOML file that says how far each level of detail is simplified");
     verb->add_option("--report", options->report_file, "write a report as JSON");
     auto* quiet = verb->add_flag("-q,--quiet", options->quiet, "print errors only");
     verb->add_flag("-v,--verbose", options->verbose, "print the command line of every stage")

@@ -44,8 +44,9 @@ using Plan = std::vector<Stage>;
 // ---- plan
 
 void addSource(Plan& plan, const std::string& programs, const std::string& folder, size_t index,
-               const std::string& source)
+               const CookOptions& options)
 {
+    const std::string& source = options.sources[index];
     const auto part = [&](const char* kind) { return fmt::format("{}/{}.{}.part", folder, index, kind); };
     const size_t import_stage = plan.size();
     plan.push_back({"import",
@@ -61,6 +62,8 @@ void addSource(Plan& plan, const std::string& programs, const std::string& folde
                         part(kind),
                         {import_stage},
                         source});
+    if (!options.profile.empty())
+        plan.back().command.insert(plan.back().command.end(), {"--profile", options.profile});
 }
 
 void addLink(Plan& plan, const std::string& programs, const std::string& packed, const CookOptions& options)
@@ -306,7 +309,7 @@ std::optional<Failure> cookInPrivate(const CookOptions& options, CookOutcome& ou
     const std::string programs = programFolder();
     const std::string packed = beside->path() + "/pack.hearth";
     for (size_t i = 0; i < options.sources.size(); ++i)
-        addSource(plan, programs, parts->path(), i, options.sources[i]);
+        addSource(plan, programs, parts->path(), i, options);
     addLink(plan, programs, packed, options);
     if (auto failure = runPlan(plan, children, options, outcome))
         return failure;

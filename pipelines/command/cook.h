@@ -19,6 +19,7 @@ struct CookOptions
     /// the memory of another mesh.
     unsigned jobs = 2;
     Verbosity verbosity = Verbosity::normal;
+    std::string profile;     ///< TOML file that the cookers read; empty: none
     std::string report_file; ///< empty: none
 };
 

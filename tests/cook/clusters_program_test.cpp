@@ -108,6 +108,27 @@ TEST_F(ClustersProgram, writesStatisticsThatDoNotDifferFromRunToRun)
     EXPECT_EQ(bytes.at("pages_per_triangle"), bytes.at("pages").get<double>() / 3072);
 }
 
+TEST_F(ClustersProgram, followsAProfile)
+{
+    sandbox_.write("house.toml",
+                   "[[clusters.mesh]]\nname = 'rock*'\n"
+                   "targets = [{ level = 1, triangles = 2000 }, { level = 2, triangles = 5 }]\n");
+    const test::ProgramEnd end =
+        run({"rock.obj", "-o", "rock.part", "--profile", "house.toml", "--stats", "-"});
+    ASSERT_EQ(end.exit_code, 0) << end.err;
+    const Json targets = Json::parse(end.out).at("meshes").at(0).at("targets");
+    EXPECT_NEAR(targets.at(0).at("triangles").get<double>(), 2000, 60);
+    EXPECT_EQ(targets.at(1).at("wanted"), 5);
+    EXPECT_NE(end.err.find("mesh 0 'rock' has no 5 triangles at level 2, but"), std::string::npos) << end.err;
+    EXPECT_EQ(end.err.find("at level 1"), std::string::npos) << end.err;
+
+    sandbox_.write("bad.toml", "[clusters]\nlevels = [{ keep = 2 }]\n");
+    const test::ProgramEnd bad = run({"rock.obj", "-o", "bad.part", "--profile", "bad.toml"});
+    EXPECT_EQ(bad.exit_code, 65);
+    EXPECT_NE(bad.err.find("bad.toml|line 2, clusters.levels[0].keep: error:"), std::string::npos) << bad.err;
+    EXPECT_FALSE(sandbox_.has("bad.part"));
+}
+
 TEST_F(ClustersProgram, addsTimesOnRequest)
 {
     const test::ProgramEnd end = run({"rock.obj", "-o", "rock.part", "--stats", "-", "--stats-times"});

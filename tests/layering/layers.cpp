@@ -71,7 +71,7 @@ const std::vector<Library>& libraries()
         {"CLI/", {"cook/", "pipelines/", "sample_assets/"}},
         {"fmt/", {"cook/", "pipelines/", "sample_assets/"}},
         {"spdlog/", {"cook/", "pipelines/"}},
-        {"toml++/", {"pipelines/"}},
+        {"toml++/", {"cook/", "pipelines/"}},
         {"tbb/", {"cook/", "pipelines/", "sample_assets/"}, true},
         {"embree3/", {"cook/"}},
         {"CGAL/", {"cook/"}},

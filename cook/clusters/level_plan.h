@@ -1,0 +1,49 @@
+// How many triangles each group of a level shall keep, and how its error counts: the merge coefficient, group by group.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "cook/clusters/cluster.h"
+#include "cook/clusters/grouping.h"
+#include "cook/clusters/reduction.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace hearth::clusters
+{
+
+/// What a group shall become.
+struct GroupGoal
+{
+    size_t triangles = 1;
+    size_t of = 1; ///< triangles that it has
+    float error_weight = 1;
+    /// A group that keeps more than this part of its triangles is stuck.
+    float stuck_ratio = 1;
+    /// The count matters more than full clusters: a group may keep as many clusters as it has.
+    bool exact = false;
+};
+
+struct LevelPlan
+{
+    std::vector<GroupGoal> goals; ///< for each group
+    uint64_t wanted = 0; ///< triangles of all groups together where the next level is a target's, else 0
+};
+
+/// The goals of the groups of level `level`. Without a target ahead, what the curves say, as full clusters where that
+/// is at least one. With one, what is left to do is spread evenly over the levels up to it; at its own the counts
+/// are exact.
+///
+/// drawn_below  triangles of groups of finer levels that stay: they count for the targets
+LevelPlan planLevel(const Reduction& reduction, uint32_t level, const ClusterStore& store,
+                    const Groups& groups, uint64_t drawn_below);
+
+/// What a target asks of the other groups after some kept more than they should. False where the counts are near
+/// enough, or nothing is left to correct.
+///
+/// kept     triangles that each group kept
+/// changed  gets 1 for each group whose goal is new
+bool correctPlan(LevelPlan& plan, std::span<const size_t> kept, std::vector<uint8_t>& changed);
+
+} // namespace hearth::clusters
