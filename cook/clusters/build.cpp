@@ -48,7 +48,7 @@ struct Level
 /// The levels so far, and lookups by group number.
 struct Build
 {
-    const PreparedMesh& mesh;
+    PreparedMesh mesh;
     const Config& config;
     std::vector<Level> levels;
 
@@ -80,17 +80,17 @@ Sphere groupSphere(const Build& build, const Level& level, std::span<const uint3
     if (spheres.empty())
         for (const uint32_t member : members)
             for (const uint32_t vertex : level.store.verticesOf(level.store.shapes[member]))
-                points.push_back(build.mesh.source->positions[vertex]);
+                points.push_back(build.mesh.vertices.positions[vertex]);
     const Sphere around_points = sphereOfPoints(points);
     const Sphere sphere = spheres.empty() ? around_points : sphereOfSpheres(spheres, around_points);
     return {sphere.center, roundUp(sphere.radius * kMonotoneSlack)};
 }
 
-/// The largest value that the groups have which the members were made from.
+/// The largest value that the groups have which the members were made from; at least what the grid costs.
 float largestOf(const Build& build, const Level& level, std::span<const uint32_t> members,
                 float BuiltGroup::*value)
 {
-    float largest = 0;
+    float largest = build.mesh.grid.error;
     for (const uint32_t member : members)
         if (level.refined_group[member] != kNone)
             largest = std::max(largest, build.group(level.refined_group[member]).*value);
@@ -138,6 +138,7 @@ BuiltGroup buildGroup(const Build& build, const Level& level, std::span<const ui
         passOn(build, level, members, group);
         return group;
     }
+    growToHold(group.sphere, reduced.made.positions);
     group.distance = reduced.distance;
     group.error = error;
     group.clusters = std::move(reduced.clusters);
@@ -201,8 +202,23 @@ void pinRoots(const PreparedMesh& mesh, const Level& level, std::vector<uint8_t>
                     pinned[mesh.position_of_vertex[vertex]] = 1;
 }
 
+/// Take over the vertices that a group has made: its clusters name them as the mesh does from then on.
+void takeVertices(PreparedMesh& mesh, Reduced& outcome, ClusterStore& clusters)
+{
+    const auto first_vertex = static_cast<uint32_t>(mesh.vertices.vertexCount());
+    for (uint32_t& vertex : clusters.vertices)
+        if (vertex >= kMadeVertex)
+            vertex = vertex - kMadeVertex + first_vertex;
+    appendVertices(mesh.vertices, outcome.made);
+    for (const uint32_t position : outcome.made_positions)
+        mesh.position_of_vertex.push_back(mesh.position_count + position);
+    mesh.position_count += outcome.made_position_count;
+    outcome.made = {};
+    outcome.made_positions = {};
+}
+
 /// Collect what replaces the level's groups.
-Level nextLevel(Level& level)
+Level nextLevel(PreparedMesh& mesh, Level& level)
 {
     Level next;
     next.first_group = level.first_group + static_cast<uint32_t>(level.groups.count());
@@ -217,6 +233,7 @@ Level nextLevel(Level& level)
             const int tried = group.retried ? level.retries[members[i]] + 1 : 0;
             next.retries.push_back(static_cast<uint8_t>(tried));
         }
+        takeVertices(mesh, group.outcome, group.clusters);
         next.store.append(group.clusters);
         group.clusters = {};
         if (std::isinf(group.error))
@@ -243,7 +260,9 @@ void buildLevels(Build& build)
         locked = lockSharedPositions(build.mesh, level.store, level.groups, pinned);
         buildGroups(build, level, locked);
         pinRoots(build.mesh, level, pinned);
-        Level next = nextLevel(level);
+        Level next = nextLevel(build.mesh, level);
+        pinned.resize(build.mesh.position_count, 0);
+        locked.resize(build.mesh.position_count, 0);
         if (next.store.shapes.empty())
             return;
         build.levels.push_back(std::move(next));
@@ -270,7 +289,7 @@ ClusterRecord clusterRecord(const PreparedMesh& mesh, const ClusterStore& store,
     Box3 box;
     for (const uint32_t vertex : store.verticesOf(shape))
     {
-        points.push_back(mesh.source->positions[vertex]);
+        points.push_back(mesh.vertices.positions[vertex]);
         box.add(points.back());
     }
     std::vector<Float3> places;
@@ -388,21 +407,25 @@ void writeRecords(Build& build, Hierarchy& hierarchy)
     buildPages(build.mesh, store, shapes, hierarchy);
 }
 
-void fillMeshRecord(const mesh::SourceMesh& source, const PreparedMesh& prepared, Hierarchy& hierarchy)
+void fillSourceCounts(const mesh::SourceMesh& source, MeshRecord& mesh)
 {
-    MeshRecord& mesh = hierarchy.mesh;
-    mesh.attributes = prepared.attributes;
     mesh.source_faces = source.face_count;
     mesh.source_triangles = static_cast<uint32_t>(source.triangleCount());
     mesh.source_vertices = source.source_vertex_count;
+    mesh.skinned = source.joint_sets.empty() ? 0 : 1;
+    mesh.morph_target_count = static_cast<uint32_t>(source.morph_targets.size());
+}
+
+void fillMeshRecord(const PreparedMesh& prepared, Hierarchy& hierarchy)
+{
+    MeshRecord& mesh = hierarchy.mesh;
+    mesh.attributes = prepared.attributes;
     mesh.degenerate_triangles = prepared.degenerate_count;
     mesh.lod_count = static_cast<uint32_t>(hierarchy.levels.size());
     mesh.levels = {0, mesh.lod_count};
     mesh.groups = {0, static_cast<uint32_t>(hierarchy.groups.size())};
     mesh.clusters = {0, static_cast<uint32_t>(hierarchy.clusters.size())};
     mesh.pages = {0, static_cast<uint32_t>(hierarchy.pages.size())};
-    mesh.skinned = source.joint_sets.empty() ? 0 : 1;
-    mesh.morph_target_count = static_cast<uint32_t>(source.morph_targets.size());
     Box3 box;
     for (const ClusterRecord& cluster : hierarchy.clusters)
         box.add(Box3{cluster.box_min, cluster.box_max});
@@ -412,18 +435,18 @@ void fillMeshRecord(const mesh::SourceMesh& source, const PreparedMesh& prepared
 
 } // namespace
 
-Hierarchy buildHierarchy(const mesh::SourceMesh& source, const Config& config)
+Hierarchy buildHierarchy(mesh::SourceMesh source, const Config& config)
 {
     Hierarchy hierarchy;
-    const PreparedMesh prepared = prepareMesh(source);
-    if (prepared.triangleCount() > 0)
+    fillSourceCounts(source, hierarchy.mesh);
+    Build build{prepareMesh(std::move(source)), config, {}};
+    if (build.mesh.triangleCount() > 0)
     {
-        Build build{prepared, config, {}};
         buildLevels(build);
         countOutcomes(build, hierarchy.counts);
         writeRecords(build, hierarchy);
     }
-    fillMeshRecord(source, prepared, hierarchy);
+    fillMeshRecord(build.mesh, hierarchy);
     return hierarchy;
 }
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
+#include "cook/mesh/grid.h"
 #include "cook/mesh/source_mesh.h"
 #include "formats/mesh.h"
 
@@ -12,17 +13,19 @@
 namespace hearth::clusters
 {
 
-/// The triangles that are kept. A vertex is an index into the source's arrays (the first of equal ones); a position
-/// stands for all vertices at one place.
+/// The triangles that are kept, and the vertices of all levels. A vertex is an index into the arrays of `vertices`: first
+/// those of the source (the first of equal ones), then those that the levels made. A position stands for all vertices
+/// at one place.
 struct PreparedMesh
 {
-    const mesh::SourceMesh* source = nullptr;
+    mesh::SourceMesh vertices; ///< on the grid; without indices and materials
+    mesh::Grid grid;
     uint32_t attributes = 0;
     uint32_t degenerate_count = 0;
     uint32_t position_count = 0;
     std::vector<uint32_t> corners;            ///< three vertices for each triangle
     std::vector<uint32_t> materials;          ///< for each triangle
-    std::vector<uint32_t> position_of_vertex; ///< for each vertex of the source
+    std::vector<uint32_t> position_of_vertex; ///< for each vertex
 
     size_t triangleCount() const { return corners.size() / 3; }
 };
@@ -40,7 +43,7 @@ struct ClusterShape
 struct ClusterStore
 {
     std::vector<ClusterShape> shapes;
-    std::vector<uint32_t> vertices; ///< vertices of the source
+    std::vector<uint32_t> vertices; ///< of the prepared mesh
     std::vector<uint8_t> indices;
 
     std::span<const uint32_t> verticesOf(const ClusterShape& shape) const
@@ -59,7 +62,13 @@ struct ClusterStore
     void appendCluster(const ClusterStore& other, const ClusterShape& shape);
 };
 
-/// Weld, drop triangles without area, merge equal vertices.
-PreparedMesh prepareMesh(const mesh::SourceMesh& source);
+/// Append a copy of a vertex with its position and attributes.
+void appendVertex(mesh::SourceMesh& to, const mesh::SourceMesh& from, uint32_t vertex);
+
+/// Append all vertices of `from`, which has the same attributes.
+void appendVertices(mesh::SourceMesh& to, const mesh::SourceMesh& from);
+
+/// Move to the grid, weld, drop triangles without area and those that the grid takes an edge from, merge equal vertices.
+PreparedMesh prepareMesh(mesh::SourceMesh source);
 
 } // namespace hearth::clusters

@@ -120,14 +120,16 @@ Status writeClustersPart(const ContainerReader& part, const std::string& output_
     HEARTH_TRY(writer.beginChunk({.type = kChunkPages}, 1));
     for (uint32_t i = 0; i < mesh_count; ++i)
     {
-        HEARTH_ASSIGN_OR_RETURN(const mesh::SourceMesh source, mesh::readSourceMesh(part, i));
-        Hierarchy hierarchy = buildHierarchy(source, configure ? configure(source) : Config{});
+        HEARTH_ASSIGN_OR_RETURN(mesh::SourceMesh source, mesh::readSourceMesh(part, i));
+        const std::string name = source.name;
+        const Config config = configure ? configure(name) : Config{};
+        Hierarchy hierarchy = buildHierarchy(std::move(source), config);
         if (observe)
-            HEARTH_TRY(observe(i, source, hierarchy));
+            HEARTH_TRY(observe(i, name, config, hierarchy));
         const uint64_t page_offset = writer.chunkSize();
         HEARTH_TRY(writer.append(hierarchy.page_bytes));
         hierarchy.page_bytes = {};
-        appendTables(tables, std::move(hierarchy), page_offset, source.name);
+        appendTables(tables, std::move(hierarchy), page_offset, name);
         if (!fits(tables))
             return Error{Issue::input_too_large, part.name(), chunkName(kChunkSourceMesh, i),
                          "more than 2^31 clusters"};

@@ -12,12 +12,12 @@
 namespace hearth::clusters
 {
 
-/// How a mesh of the part is built.
-using MeshConfigurer = std::function<Config(const mesh::SourceMesh& source)>;
+/// How a mesh of the part is built, by its name.
+using MeshConfigurer = std::function<Config(const std::string& name)>;
 
 /// Sees each mesh when it has been built, before it is written; an error ends the work.
-using MeshObserver =
-    std::function<Status(uint32_t index, const mesh::SourceMesh& source, const Hierarchy& hierarchy)>;
+using MeshObserver = std::function<Status(uint32_t index, const std::string& name, const Config& config,
+                                          const Hierarchy& hierarchy)>;
 
 /// The meshes that an import part has.
 uint32_t meshCount(const formats::ContainerReader& part);

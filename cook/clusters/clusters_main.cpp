@@ -100,18 +100,18 @@ Status cook(const Arguments& arguments, const clusters::Profile& profile,
 {
     HEARTH_TRY(checkArguments(arguments, part));
     HEARTH_ASSIGN_OR_RETURN(const std::vector<std::string> materials, clusters::materialNames(part));
-    const auto configure = [&](const mesh::SourceMesh& source)
+    const auto configure = [&](const std::string& name)
     {
         clusters::Config config;
-        config.reduction = clusters::reductionOf(profile, source.name, materials);
+        config.reduction = clusters::reductionOf(profile, name, materials);
         return config;
     };
     std::vector<clusters::MeshStatistics> meshes;
     auto start = std::chrono::steady_clock::now();
-    const auto observe = [&](uint32_t index, const mesh::SourceMesh& source,
+    const auto observe = [&](uint32_t index, const std::string& name, const clusters::Config& config,
                              const clusters::Hierarchy& hierarchy) -> Status
     {
-        meshes.push_back(clusters::statisticsOf(hierarchy, configure(source), index, source.name));
+        meshes.push_back(clusters::statisticsOf(hierarchy, config, index, name));
         if (arguments.statistics_with_times)
             meshes.back().seconds =
                 std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

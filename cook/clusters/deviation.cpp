@@ -222,12 +222,13 @@ private:
     Bounder bounder_;
 };
 
-std::vector<Float3> placesOf(const GroupMesh& group, std::span<const uint32_t> corners)
+std::vector<Float3> placesOf(const GroupMesh& group, std::span<const uint32_t> corners,
+                             std::span<const Float3> place_of_position)
 {
     std::vector<Float3> places;
     places.reserve(corners.size());
     for (const uint32_t wedge : corners)
-        places.push_back(group.positions[group.position_of_wedge[wedge]]);
+        places.push_back(place_of_position[group.position_of_wedge[wedge]]);
     return places;
 }
 
@@ -295,8 +296,8 @@ public:
     GroupMeasure(const GroupMesh& group, const Simplified& simplified, float carried)
         : group_(group),
           simplified_(simplified),
-          before_(placesOf(group, group.corners)),
-          after_(placesOf(group, simplified.corners)),
+          before_(placesOf(group, group.corners, group.positions)),
+          after_(placesOf(group, simplified.corners, simplified.placement.places)),
           before_index_(before_),
           after_index_(after_),
           before_stars_(group, group.corners),
@@ -330,17 +331,22 @@ private:
     bool movedCorner(size_t triangle) const
     {
         for (size_t k = 0; k < 3; ++k)
-            if (targetOf(triangle * 3 + k) != group_.positionAt(triangle * 3 + k))
+            if (moved(triangle * 3 + k))
                 return true;
         return false;
+    }
+
+    bool moved(size_t corner) const
+    {
+        const uint32_t target = targetOf(corner);
+        return target != group_.positionAt(corner) || simplified_.placement.remade[target] != 0;
     }
 
     void addBefore(size_t t)
     {
         likely_after_.clear();
         for (size_t corner = t * 3; corner < t * 3 + 3; ++corner)
-            if (const uint32_t target = targetOf(corner);
-                target != kPruned && target != group_.positionAt(corner))
+            if (const uint32_t target = targetOf(corner); target != kPruned && moved(corner))
                 likely_after_.add(after_stars_.of(target));
         const Corners corners{before_[t * 3], before_[t * 3 + 1], before_[t * 3 + 2]};
         if (!likely_after_.facets().empty() || !measure_.holds(corners, after_index_, neighboursInOrder(t)))
@@ -352,7 +358,7 @@ private:
         likely_before_.clear();
         const size_t source = simplified_.source_triangle[t];
         for (size_t corner = source * 3; corner < source * 3 + 3; ++corner)
-            if (targetOf(corner) != group_.positionAt(corner))
+            if (moved(corner))
                 likely_before_.add(before_stars_.of(group_.positionAt(corner)));
         measure_.add({after_[t * 3], after_[t * 3 + 1], after_[t * 3 + 2]}, before_index_,
                      likely_before_.facets());

@@ -283,7 +283,7 @@ Box3 boxOfCluster(const PreparedMesh& mesh, const ClusterStore& store, const Clu
 {
     Box3 box;
     for (const uint32_t vertex : store.verticesOf(shape))
-        box.add(mesh.source->positions[vertex]);
+        box.add(mesh.vertices.positions[vertex]);
     return box;
 }
 

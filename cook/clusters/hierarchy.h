@@ -60,8 +60,9 @@ struct Hierarchy
 /// Build the hierarchy of a mesh. Deterministic: the same bytes whatever the number of threads.
 /// Time O(n log n); memory about 200 bytes for each source triangle.
 ///
-/// source   finite, indices in range (the contract of SourceMesh); any topology, any number of triangles
+/// source   finite, indices in range (the contract of SourceMesh); any topology, any number of triangles; its positions
+///          move to the grid (mesh/grid.h)
 /// returns  a hierarchy that validateHierarchy accepts; without clusters if no triangle has an area
-Hierarchy buildHierarchy(const mesh::SourceMesh& source, const Config& config = {});
+Hierarchy buildHierarchy(mesh::SourceMesh source, const Config& config = {});
 
 } // namespace hearth::clusters

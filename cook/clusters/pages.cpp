@@ -104,7 +104,7 @@ std::vector<std::byte> pageContent(const PreparedMesh& mesh, const ClusterStore&
     {
         WordWriter out(bytes.data() + hierarchy.clusters[c].page_offset);
         for (const uint32_t vertex : store.verticesOf(shapes[c]))
-            writeVertex(out, *mesh.source, vertex);
+            writeVertex(out, mesh.vertices, vertex);
         const auto indices = store.indicesOf(shapes[c]);
         std::memcpy(out.at(), indices.data(), indices.size());
     }

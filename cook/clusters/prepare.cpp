@@ -32,11 +32,58 @@ void ClusterStore::appendCluster(const ClusterStore& other, const ClusterShape& 
     indices.insert(indices.end(), shape_indices.begin(), shape_indices.end());
 }
 
-PreparedMesh prepareMesh(const mesh::SourceMesh& source)
+namespace
+{
+
+std::vector<uint8_t> degenerateTriangles(const mesh::SourceMesh& source)
+{
+    std::vector<uint8_t> degenerate(source.triangleCount());
+    for (size_t t = 0; t < degenerate.size(); ++t)
+        degenerate[t] = mesh::isDegenerate(source.positions[source.indices[t * 3]],
+                                           source.positions[source.indices[t * 3 + 1]],
+                                           source.positions[source.indices[t * 3 + 2]])
+                            ? 1
+                            : 0;
+    return degenerate;
+}
+
+/// Call `visit` for each array of positions or attributes of both meshes.
+template <typename Visit>
+void forEachArray(mesh::SourceMesh& to, const mesh::SourceMesh& from, Visit visit)
+{
+    visit(to.positions, from.positions);
+    visit(to.normals, from.normals);
+    visit(to.tangents, from.tangents);
+    for (size_t set = 0; set < mesh::kUvSetCount; ++set)
+        visit(to.uvs[set], from.uvs[set]);
+    visit(to.colors, from.colors);
+}
+
+} // namespace
+
+void appendVertex(mesh::SourceMesh& to, const mesh::SourceMesh& from, uint32_t vertex)
+{
+    forEachArray(to, from,
+                 [vertex](auto& target, const auto& source)
+                 {
+                     if (!source.empty())
+                         target.push_back(source[vertex]);
+                 });
+}
+
+void appendVertices(mesh::SourceMesh& to, const mesh::SourceMesh& from)
+{
+    forEachArray(to, from,
+                 [](auto& target, const auto& source)
+                 { target.insert(target.end(), source.begin(), source.end()); });
+}
+
+PreparedMesh prepareMesh(mesh::SourceMesh source)
 {
     PreparedMesh prepared;
-    prepared.source = &source;
     prepared.attributes = mesh::attributesOf(source);
+    const std::vector<uint8_t> degenerate = degenerateTriangles(source);
+    prepared.grid = mesh::snapToGrid(source);
     mesh::Weld weld = mesh::weldPositions(source.positions);
     const std::vector<uint32_t> first_equal = mesh::firstEqualVertices(source);
     prepared.corners.reserve(source.indices.size());
@@ -46,7 +93,9 @@ PreparedMesh prepareMesh(const mesh::SourceMesh& source)
         const uint32_t a = first_equal[source.indices[t * 3]];
         const uint32_t b = first_equal[source.indices[t * 3 + 1]];
         const uint32_t c = first_equal[source.indices[t * 3 + 2]];
-        if (mesh::isDegenerate(source.positions[a], source.positions[b], source.positions[c]))
+        // what has become flat on the grid stays: only without it would its neighbours come apart
+        if (degenerate[t] != 0 || source.positions[a] == source.positions[b] ||
+            source.positions[b] == source.positions[c] || source.positions[c] == source.positions[a])
         {
             ++prepared.degenerate_count;
             continue;
@@ -56,6 +105,9 @@ PreparedMesh prepareMesh(const mesh::SourceMesh& source)
     }
     prepared.position_of_vertex = std::move(weld.position_of_vertex);
     prepared.position_count = weld.position_count;
+    source.indices = {};
+    source.triangle_materials = {};
+    prepared.vertices = std::move(source);
     return prepared;
 }
 

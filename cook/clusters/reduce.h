@@ -12,10 +12,15 @@
 namespace hearth::clusters
 {
 
+inline constexpr uint32_t kMadeVertex = 0x80000000u;
+
 struct Reduced
 {
-    bool progressed = false; ///< false: the group is stuck and the rest says nothing
-    ClusterStore clusters;
+    bool progressed = false;              ///< false: the group is stuck and the rest says nothing
+    ClusterStore clusters;                ///< vertices from kMadeVertex on are those that were made
+    mesh::SourceMesh made;                ///< attributes of made vertices
+    std::vector<uint32_t> made_positions; ///< position of each, numbered from 0
+    uint32_t made_position_count = 0;
     size_t triangle_count = 0;
     float distance = 0; ///< object space: bound of the clusters' distance to the source
     bool permissive = false;

@@ -364,10 +364,10 @@ std::vector<Float3> centersOf(const PreparedMesh& mesh)
     for (size_t t = 0; t < centers.size(); ++t)
     {
         const uint32_t* corner = &mesh.corners[t * 3];
-        const auto place = [&](size_t k) { return mesh.source->positions[corner[k]]; };
+        const auto place = [&](size_t k) { return mesh.vertices.positions[corner[k]]; };
         centers[t] = triangleCenter(place(0), place(1), place(2));
     }
-    gatherSmallIslands(centers, mesh.corners, mesh.source->vertexCount());
+    gatherSmallIslands(centers, mesh.corners, mesh.vertices.vertexCount());
     return centers;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/clusters/validate.h"
 
+#include "cook/mesh/grid.h"
 #include "cook/mesh/triangles.h"
 #include "cook/mesh/weld.h"
 #include "formats/pack_view.h"
@@ -188,8 +189,8 @@ Status checkGeometry(const Hierarchy& h, const DecodedHierarchy& decoded)
                 used[k] = 1;
             const Float3 pa = geometry.position(corner[0]), pb = geometry.position(corner[1]),
                          pc = geometry.position(corner[2]);
-            if (cluster.level == 0 && mesh::isDegenerate(pa, pb, pc))
-                return wrong(Issue::meaning_geometry, "cluster", c, "a triangle has no area");
+            if (cluster.level == 0 && (pa == pb || pb == pc || pc == pa))
+                return wrong(Issue::meaning_geometry, "cluster", c, "a triangle lacks an edge");
             if (cluster.cone_cutoff < 1)
                 HEARTH_TRY(checkCone(cluster, c, pa, pb, pc));
         }
@@ -239,15 +240,20 @@ uint64_t sourceVertexHash(const mesh::SourceMesh& source, uint32_t v)
 
 Status checkFinestLevel(const mesh::SourceMesh& source, const Hierarchy& h, const DecodedHierarchy& decoded)
 {
+    mesh::SourceMesh on_grid = source;
+    mesh::snapToGrid(on_grid);
     std::vector<uint64_t> hashes(source.vertexCount());
     for (uint32_t v = 0; v < hashes.size(); ++v)
-        hashes[v] = sourceVertexHash(source, v);
+        hashes[v] = sourceVertexHash(on_grid, v);
     std::vector<TriangleKey> wanted;
     for (size_t t = 0; t < source.triangleCount(); ++t)
     {
         const uint32_t a = source.indices[t * 3], b = source.indices[t * 3 + 1],
                        c = source.indices[t * 3 + 2];
-        if (!mesh::isDegenerate(source.positions[a], source.positions[b], source.positions[c]))
+        const bool loses_edge = on_grid.positions[a] == on_grid.positions[b] ||
+                                on_grid.positions[b] == on_grid.positions[c] ||
+                                on_grid.positions[c] == on_grid.positions[a];
+        if (!loses_edge && !mesh::isDegenerate(source.positions[a], source.positions[b], source.positions[c]))
             wanted.push_back(makeKey({hashes[a], hashes[b], hashes[c]}, source.triangle_materials[t]));
     }
     if (wanted.size() + h.mesh.degenerate_triangles != source.triangleCount())

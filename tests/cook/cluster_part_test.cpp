@@ -40,12 +40,12 @@ TEST(ClustersPart, holdsTheHierarchiesOfAllMeshes)
     meshes[2].weight_sets.push_back(std::vector<Float4>(meshes[2].vertexCount(), {1, 0, 0, 0}));
     writeImportPart(import_path, meshes);
     std::vector<std::string> seen;
-    const auto observe =
-        [&](uint32_t index, const mesh::SourceMesh& source, const clusters::Hierarchy& hierarchy)
+    const auto observe = [&](uint32_t index, const std::string& name, const clusters::Config&,
+                             const clusters::Hierarchy& hierarchy)
     {
         EXPECT_EQ(index, seen.size());
-        EXPECT_EQ(hierarchy.mesh.source_triangles, source.triangleCount());
-        seen.push_back(source.name);
+        EXPECT_EQ(hierarchy.mesh.source_triangles, meshes[index].triangleCount());
+        seen.push_back(name);
         return success();
     };
     const auto import_part = formats::ContainerReader::open(import_path);
@@ -73,7 +73,8 @@ TEST(ClustersPart, doesNotAppearWhereTheObserverFails)
     writeImportPart(folder.file("import.part"), {shapes::rock(8, 0.3f)});
     const auto import_part = formats::ContainerReader::open(folder.file("import.part"));
     ASSERT_TRUE(import_part.ok());
-    const auto fails = [](uint32_t, const mesh::SourceMesh&, const clusters::Hierarchy&) -> Status {
+    const auto fails = [](uint32_t, const std::string&, const clusters::Config&,
+                          const clusters::Hierarchy&) -> Status {
         return Error{Issue::usage, "", "", "no such level"};
     };
     const Status status = clusters::writeClustersPart(*import_part, folder.file("out.part"), {}, fails);

@@ -1,5 +1,6 @@
 // Welding, the exact degenerate test and open edges.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/mesh/grid.h"
 #include "cook/mesh/triangles.h"
 #include "cook/mesh/weld.h"
 #include "tests/cook/shapes.h"
@@ -84,6 +85,51 @@ TEST(OpenEdges, areTheBorderWithItsDirection)
     EXPECT_THAT(mesh::openEdges(closed), IsEmpty());
     const std::vector<uint32_t> wrong_way{0, 1, 2, 1, 2, 3};
     EXPECT_THAT(mesh::openEdges(wrong_way), testing::Contains(OpenEdge{1, 2, 2}));
+}
+
+TEST(Grid, movesPositionsToMultiplesOfAPowerOfTwo)
+{
+    for (const float scale : {1.0f, 3e-7f, 5e9f})
+    {
+        mesh::SourceMesh rock = shapes::rock(20, 0.4f);
+        for (Float3& p : rock.positions)
+            p = p * scale + Float3{scale * 7, 0, 0};
+        const mesh::SourceMesh before = rock;
+        const mesh::Grid grid = mesh::snapToGrid(rock);
+        int exponent = 0;
+        EXPECT_EQ(std::frexp(grid.step, &exponent), 0.5);
+        double farthest = 0, least = 0, most = 0;
+        for (size_t v = 0; v < rock.vertexCount(); ++v)
+        {
+            for (int axis = 0; axis < 3; ++axis)
+            {
+                const double multiple = rock.positions[v][axis] / grid.step;
+                EXPECT_EQ(multiple, std::round(multiple));
+                EXPECT_LE(std::abs(multiple), 1 << 24);
+            }
+            least = std::min(least, before.positions[v].y / grid.step);
+            most = std::max(most, before.positions[v].y / grid.step);
+            const Float3 moved = rock.positions[v] - before.positions[v];
+            farthest = std::max(farthest, static_cast<double>(std::hypot(moved.x, moved.y, moved.z)));
+        }
+        EXPECT_GT(most - least, 50000);
+        EXPECT_LE(farthest, double{grid.error});
+        EXPECT_LE(grid.error, grid.step * 0.87);
+        EXPECT_GT(grid.error, grid.step * 0.5);
+    }
+}
+
+TEST(Grid, isFineEnoughForShortEdges)
+{
+    mesh::SourceMesh mesh;
+    mesh.positions = {{0, 0, 0},           {1, 0, 0}, {0, 1, 0}, {0.5f, 0.5f, 0}, {0.500001f, 0.5f, 0},
+                      {0.5f, 0.500001f, 0}};
+    mesh.indices = {0, 1, 2, 3, 4, 5};
+    mesh::SourceMesh on_grid = mesh;
+    mesh::snapToGrid(on_grid);
+    EXPECT_FALSE(on_grid.positions[3] == on_grid.positions[4]);
+    EXPECT_FALSE(on_grid.positions[3] == on_grid.positions[5]);
+    EXPECT_FALSE(on_grid.positions[4] == on_grid.positions[5]);
 }
 
 } // namespace

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "tests/reference/source_triangles.h"
 
-#include "cook/mesh/source_mesh.h"
+#include "cook/mesh/grid.h"
 
 namespace hearth::reference
 {
@@ -21,6 +21,11 @@ bool hasArea(const std::array<Float3, 3>& t)
     return uy * vz != uz * vy || uz * vx != ux * vz || ux * vy != uy * vx;
 }
 
+bool hasEdges(const std::array<Float3, 3>& t)
+{
+    return !(t[0] == t[1]) && !(t[1] == t[2]) && !(t[2] == t[0]);
+}
+
 } // namespace
 
 Result<std::vector<SceneTriangle>> trianglesOfImportPart(const formats::PackView& part)
@@ -30,16 +35,22 @@ Result<std::vector<SceneTriangle>> trianglesOfImportPart(const formats::PackView
     {
         HEARTH_ASSIGN_OR_RETURN(const mesh::SourceMesh source,
                                 mesh::readSourceMesh(part.container(), part.instances()[instance].mesh));
+        mesh::SourceMesh on_grid = source;
+        mesh::snapToGrid(on_grid);
         for (size_t t = 0; t < source.triangleCount(); ++t)
         {
             SceneTriangle triangle;
+            const auto place = [&](const mesh::SourceMesh& mesh, size_t corner)
+            { return mesh.positions[source.indices[t * 3 + corner]]; };
+            if (!hasArea({place(source, 0), place(source, 1), place(source, 2)}))
+                continue;
             for (size_t corner = 0; corner < 3; ++corner)
-                triangle.corners[corner] = source.positions[source.indices[t * 3 + corner]];
+                triangle.corners[corner] = place(on_grid, corner);
             triangle.instance = instance;
             triangle.material =
                 source.triangle_materials.empty() ? formats::kNone : source.triangle_materials[t];
             triangle.id = static_cast<uint32_t>(triangles.size());
-            if (hasArea(triangle.corners))
+            if (hasEdges(triangle.corners))
                 triangles.push_back(triangle);
         }
     }

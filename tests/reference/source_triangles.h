@@ -7,7 +7,8 @@
 namespace hearth::reference
 {
 
-/// Every triangle of every instance of an import part that has an area, in float, in its mesh; id = running number.
+/// Every triangle of every instance of an import part that has an area, in its mesh, with its corners on the mesh's grid
+/// (where it still has three); id = running number.
 Result<std::vector<SceneTriangle>> trianglesOfImportPart(const formats::PackView& part);
 
 } // namespace hearth::reference
