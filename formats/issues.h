@@ -64,6 +64,8 @@ enum class IssueClass : uint8_t
     X(mesh_empty, 1202, malformed, "a mesh file has no geometry", "check the export")                        \
     X(material_missing, 1203, warning, "a material library is missing; its materials are drawn grey",        \
       "put the file where the asset expects it")                                                             \
+    X(lod_file, 1204, malformed, "a file cannot be a level of detail",                                       \
+      "give a source and files that draw one mesh each")                                                     \
     X(image_malformed, 1300, malformed, "an image cannot be decoded", "save the image again")                \
     X(image_unsupported, 1301, malformed, "an image uses a feature that is not supported",                   \
       "save the image as PNG, JPEG, WebP, HDR or EXR")                                                       \

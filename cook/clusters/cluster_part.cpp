@@ -110,12 +110,56 @@ Result<std::vector<std::string>> materialNames(const ContainerReader& part)
     return names;
 }
 
+namespace
+{
+
+/// The authored levels of each mesh, by the meshes that they are, finest first.
+struct LodLists
+{
+    std::vector<std::vector<uint32_t>> of_mesh;
+    std::vector<uint8_t> is_lod;
+};
+
+Result<LodLists> readLodLists(const ContainerReader& part, uint32_t mesh_count)
+{
+    LodLists lists{std::vector<std::vector<uint32_t>>(mesh_count), std::vector<uint8_t>(mesh_count, 0)};
+    HEARTH_ASSIGN_OR_RETURN(const Records<AuthoredLodRecord> records,
+                            part.records<AuthoredLodRecord>(kChunkAuthoredLods));
+    for (const AuthoredLodRecord& record : records)
+    {
+        if (record.mesh >= mesh_count || record.lod >= mesh_count || record.mesh == record.lod)
+            return Error{Issue::meaning_reference, part.name(), chunkName(kChunkAuthoredLods, 0),
+                         "a record names a mesh that does not exist, or one as its own level"};
+        lists.of_mesh[record.mesh].push_back(record.lod);
+        lists.is_lod[record.lod] = 1;
+    }
+    return lists;
+}
+
+/// The hierarchy of mesh `index`; a mesh that is a level of others is part of theirs, and has none itself.
+Result<Hierarchy> buildMesh(const ContainerReader& part, const LodLists& lods, uint32_t index,
+                            mesh::SourceMesh source, const Config& config)
+{
+    if (lods.is_lod[index] != 0)
+        return Hierarchy{};
+    std::vector<mesh::SourceMesh> authored;
+    for (const uint32_t lod : lods.of_mesh[index])
+    {
+        HEARTH_ASSIGN_OR_RETURN(mesh::SourceMesh level, mesh::readSourceMesh(part, lod));
+        authored.push_back(std::move(level));
+    }
+    return buildHierarchy(std::move(source), authored, config);
+}
+
+} // namespace
+
 Status writeClustersPart(const ContainerReader& part, const std::string& output_path,
                          const MeshConfigurer& configure, const MeshObserver& observe)
 {
     HEARTH_ASSIGN_OR_RETURN(ContainerWriter writer,
                             ContainerWriter::create(output_path, ContainerKind::part));
     const uint32_t mesh_count = meshCount(part);
+    HEARTH_ASSIGN_OR_RETURN(const LodLists lods, readLodLists(part, mesh_count));
     Tables tables;
     HEARTH_TRY(writer.beginChunk({.type = kChunkPages}, 1));
     for (uint32_t i = 0; i < mesh_count; ++i)
@@ -123,7 +167,7 @@ Status writeClustersPart(const ContainerReader& part, const std::string& output_
         HEARTH_ASSIGN_OR_RETURN(mesh::SourceMesh source, mesh::readSourceMesh(part, i));
         const std::string name = source.name;
         const Config config = configure ? configure(name) : Config{};
-        Hierarchy hierarchy = buildHierarchy(std::move(source), config);
+        HEARTH_ASSIGN_OR_RETURN(Hierarchy hierarchy, buildMesh(part, lods, i, std::move(source), config));
         if (observe)
             HEARTH_TRY(observe(i, name, config, hierarchy));
         const uint64_t page_offset = writer.chunkSize();

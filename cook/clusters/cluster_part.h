@@ -25,10 +25,12 @@ uint32_t meshCount(const formats::ContainerReader& part);
 /// The names of its materials, in their order. errors: those of PackView.
 Result<std::vector<std::string>> materialNames(const formats::ContainerReader& part);
 
-/// Build the hierarchies of all meshes of an import part and write them to `output_path`.
+/// Build the hierarchies of all meshes of an import part and write them to `output_path`. Meshes that are authored levels
+/// of others keep their numbers, but have no clusters of their own.
 ///
 /// configure, observe   may be empty
-/// errors               those of readSourceMesh, ContainerWriter and `observe`; input_too_large where an index would not fit
+/// errors               those of readSourceMesh, meaning_reference where chunk ALOD names no mesh, those of
+///                      ContainerWriter and `observe`; input_too_large where an index would not fit
 Status writeClustersPart(const formats::ContainerReader& part, const std::string& output_path,
                          const MeshConfigurer& configure, const MeshObserver& observe);
 

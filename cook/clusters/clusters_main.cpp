@@ -62,6 +62,13 @@ void printWarnings(const Arguments& arguments, std::span<const clusters::MeshSta
                                          target.triangles ? std::to_string(*target.triangles)
                                                           : fmt::format("{} levels", mesh.levels.size())));
     }
+    for (const clusters::MeshStatistics& mesh : meshes)
+        for (size_t i = 0; i < mesh.authored_levels.size(); ++i)
+            if (mesh.authored_levels[i] == formats::kNone)
+                printWarning(arguments,
+                             fmt::format("authored level {} of mesh {} '{}' is left out: it has not fewer "
+                                         "triangles than what it would replace, or none",
+                                         i + 1, mesh.index, mesh.name));
     if (stuck_groups != 0)
         printWarning(arguments,
                      std::to_string(stuck_groups) +

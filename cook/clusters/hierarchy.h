@@ -7,6 +7,7 @@
 #include "formats/mesh.h"
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace hearth::clusters
@@ -54,6 +55,8 @@ struct Hierarchy
     std::vector<formats::PageRecord> pages;
     std::vector<uint32_t> page_parents;
     std::vector<std::byte> page_bytes; ///< the stored pages, each at a multiple of 64
+    std::vector<uint32_t>
+        authored_levels; ///< for each authored mesh, the level that it is; kNone: it was left out
     BuildCounts counts;
 };
 
@@ -64,5 +67,10 @@ struct Hierarchy
 ///          move to the grid (mesh/grid.h)
 /// returns  a hierarchy that validateHierarchy accepts; without clusters if no triangle has an area
 Hierarchy buildHierarchy(mesh::SourceMesh source, const Config& config = {});
+
+/// The same, with levels that were made by hand, finest first, in the source's object space: each is used from where
+/// the levels that were generated would have fewer triangles. The whole mesh switches to it at once.
+Hierarchy buildHierarchy(mesh::SourceMesh source, std::span<const mesh::SourceMesh> authored,
+                         const Config& config);
 
 } // namespace hearth::clusters

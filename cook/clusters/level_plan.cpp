@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace hearth::clusters
 {
@@ -11,10 +12,6 @@ namespace
 {
 
 using formats::kClusterMaxTriangles;
-
-// A group that does three tenths of what it should is no failure: with the default curve 85 triangles of 100 may
-// stay. Halving such a group again would cost more memory than it saves drawing.
-constexpr float kLeastProgress = 0.3f;
 
 // A target counts as met from here on; what users are promised is 3 %.
 constexpr double kTargetSlack = 0.01;
@@ -80,7 +77,7 @@ GroupGoal goalOf(const GroupShare& share, double part)
     GroupGoal goal;
     goal.of = share.triangles;
     goal.error_weight = share.step.error_weight;
-    goal.stuck_ratio = static_cast<float>(1 - double{kLeastProgress} * (1 - part));
+    goal.stuck_ratio = static_cast<float>(1 - kLeastProgress * (1 - part));
     return goal;
 }
 
@@ -152,6 +149,19 @@ LevelPlan planLevel(const Reduction& reduction, uint32_t level, const ClusterSto
             plan.goals[g].triangles =
                 nearestClusters(static_cast<double>(plan.goals[g].triangles), shares[g].triangles);
     return plan;
+}
+
+bool isStuck(const LevelPlan& plan, std::span<const size_t> kept)
+{
+    double of = 0;
+    double planned = 0;
+    for (const GroupGoal& goal : plan.goals)
+    {
+        of += static_cast<double>(goal.of);
+        planned += static_cast<double>(goal.triangles);
+    }
+    const double left = static_cast<double>(std::accumulate(kept.begin(), kept.end(), size_t{0}));
+    return left > of - kLeastProgress * (of - planned);
 }
 
 bool correctPlan(LevelPlan& plan, std::span<const size_t> kept, std::vector<uint8_t>& changed)

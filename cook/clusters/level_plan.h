@@ -13,6 +13,10 @@
 namespace hearth::clusters
 {
 
+/// A group that does three tenths of what it should is no failure: with the default curve 85 triangles of 100 may
+/// stay. Halving one that does less again would cost more memory than it saves drawing.
+inline constexpr double kLeastProgress = 0.3;
+
 /// What a group shall become.
 struct GroupGoal
 {
@@ -38,6 +42,11 @@ struct LevelPlan
 /// drawn_below  triangles of groups of finer levels that stay: they count for the targets
 LevelPlan planLevel(const Reduction& reduction, uint32_t level, const ClusterStore& store,
                     const Groups& groups, uint64_t drawn_below);
+
+/// Whether the groups together did too little, as one group can.
+///
+/// kept  triangles that each group kept
+bool isStuck(const LevelPlan& plan, std::span<const size_t> kept);
 
 /// What a target asks of the other groups after some kept more than they should. False where the counts are near
 /// enough, or nothing is left to correct.

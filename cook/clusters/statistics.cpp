@@ -97,6 +97,10 @@ Json meshJson(const MeshStatistics& mesh)
         json["targets"] = Json::array();
     for (const TargetStatistics& target : mesh.targets)
         json["targets"].push_back(targetJson(target));
+    if (!mesh.authored_levels.empty())
+        json["authored_levels"] = Json::array();
+    for (const uint32_t level : mesh.authored_levels)
+        json["authored_levels"].push_back(level == kNone ? Json(nullptr) : Json(level));
     if (mesh.seconds)
         json["seconds"] = *mesh.seconds;
     return json;
@@ -131,6 +135,7 @@ MeshStatistics statisticsOf(const Hierarchy& hierarchy, const Config& config, ui
         statistics.levels.push_back(levelStatistics(hierarchy, level));
     for (const LevelTarget& target : config.reduction.targets)
         statistics.targets.push_back(targetStatistics(hierarchy, target));
+    statistics.authored_levels = hierarchy.authored_levels;
     statistics.counts = hierarchy.counts;
     return statistics;
 }

@@ -45,6 +45,7 @@ struct MeshStatistics
     uint64_t stored_page_bytes = 0; ///< as they lie in the file
     std::vector<LevelStatistics> levels;
     std::vector<TargetStatistics> targets;
+    std::vector<uint32_t> authored_levels; ///< as in Hierarchy
     BuildCounts counts;
     std::optional<double>
         seconds; ///< that building took; what differs from run to run is only there on request
