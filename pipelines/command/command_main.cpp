@@ -71,6 +71,9 @@ void addCook(CLI::App& app, Work& run)
     verb->add_option("-j,--jobs", options->jobs, "cookers that run at once")
         ->check(CLI::Range(1, 1024))
         ->capture_default_str();
+    verb->add_option("--lod", options->lods,
+                     "N=FILE: level of detail N of the source's only mesh, made by hand")
+        ->allow_extra_args(false);
     verb->add_option("--profile", options->profile,
                      "TOML file that says how far each level of detail is simplified");
     verb->add_option("--report", options->report_file, "write a report as JSON");

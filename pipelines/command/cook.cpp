@@ -2,6 +2,7 @@
 #include "pipelines/command/cook.h"
 
 #include "cook/tools/child_processes.h"
+#include "cook/tools/lod_files.h"
 #include "cook/tools/private_folder.h"
 #include "cook/tools/whole_file.h"
 #include "formats/pack_view.h"
@@ -55,6 +56,8 @@ void addSource(Plan& plan, const std::string& programs, const std::string& folde
                     part("import"),
                     {},
                     source});
+    for (const std::string& lod : options.lods)
+        plan.back().command.insert(plan.back().command.end(), {"--lod", lod});
     for (const char* kind : {"textures", "clusters"})
         plan.push_back({kind,
                         index,
@@ -265,6 +268,13 @@ Status checkOutput(const CookOptions& options)
     for (const std::string& source : options.sources)
         if (std::filesystem::equivalent(source, options.output, error))
             return Error{Issue::usage, options.output, "", "the output would overwrite a source"};
+    HEARTH_ASSIGN_OR_RETURN(const std::vector<LodFile> lods, parseLodFiles(options.lods));
+    if (!lods.empty() && options.sources.size() > 1)
+        return Error{Issue::usage, "--lod", "",
+                     "needs a cook of one source: which of several it is for is not said"};
+    for (const LodFile& lod : lods)
+        if (std::filesystem::equivalent(lod.path, options.output, error))
+            return Error{Issue::usage, options.output, "", "the output would overwrite a level of detail"};
     return success();
 }
 
