@@ -28,8 +28,7 @@ using namespace formats;
 struct BuiltGroup
 {
     Sphere sphere;
-    float distance = 0;    ///< bound of the distance of what replaces it to the source
-    float error = 0;       ///< the distance as it counts for the cut; infinity for a root
+    float error = 0;       ///< as it counts for the cut; infinity for a root
     ClusterStore clusters; ///< what replaces it, until the next level has taken it
     bool stuck = false;
     bool retried = false;
@@ -91,15 +90,19 @@ Sphere groupSphere(const Build& build, const Level& level, std::span<const uint3
     return {sphere.center, roundUp(sphere.radius * kMonotoneSlack)};
 }
 
-/// The largest value that the groups have which the members were made from; at least what the grid costs.
-float largestOf(const Build& build, const Level& level, std::span<const uint32_t> members,
-                float BuiltGroup::*value)
+float largestError(const Build& build, const Level& level, std::span<const uint32_t> members)
 {
-    float largest = build.mesh.grid.error;
+    float error = build.mesh.grid.error;
     for (const uint32_t member : members)
         if (level.refined_group[member] != kNone)
-            largest = std::max(largest, build.group(level.refined_group[member]).*value);
-    return largest;
+            error = std::max(error, build.group(level.refined_group[member]).error);
+    return error;
+}
+
+/// The error of a group whose replacement is so far from the source: errors do not fall, whatever the weights.
+float errorOf(float distance, float weight, float members_error)
+{
+    return roundUp(std::max(double{distance} * double{weight}, double{members_error}) * kMonotoneSlack);
 }
 
 /// Pass a stuck group on unchanged, if it has not been tried too often, or a level that was made by hand replaces it.
@@ -115,8 +118,7 @@ void passOn(const Build& build, const Level& level, std::span<const uint32_t> me
         return;
     }
     group.retried = true;
-    group.distance = largestOf(build, level, members, &BuiltGroup::distance);
-    group.error = roundUp(largestOf(build, level, members, &BuiltGroup::error) * kMonotoneSlack);
+    group.error = errorOf(0, 1, largestError(build, level, members));
     for (const uint32_t member : members)
         group.clusters.appendCluster(level.store, level.store.shapes[member]);
 }
@@ -131,12 +133,8 @@ BuiltGroup buildGroup(const Build& build, const Level& level, std::span<const ui
     if (level.store.shapes.size() == 1)
         return group;
 
-    const float members_distance = largestOf(build, level, members, &BuiltGroup::distance);
-    const float members_error = largestOf(build, level, members, &BuiltGroup::error);
-    Reduced reduced =
-        reduceGroup(build.mesh, level.store, members, locked, members_distance, goal, build.config);
-    const float error = std::max(roundUp(double{reduced.distance} * double{goal.error_weight}),
-                                 roundUp(members_error * kMonotoneSlack));
+    Reduced reduced = reduceGroup(build.mesh, level.store, members, locked, goal, build.config);
+    const float error = errorOf(reduced.distance, goal.error_weight, largestError(build, level, members));
     // an error beyond the floats cannot be stored: what it belongs to is a root
     if (!reduced.progressed || error >= std::numeric_limits<float>::max())
     {
@@ -144,7 +142,6 @@ BuiltGroup buildGroup(const Build& build, const Level& level, std::span<const ui
         return group;
     }
     growToHold(group.sphere, reduced.made.positions);
-    group.distance = reduced.distance;
     group.error = error;
     group.clusters = std::move(reduced.clusters);
     group.outcome = std::move(reduced);
@@ -270,19 +267,18 @@ Level switchToAuthored(Build& build, Level& level, const LevelPlan& plan,
     const AuthoredLevel& authored = build.authored.front();
     const auto& positions = build.mesh.vertices.positions;
     const auto all = std::span<const uint32_t>(level.groups.members);
-    const float members_distance = largestOf(build, level, all, &BuiltGroup::distance);
-    const float members_error = largestOf(build, level, all, &BuiltGroup::error);
+    // what is nearer than the level below makes no difference
+    const float carried = *std::max_element(level.store.errors.begin(), level.store.errors.end());
     const SurfaceBound bound =
-        boundSurfaces({positions, source_corners}, {positions, authored.corners}, double{members_distance});
+        boundSurfaces({positions, source_corners}, {positions, authored.corners}, double{carried});
+    const float distance = roundUp(bound.upper + double{build.mesh.grid.error});
     float weight = 1;
     for (const GroupGoal& goal : plan.goals)
         weight = std::max(weight, goal.error_weight);
 
     BuiltGroup group;
     group.sphere = setSphere(build, level, authored);
-    group.distance = roundUp((bound.upper + double{build.mesh.grid.error}) * kMonotoneSlack);
-    group.error =
-        std::max(roundUp(double{group.distance} * double{weight}), roundUp(members_error * kMonotoneSlack));
+    group.error = errorOf(distance, weight, largestError(build, level, all));
     group.outcome.loose_pieces = bound.loose_pieces;
     level.built.assign(level.groups.count(), group);
     for (uint32_t g = 0; g < level.built.size(); ++g)
@@ -293,6 +289,7 @@ Level switchToAuthored(Build& build, Level& level, const LevelPlan& plan,
     build.mesh.corners = authored.corners;
     build.mesh.materials = authored.materials;
     next.store = splitMesh(build.mesh);
+    next.store.errors.assign(next.store.errors.size(), distance);
     next.refined_group.assign(next.store.shapes.size(), level.first_group);
     next.retries.assign(next.store.shapes.size(), 0);
     build.level_of_authored[authored.authored] = static_cast<uint32_t>(build.levels.size());
@@ -361,6 +358,7 @@ void countOutcomes(const Build& build, BuildCounts& counts)
         {
             counts.permissive_groups += group.outcome.permissive ? 1 : 0;
             counts.pruned_groups += group.outcome.pruned ? 1 : 0;
+            counts.merged_groups += group.outcome.merged ? 1 : 0;
             counts.retried_groups += group.retried ? 1 : 0;
             counts.stuck_groups += group.stuck ? 1 : 0;
             counts.loose_pieces += group.outcome.loose_pieces;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/clusters/group_mesh.h"
 
+#include "cook/clusters/bounds.h"
+
 #include <bit>
 #include <cmath>
 #include <utility>
@@ -83,6 +85,8 @@ std::vector<uint32_t> gatherTriangles(GroupMesh& group, const PreparedMesh& mesh
         for (const uint8_t index : store.indicesOf(shape))
             group.corners.push_back(wedge_of_local[index]);
         group.materials.insert(group.materials.end(), shape.triangle_count, shape.material);
+        const auto errors = store.errorsOf(shape);
+        group.errors.insert(group.errors.end(), errors.begin(), errors.end());
     }
     return material_of_wedge;
 }
@@ -184,6 +188,8 @@ GroupMesh gatherGroup(const PreparedMesh& mesh, const ClusterStore& store, std::
     nameCharts(group, mesh.vertices, material_of_wedge);
     placePositions(group, mesh.vertices.positions);
     gatherAttributes(group, mesh.vertices, config);
+    for (float& error : group.errors)
+        error = roundUp(error / group.scale);
     return group;
 }
 

@@ -30,6 +30,7 @@ struct GroupMesh
     std::vector<uint32_t> materials;         ///< for each triangle
     double grid_step = 0;                    ///< object space
     AttributeWeights weights;
+    std::vector<float> errors;     ///< for each triangle: its distance from the source, local
     uint32_t attribute_rows = 0;   ///< rows of four attributes that a wedge has
     std::vector<Lanes> attributes; ///< rows of each wedge, weighted: differences are local lengths
 

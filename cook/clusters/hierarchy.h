@@ -39,6 +39,7 @@ struct BuildCounts
 {
     uint64_t permissive_groups = 0; ///< groups that had to let attributes jump across seams
     uint64_t pruned_groups = 0;     ///< groups that lost whole islands
+    uint64_t merged_groups = 0;     ///< groups whose positions were merged by cells
     uint64_t retried_groups = 0;    ///< groups that passed unchanged to the next level
     uint64_t stuck_groups = 0;      ///< roots besides the one that ends the hierarchy
     uint64_t loose_pieces = 0; ///< pieces of triangles whose distance was bounded without closing the search

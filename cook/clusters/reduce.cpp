@@ -2,6 +2,7 @@
 #include "cook/clusters/reduce.h"
 
 #include "cook/clusters/bounds.h"
+#include "cook/clusters/cell_merge.h"
 #include "cook/clusters/deviation.h"
 #include "cook/clusters/group_mesh.h"
 #include "cook/clusters/islands.h"
@@ -46,7 +47,7 @@ std::vector<uint32_t> makeVertices(const PreparedMesh& mesh, const GroupMesh& gr
 
 /// Cut what is left into clusters, material by material in order of their numbers.
 ClusterStore splitSimplified(const GroupMesh& group, const Simplified& simplified,
-                             std::span<const uint32_t> vertex_of_wedge)
+                             std::span<const uint32_t> vertex_of_wedge, std::span<const float> errors)
 {
     const size_t count = simplified.triangleCount();
     std::vector<uint32_t> vertices(count * 3);
@@ -74,7 +75,7 @@ ClusterStore splitSimplified(const GroupMesh& group, const Simplified& simplifie
         size_t last = first;
         while (last < count && materials[items[last].triangle] == material)
             ++last;
-        splitIntoClusters(std::span(items).subspan(first, last - first), vertices, material, out);
+        splitIntoClusters(std::span(items).subspan(first, last - first), {vertices, errors, material}, out);
         first = last;
     }
     return out;
@@ -83,25 +84,36 @@ ClusterStore splitSimplified(const GroupMesh& group, const Simplified& simplifie
 } // namespace
 
 Reduced reduceGroup(const PreparedMesh& mesh, const ClusterStore& store, std::span<const uint32_t> members,
-                    std::span<const uint8_t> locked, float members_distance, const GroupGoal& goal,
-                    const Config& config)
+                    std::span<const uint8_t> locked, const GroupGoal& goal, const Config& config)
 {
     Reduced reduced;
     const GroupMesh group = gatherGroup(mesh, store, members, locked, config);
-    const Simplified simplified = simplifyGroup(group, goal.triangles);
+    Simplified simplified = simplifyGroup(group, goal.triangles);
+    const auto stuck = [&]
+    {
+        return static_cast<float>(simplified.triangleCount()) >
+               goal.stuck_ratio * static_cast<float>(group.triangleCount());
+    };
+    if (stuck())
+    {
+        mergeByCells(group, goal.triangles, simplified);
+        simplified.merged = true;
+    }
+    if (stuck())
+        return reduced;
     reduced.permissive = simplified.permissive;
     reduced.pruned = simplified.pruned;
-    reduced.triangle_count = simplified.triangleCount();
-    if (static_cast<float>(reduced.triangle_count) >
-        goal.stuck_ratio * static_cast<float>(group.triangleCount()))
-        return reduced;
-    reduced.clusters = splitSimplified(group, simplified, makeVertices(mesh, group, simplified, reduced));
-    if (reduced.clusters.shapes.size() >= members.size() + (goal.exact ? 1 : 0))
-        return reduced;
-    const Deviation deviation = boundDeviation(group, simplified, double{members_distance} / group.scale);
+    reduced.merged = simplified.merged;
+    Deviation deviation = boundDeviation(group, simplified);
     reduced.loose_pieces = deviation.loose_pieces;
-    reduced.distance = roundUp((members_distance + deviation.distance * group.scale) * kMonotoneSlack);
-    reduced.progressed = true;
+    for (float& error : deviation.errors)
+    {
+        error = roundUp(error * group.scale);
+        reduced.distance = std::max(reduced.distance, error);
+    }
+    reduced.clusters =
+        splitSimplified(group, simplified, makeVertices(mesh, group, simplified, reduced), deviation.errors);
+    reduced.progressed = reduced.clusters.shapes.size() < members.size() + (goal.exact ? 1 : 0);
     return reduced;
 }
 

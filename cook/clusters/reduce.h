@@ -21,20 +21,18 @@ struct Reduced
     mesh::SourceMesh made;                ///< attributes of made vertices
     std::vector<uint32_t> made_positions; ///< position of each, numbered from 0
     uint32_t made_position_count = 0;
-    size_t triangle_count = 0;
-    float distance = 0; ///< object space: bound of the clusters' distance to the source
+    float distance = 0; ///< object space: largest error of the clusters' triangles
     bool permissive = false;
     bool pruned = false;
+    bool merged = false;
     uint64_t loose_pieces = 0;
 };
 
 /// Gather, simplify, measure and split a group.
 ///
-/// members            clusters of `store`
-/// locked             [position_count] positions that must stay
-/// members_distance   largest distance of the members to the source
+/// members   clusters of `store`
+/// locked    [position_count] positions that must stay
 Reduced reduceGroup(const PreparedMesh& mesh, const ClusterStore& store, std::span<const uint32_t> members,
-                    std::span<const uint8_t> locked, float members_distance, const GroupGoal& goal,
-                    const Config& config);
+                    std::span<const uint8_t> locked, const GroupGoal& goal, const Config& config);
 
 } // namespace hearth::clusters

@@ -2,24 +2,13 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/clusters/star_mesh.h"
 
+#include "cook/clusters/set_hash.h"
+
 #include <algorithm>
 #include <limits>
 
 namespace hearth::clusters
 {
-
-namespace
-{
-
-/// Sums of such numbers are equal for equal sets only, but for a chance of 2^-64.
-uint64_t hashOf(uint64_t number)
-{
-    number = (number + 1) * 0x9E3779B97F4A7C15u;
-    number = (number ^ (number >> 32)) * 0xD6E8FEB86659FD93u;
-    return number ^ (number >> 32);
-}
-
-} // namespace
 
 StarMesh::StarMesh(const GroupMesh& group)
     : position_of_corner_(group.triangleCount() * 4),
@@ -27,8 +16,11 @@ StarMesh::StarMesh(const GroupMesh& group)
       alive_(group.triangleCount(), 1),
       alive_count_(group.triangleCount()),
       stars_(group.positions.size()),
+      hash_of_wedge_(group.vertex_of_wedge.size()),
       mark_(group.positions.size(), 0)
 {
+    for (uint32_t w = 0; w < hash_of_wedge_.size(); ++w)
+        hash_of_wedge_[w] = hashOf(w);
     for (uint32_t t = 0; t < alive_.size(); ++t)
         for (uint32_t k = 0; k < 3; ++k)
         {
@@ -97,7 +89,7 @@ bool StarMesh::gatherFan(uint32_t center)
         const Corner next = nextCorner(corner);
         const FanEnd end{position_of_corner_[next], wedge_of_corner_[next]};
         plain &= wedge_of_corner_[corner] == fan_wedge_ && !gathered(end.position);
-        difference += hashOf(end.wedge) - hashOf(wedge_of_corner_[previousCorner(corner)]);
+        difference += hash_of_wedge_[end.wedge] - hash_of_wedge_[wedge_of_corner_[previousCorner(corner)]];
         mark_[end.position] = mark_value_ + static_cast<uint32_t>(fan_.size());
         fan_.push_back(end);
     }

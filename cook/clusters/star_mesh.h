@@ -146,6 +146,7 @@ private:
     std::vector<Star> stars_; ///< pieces of star_items_, which may name triangles that are gone
     std::vector<Corner> star_items_;
 
+    std::vector<uint64_t> hash_of_wedge_;
     std::vector<FanEnd> fan_; ///< of the gathered position, or ring_
     uint32_t fan_wedge_ = 0;
     std::vector<Spoke> ring_;

@@ -66,6 +66,7 @@ Json countsJson(const BuildCounts& counts)
 {
     return {{"permissive", counts.permissive_groups},
             {"pruned", counts.pruned_groups},
+            {"merged", counts.merged_groups},
             {"retried", counts.retried_groups},
             {"stuck", counts.stuck_groups}};
 }
