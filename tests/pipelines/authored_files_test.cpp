@@ -3,9 +3,15 @@
 #include "cook/mesh/source_mesh.h"
 #include "cook/tools/lod_files.h"
 #include "formats/pack_view.h"
+#include "runtime/pack/cut.h"
 #include "tests/command/sandbox.h"
+#include "tests/reference/cut_checker.h"
 
 #include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
 
 namespace hearth::test
 {
@@ -109,6 +115,42 @@ TEST_F(AuthoredFiles, areCookedIntoAPackThatIsValid)
     }
     EXPECT_EQ(drawn, std::vector<bool>(3, true)) << "each level has its own material";
     EXPECT_EQ(pack->levels()[pack->levels().size() - 1].triangle_count, 2u);
+}
+
+TEST_F(AuthoredFiles, areDrawnOnceByTheRuntimesCut)
+{
+    ASSERT_EQ(sandbox_.run({HEARTH_BIN "/hearth-samples", "rock", "--triangles", "30000", "-o", "fine.glb"})
+                  .exit_code,
+              0);
+    ASSERT_EQ(sandbox_.run({HEARTH_BIN "/hearth-samples", "rock", "--triangles", "6000", "-o", "mid.glb"})
+                  .exit_code,
+              0);
+    ASSERT_EQ(
+        sandbox_.run({HEARTH_BIN "/hearth-samples", "rock", "--triangles", "400", "-o", "low.glb"}).exit_code,
+        0);
+    const ProgramEnd end = sandbox_.run({HEARTH_BIN "/hearth", "cook", "fine.glb", "--lod", "1=mid.glb",
+                                         "--lod", "2=low.glb", "-o", "rock.hearth"});
+    ASSERT_EQ(end.exit_code, 0) << end.err;
+    auto reader = ContainerReader::open(sandbox_ / "rock.hearth");
+    ASSERT_TRUE(reader.ok());
+    const auto pack = PackView::read(std::move(*reader));
+    ASSERT_TRUE(pack.ok());
+    size_t in_sets = 0;
+    std::set<float> errors{0};
+    for (const GroupRecord& group : pack->groups())
+    {
+        in_sets += group.set_offset != 0 ? 1 : 0;
+        errors.insert(group.error);
+    }
+    EXPECT_GT(in_sets, 2u);
+    for (const float error : errors)
+        for (const float threshold : {error, std::nextafter(error, 0.0f)})
+        {
+            const auto coverage =
+                reference::checkCoverage(*pack, 0, pack::selectCut(*pack, 0, std::max(0.0f, threshold)));
+            EXPECT_EQ(coverage.missing, 0u) << threshold;
+            EXPECT_EQ(coverage.overlapping, 0u) << threshold;
+        }
 }
 
 TEST_F(AuthoredFiles, thatAreNoUseAreRefusedByName)
