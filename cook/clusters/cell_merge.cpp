@@ -18,7 +18,7 @@ namespace
 constexpr int kSteps = 12;
 constexpr float kFinestCell = 1.0f / 256;
 
-using Cell = std::array<int32_t, 3>;
+using Cell = std::array<int32_t, 4>; ///< and whether it is one of an open border
 
 struct Members
 {
@@ -31,7 +31,7 @@ class CellMerger
 {
 public:
     CellMerger(const GroupMesh& group, Simplified& simplified)
-        : group_(group), simplified_(simplified), goal_(group.positions.size())
+        : group_(group), simplified_(simplified), open_(openPositions(group)), goal_(group.positions.size())
     {
         std::vector<uint8_t> used(group.positions.size(), 0);
         for (const uint32_t wedge : simplified.corners)
@@ -58,13 +58,14 @@ private:
     Float3 place(uint32_t position) const { return simplified_.placement.places[position]; }
 
     /// Where each position goes: the locked one in its cell that is nearest, else the one nearest to the cell's mean.
+    /// Positions of open borders stay among themselves, so that what is open lies on the source's borders.
     void findGoals(float cell_size)
     {
         std::map<Cell, Members> cells;
         for (const uint32_t p : used_)
         {
             goal_[p] = p;
-            Cell cell;
+            Cell cell{0, 0, 0, group_.locked[p] == 0 && open_[p] != 0 ? 1 : 0};
             for (int axis = 0; axis < 3; ++axis)
                 cell[static_cast<size_t>(axis)] =
                     static_cast<int32_t>(std::floor(place(p)[axis] / cell_size));
@@ -165,6 +166,7 @@ private:
 
     const GroupMesh& group_;
     Simplified& simplified_;
+    std::vector<uint8_t> open_;
     std::vector<uint32_t> used_; ///< positions that triangles are left at
     std::vector<uint32_t> goal_; ///< of the used positions
 };

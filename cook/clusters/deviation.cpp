@@ -3,7 +3,6 @@
 
 #include "cook/clusters/nearest_bound.h"
 #include "cook/clusters/overlay.h"
-#include "cook/clusters/set_hash.h"
 #include "cook/clusters/surface.h"
 #include "formats/assert.h"
 
@@ -25,6 +24,9 @@ constexpr float kRounding = 2e-6f;
 // A search that the surfaces' order starts takes so many likely facets.
 constexpr size_t kMaxLikely = 5 * kLanes;
 constexpr size_t kNeighbours = 2 * kLanes;
+
+// A distance below this part of a triangle's size is mostly rounding.
+constexpr float kFlat = 1e-4f;
 
 // Of an error that is carried on, this part may be added to a distance without a closer look.
 constexpr float kSlackOfCarried = kSlack - 1;
@@ -62,20 +64,6 @@ private:
     uint32_t list_ = 0;
     std::vector<uint32_t> facets_;
 };
-
-/// Where triangles do not close around a position. Both surfaces are open at the same ones: collapses keep borders.
-std::vector<uint8_t> openPositions(const GroupMesh& group)
-{
-    std::vector<uint64_t> difference(group.positions.size(), 0);
-    for (size_t t = 0; t < group.corners.size(); t += 3)
-        for (size_t k = 0; k < 3; ++k)
-            difference[group.positionAt(t + k)] +=
-                hashOf(group.positionAt(t + (k + 1) % 3)) - hashOf(group.positionAt(t + (k + 2) % 3));
-    std::vector<uint8_t> open(difference.size());
-    for (size_t p = 0; p < open.size(); ++p)
-        open[p] = difference[p] != 0 ? 1 : 0;
-    return open;
-}
 
 std::vector<uint32_t> positionsOf(const GroupMesh& group, std::span<const uint32_t> wedges)
 {
@@ -180,12 +168,31 @@ private:
         while (!totals_.empty() && totals_.front().upper > worst_)
         {
             const Total total = totals_.front();
-            total.before ? searchBefore(total.triangle) : searchAfter(total.triangle);
+            if (isRounding(total))
+                take(total);
+            else
+                total.before ? searchBefore(total.triangle) : searchAfter(total.triangle);
             std::pop_heap(totals_.begin(), totals_.end());
             totals_.pop_back();
         }
         for (const Total& total : totals_)
-            total.before ? giveTargets(total.triangle, total.upper) : give(total.triangle, total.upper);
+            take(total);
+    }
+
+    void take(const Total& total)
+    {
+        total.before ? giveTargets(total.triangle, total.upper) : give(total.triangle, total.upper);
+        worst_ = std::max(worst_, total.upper);
+    }
+
+    /// On a plane there is nothing to search for: all distances are rounding.
+    bool isRounding(const Total& total) const
+    {
+        const Surface& surface = total.before ? before_ : after_;
+        const Corners corners = surface.cornersOf(total.triangle);
+        const Float3 e1 = corners[1] - corners[0], e2 = corners[2] - corners[0];
+        const float carried = total.before ? group_.errors[total.triangle] : 0.0f;
+        return total.upper - carried <= kFlat * std::sqrt(std::max(dot(e1, e1), dot(e2, e2)));
     }
 
     void give(uint32_t facet, float error) { errors_[facet] = std::max(errors_[facet], error); }

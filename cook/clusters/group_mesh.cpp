@@ -2,6 +2,7 @@
 #include "cook/clusters/group_mesh.h"
 
 #include "cook/clusters/bounds.h"
+#include "cook/clusters/set_hash.h"
 
 #include <bit>
 #include <cmath>
@@ -191,6 +192,19 @@ GroupMesh gatherGroup(const PreparedMesh& mesh, const ClusterStore& store, std::
     for (float& error : group.errors)
         error = roundUp(error / group.scale);
     return group;
+}
+
+std::vector<uint8_t> openPositions(const GroupMesh& group)
+{
+    std::vector<uint64_t> difference(group.positions.size(), 0);
+    for (size_t t = 0; t < group.corners.size(); t += 3)
+        for (size_t k = 0; k < 3; ++k)
+            difference[group.positionAt(t + k)] +=
+                hashOf(group.positionAt(t + (k + 1) % 3)) - hashOf(group.positionAt(t + (k + 2) % 3));
+    std::vector<uint8_t> open(difference.size());
+    for (size_t p = 0; p < open.size(); ++p)
+        open[p] = difference[p] != 0 ? 1 : 0;
+    return open;
 }
 
 } // namespace hearth::clusters

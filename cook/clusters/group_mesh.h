@@ -53,4 +53,8 @@ struct WedgeMove
 GroupMesh gatherGroup(const PreparedMesh& mesh, const ClusterStore& store, std::span<const uint32_t> members,
                       std::span<const uint8_t> locked, const Config& config);
 
+/// For each position, 1 where the triangles do not close around it. Collapses keep it so: borders only shorten along
+/// themselves.
+std::vector<uint8_t> openPositions(const GroupMesh& group);
+
 } // namespace hearth::clusters
