@@ -106,7 +106,11 @@ Status cook(const Arguments& arguments, const clusters::Profile& profile,
             const formats::ContainerReader& part)
 {
     HEARTH_TRY(checkArguments(arguments, part));
-    HEARTH_ASSIGN_OR_RETURN(const std::vector<std::string> materials, clusters::materialNames(part));
+    std::vector<std::string> materials;
+    if (!profile.materials.empty())
+    {
+        HEARTH_ASSIGN_OR_RETURN(materials, clusters::materialNames(part));
+    }
     const auto configure = [&](const std::string& name)
     {
         clusters::Config config;

@@ -16,6 +16,9 @@ using formats::kNone;
 namespace
 {
 
+// More levels than anybody makes; each is a copy of its mesh, which a small file could ask for without end.
+constexpr size_t kMaxLods = 64;
+
 std::string nodePointer(uint32_t node)
 {
     return fmt::format("/nodes/{}", node);
@@ -150,7 +153,7 @@ private:
             if (model_.nodes[node].parent == kNone && !in_scene_[node] && model_.nodes[base].parent != kNone)
                 lods_.world_from_node[node] =
                     lods_.world_from_node[model_.nodes[base].parent] * model_.nodes[node].parent_from_node;
-            if (isUsable(base, node))
+            if (isUsable(chain, node))
                 chain.lods.push_back({model_.nodes[node].mesh, node});
         }
         if (chain.mesh == kNone && !nodes.empty())
@@ -158,9 +161,12 @@ private:
         addUnlessThere(std::move(chain));
     }
 
-    bool isUsable(uint32_t base, uint32_t node) const
+    bool isUsable(const GltfLodChain& chain, uint32_t node) const
     {
+        const uint32_t base = chain.node;
         const GltfNode& n = model_.nodes[node];
+        const bool repeated = std::any_of(chain.lods.begin(), chain.lods.end(),
+                                          [&](const GltfLod& lod) { return lod.mesh == n.mesh; });
         if (subtrees_.hasMeshBelow(node))
             drop(node, "meshes below a level of detail are not kept");
         if (model_.nodes[base].mesh == kNone)
@@ -170,8 +176,11 @@ private:
         else if ((n.skin == kNone) != (model_.nodes[base].skin == kNone))
             drop(node,
                  fmt::format("a level of detail of node {} must be skinned like it: it is not kept", base));
-        else if (n.mesh == model_.nodes[base].mesh)
+        else if (n.mesh == model_.nodes[base].mesh || repeated)
             drop(node, fmt::format("a level of detail of node {} has the same mesh: it is not kept", base));
+        else if (chain.lods.size() >= kMaxLods)
+            drop(node, fmt::format("node {} has more than {} levels of detail: this one is not kept", base,
+                                   kMaxLods));
         else
             return true;
         return false;

@@ -129,6 +129,22 @@ TEST_F(ClustersProgram, followsAProfile)
     EXPECT_FALSE(sandbox_.has("bad.part"));
 }
 
+TEST_F(ClustersProgram, findsTheMaterialsOfAProfileByName)
+{
+    sandbox_.write("rock.mtl", "newmtl stone\nKd 1 0 0\n");
+    sandbox_.write("stone.obj", "mtllib rock.mtl\nusemtl stone\n" + objOf(shapes::rock(16, 0.3f)));
+    sandbox_.write("house.toml", "[[clusters.material]]\nname = 'st*'\nlevels = [{ keep = 0.85 }]\n");
+    const auto trianglesOfLevel1 = [&](const std::string& source)
+    {
+        const test::ProgramEnd end =
+            run({source, "-o", "rock.part", "--profile", "house.toml", "--stats", "-"});
+        EXPECT_EQ(end.exit_code, 0) << end.err;
+        return Json::parse(end.out).at("meshes").at(0).at("levels").at(1).at("triangles").get<int>();
+    };
+    EXPECT_GT(trianglesOfLevel1("stone.obj"), 3072 * 3 / 4);
+    EXPECT_LE(trianglesOfLevel1("rock.obj"), 3072 / 2) << "another material";
+}
+
 TEST_F(ClustersProgram, addsTimesOnRequest)
 {
     const test::ProgramEnd end = run({"rock.obj", "-o", "rock.part", "--stats", "-", "--stats-times"});

@@ -218,6 +218,29 @@ TEST(GltfLods, withoutAMeshAreDroppedByName)
     EXPECT_TRUE(below.warnsOf(Issue::dropped, "meshes below a level of detail"));
 }
 
+TEST(GltfLods, areAFewCopiesAtMost)
+{
+    const Imported twice = import(R"("nodes":[
+        {"mesh":0,"extensions":{"MSFT_lod":{"ids":[1,1,2]}}},{"mesh":1},{"mesh":1}])");
+    EXPECT_EQ(lodsOf(twice), (Lods{{0, 4}}));
+    EXPECT_TRUE(twice.warnsOf(Issue::dropped, "has the same mesh"));
+
+    std::string meshes, nodes, ids;
+    for (int i = 0; i < 100; ++i)
+    {
+        meshes += R"({"primitives":[{"attributes":{"POSITION":0},"indices":1}]},)";
+        nodes += R"({"mesh":)" + std::to_string(i) + "},";
+        ids += std::to_string(i) + (i < 99 ? "," : "");
+    }
+    const Imported many =
+        lodData().import(R"("meshes":[)" + meshes +
+                         R"({"primitives":[{"attributes":{"POSITION":0},"indices":1}]}],"nodes":[)" + nodes +
+                         R"({"mesh":100,"extensions":{"MSFT_lod":{"ids":[)" + ids + "]}}}]");
+    ASSERT_TRUE(many.ok()) << many.message();
+    EXPECT_EQ(lodsOf(many).size(), 64u);
+    EXPECT_TRUE(many.warnsOf(Issue::dropped, "more than 64 levels"));
+}
+
 TEST(GltfLods, ofMaterialsAreDroppedByName)
 {
     const Imported result =
