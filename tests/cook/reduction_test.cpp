@@ -126,7 +126,7 @@ TEST(Reduction, meetsItsTargets)
 
 TEST(Reduction, meetsItsTargetsThoughSomeGroupsCannotDoTheirShare)
 {
-    // loose quads: no group can merge them, only leave some out; and blocks with seams at every step
+    // seams at every step of the blocks hold their groups back: those of the rock do more
     SourceMesh mesh = shapes::rock(40, 0.3f);
     shapes::append(mesh, shapes::blocks(16));
     const Hierarchy hierarchy = build(mesh, {.targets = {{2, mesh.triangleCount() / 4}}});
