@@ -25,7 +25,7 @@ struct GroupGoal
     float error_weight = 1;
     /// A group that keeps more than this part of its triangles is stuck.
     float stuck_ratio = 1;
-    /// The count matters more than full clusters: a group may keep as many clusters as it has.
+    /// The count matters more than full clusters: a group with fewer triangles may have no fewer clusters.
     bool exact = false;
 };
 

@@ -113,7 +113,7 @@ Reduced reduceGroup(const PreparedMesh& mesh, const ClusterStore& store, std::sp
     }
     reduced.clusters =
         splitSimplified(group, simplified, makeVertices(mesh, group, simplified, reduced), deviation.errors);
-    reduced.progressed = reduced.clusters.shapes.size() < members.size() + (goal.exact ? 1 : 0);
+    reduced.progressed = goal.exact || reduced.clusters.shapes.size() < members.size();
     return reduced;
 }
 
