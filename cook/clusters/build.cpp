@@ -240,6 +240,7 @@ Level nextLevel(PreparedMesh& mesh, Level& level)
             for (const uint32_t member : members)
                 next.drawn_below += level.store.shapes[member].triangle_count;
     }
+    level.store.errors = {};
     return next;
 }
 
@@ -330,6 +331,8 @@ void buildLevels(Build& build)
     std::vector<uint8_t> locked = pinned;
     Level first;
     first.store = splitMesh(build.mesh);
+    build.mesh.corners = {};
+    build.mesh.materials = {};
     first.refined_group.assign(first.store.shapes.size(), kNone);
     first.retries.assign(first.store.shapes.size(), 0);
     build.levels.push_back(std::move(first));

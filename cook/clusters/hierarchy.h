@@ -29,7 +29,7 @@ struct Config
 
     /// Weight of attribute errors against position errors, as lengths in units of the group's radius. That of normals
     /// is where distance and normals need as many triangles as clusterlod's at the same cuts (`./dev bench clusters`).
-    float normal_weight = 0.05f;
+    float normal_weight = 0.04f;
     float uv_weight = 0.25f;
     float color_weight = 0.25f;
 };
