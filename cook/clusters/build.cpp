@@ -290,6 +290,9 @@ Level switchToAuthored(Build& build, Level& level, const LevelPlan& plan,
     build.mesh.corners = authored.corners;
     build.mesh.materials = authored.materials;
     next.store = splitMesh(build.mesh);
+    build.mesh.corners = {};
+    build.mesh.materials = {};
+    level.store.errors = {};
     next.store.errors.assign(next.store.errors.size(), distance);
     next.refined_group.assign(next.store.shapes.size(), level.first_group);
     next.retries.assign(next.store.shapes.size(), 0);
