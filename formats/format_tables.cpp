@@ -48,6 +48,7 @@ constexpr RecordTable kRecords[] = {
     HEARTH_RECORD_TABLE(GroupRecord),
     HEARTH_RECORD_TABLE(ClusterRecord),
     HEARTH_RECORD_TABLE(PageRecord),
+    HEARTH_RECORD_TABLE(AuthoredLodRecord),
     HEARTH_RECORD_TABLE(SourceMeshHeader),
     HEARTH_RECORD_TABLE(SourceArray),
 };

@@ -10,8 +10,6 @@
 #include "cook/clusters/split.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <utility>
 
 namespace hearth::clusters
@@ -19,16 +17,6 @@ namespace hearth::clusters
 
 namespace
 {
-
-using formats::kClusterMaxTriangles;
-
-/// Half of the triangles, as full clusters where that is at least one.
-size_t targetTriangles(size_t triangle_count, const Config& config)
-{
-    const auto part = static_cast<size_t>(static_cast<float>(triangle_count) * config.simplify_ratio);
-    return std::max<size_t>(
-        1, part >= kClusterMaxTriangles ? part / kClusterMaxTriangles * kClusterMaxTriangles : part);
-}
 
 /// The vertex of each wedge that is left; those of remade positions are made.
 std::vector<uint32_t> makeVertices(const PreparedMesh& mesh, const GroupMesh& group,
@@ -96,20 +84,19 @@ ClusterStore splitSimplified(const GroupMesh& group, const Simplified& simplifie
 } // namespace
 
 Reduced reduceGroup(const PreparedMesh& mesh, const ClusterStore& store, std::span<const uint32_t> members,
-                    std::span<const uint8_t> locked, float members_error, const Config& config)
+                    std::span<const uint8_t> locked, const GroupGoal& goal, const Config& config)
 {
     Reduced reduced;
     const GroupMesh group = gatherGroup(mesh, store, members, locked, config);
-    const size_t target = targetTriangles(group.triangleCount(), config);
-    Simplified simplified = simplifyGroup(group, target);
+    Simplified simplified = simplifyGroup(group, goal.triangles);
     const auto stuck = [&]
     {
         return static_cast<float>(simplified.triangleCount()) >
-               config.stuck_ratio * static_cast<float>(group.triangleCount());
+               goal.stuck_ratio * static_cast<float>(group.triangleCount());
     };
     if (stuck())
     {
-        mergeByCells(group, target, simplified);
+        mergeByCells(group, goal.triangles, simplified);
         simplified.merged = true;
     }
     if (stuck())
@@ -119,19 +106,14 @@ Reduced reduceGroup(const PreparedMesh& mesh, const ClusterStore& store, std::sp
     reduced.merged = simplified.merged;
     Deviation deviation = boundDeviation(group, simplified);
     reduced.loose_pieces = deviation.loose_pieces;
-    reduced.error = members_error;
     for (float& error : deviation.errors)
     {
         error = roundUp(error * group.scale);
-        reduced.error = std::max(reduced.error, error);
+        reduced.distance = std::max(reduced.distance, error);
     }
-    reduced.error = roundUp(reduced.error * kMonotoneSlack);
     reduced.clusters =
         splitSimplified(group, simplified, makeVertices(mesh, group, simplified, reduced), deviation.errors);
-    if (reduced.clusters.shapes.size() >= members.size())
-        return reduced;
-    // an error beyond the floats cannot be stored: what it belongs to is a root
-    reduced.progressed = reduced.error < std::numeric_limits<float>::max();
+    reduced.progressed = goal.exact || reduced.clusters.shapes.size() < members.size();
     return reduced;
 }
 

@@ -38,17 +38,24 @@ std::vector<uint8_t> cutFromEye(const Hierarchy& hierarchy, Float3 eye, double t
 std::vector<uint8_t> randomCut(const Hierarchy& hierarchy, double chance, std::mt19937& random)
 {
     std::vector<uint8_t> replaced(hierarchy.groups.size(), 0);
+    bool possible = true;
     for (size_t g = hierarchy.groups.size(); g-- > 0;)
     {
         const auto& group = hierarchy.groups[g];
-        bool possible = std::isfinite(group.error);
+        possible &= std::isfinite(group.error);
         for (uint32_t c = 0; c < group.clusters.count; ++c)
         {
             const uint32_t refined = hierarchy.clusters[group.clusters.first + c].refined_group;
             possible &= refined == formats::kNone || replaced[refined] != 0;
         }
+        // a set is decided on at its first group, which comes last
+        if (group.set_offset != 0)
+            continue;
         const double roll = static_cast<double>(random()) / 4294967296.0;
         replaced[g] = possible && roll < chance ? 1 : 0;
+        for (size_t h = g + 1; h < replaced.size() && hierarchy.groups[h].set_offset == h - g; ++h)
+            replaced[h] = replaced[g];
+        possible = true;
     }
     return replaced;
 }
