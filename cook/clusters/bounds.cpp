@@ -299,6 +299,13 @@ Sphere sphereOfSpheres(std::span<const Sphere> spheres, const Sphere& start)
     return {stored, roundUp(radiusAround(stored, spheres))};
 }
 
+void growToHold(Sphere& sphere, std::span<const Float3> points)
+{
+    const float radius = storedSphere(widen(sphere.center), points).radius;
+    if (radius > sphere.radius)
+        sphere.radius = roundUp(radius * kMonotoneSlack);
+}
+
 NormalCone coneOfTriangles(std::span<const Float3> places, Float3 middle)
 {
     NormalCone cone;

@@ -26,6 +26,9 @@ Sphere sphereOfPoints(std::span<const Float3> points);
 /// A sphere around the spheres: their centers' sphere, or the one given as a start, whichever needs less radius.
 Sphere sphereOfSpheres(std::span<const Sphere> spheres, const Sphere& start);
 
+/// Make the radius, but for the slack, large enough for the points.
+void growToHold(Sphere& sphere, std::span<const Float3> points);
+
 /// Cone of the triangles' normals; its apex stands behind `middle`. The runtime may skip the triangles when the eye sees
 /// the cone from behind: dot(normalize(apex - eye), axis) >= cutoff.
 struct NormalCone

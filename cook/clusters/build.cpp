@@ -45,7 +45,7 @@ struct Level
 /// The levels so far, and lookups by group number.
 struct Build
 {
-    const PreparedMesh& mesh;
+    PreparedMesh mesh;
     const Config& config;
     std::vector<Level> levels;
 
@@ -107,6 +107,7 @@ BuiltGroup buildGroup(const Build& build, const Level& level, std::span<const ui
     Reduced reduced = reduceGroup(build.mesh, level.store, members, locked, members_error, build.config);
     if (reduced.progressed)
     {
+        growToHold(group.sphere, reduced.made.positions);
         group.error = reduced.error;
         group.clusters = std::move(reduced.clusters);
         group.outcome = std::move(reduced);
@@ -137,8 +138,23 @@ void pinRoots(const PreparedMesh& mesh, const Level& level, std::vector<uint8_t>
                     pinned[mesh.position_of_vertex[vertex]] = 1;
 }
 
+/// Take over the vertices that a group has made: its clusters name them as the mesh does from then on.
+void takeVertices(PreparedMesh& mesh, Reduced& outcome, ClusterStore& clusters)
+{
+    const auto first_vertex = static_cast<uint32_t>(mesh.vertices.vertexCount());
+    for (uint32_t& vertex : clusters.vertices)
+        if (vertex >= kMadeVertex)
+            vertex = vertex - kMadeVertex + first_vertex;
+    appendVertices(mesh.vertices, outcome.made);
+    for (const uint32_t position : outcome.made_positions)
+        mesh.position_of_vertex.push_back(mesh.position_count + position);
+    mesh.position_count += outcome.made_position_count;
+    outcome.made = {};
+    outcome.made_positions = {};
+}
+
 /// Collect what replaces the level's groups.
-Level nextLevel(Level& level)
+Level nextLevel(PreparedMesh& mesh, Level& level)
 {
     Level next;
     next.first_group = level.first_group + static_cast<uint32_t>(level.groups.count());
@@ -152,6 +168,7 @@ Level nextLevel(Level& level)
             const int tried = group.retried ? level.retries[members[i]] + 1 : 0;
             next.retries.push_back(static_cast<uint8_t>(tried));
         }
+        takeVertices(mesh, group.outcome, group.clusters);
         next.store.append(group.clusters);
         group.clusters = {};
     }
@@ -178,7 +195,9 @@ void buildLevels(Build& build)
                           [&](size_t g)
                           { level.built[g] = buildGroup(build, level, level.groups.membersOf(g), locked); });
         pinRoots(build.mesh, level, pinned);
-        Level next = nextLevel(level);
+        Level next = nextLevel(build.mesh, level);
+        pinned.resize(build.mesh.position_count, 0);
+        locked.resize(build.mesh.position_count, 0);
         if (next.store.shapes.empty())
             return;
         build.levels.push_back(std::move(next));
@@ -311,15 +330,14 @@ Hierarchy buildHierarchy(mesh::SourceMesh source, const Config& config)
 {
     Hierarchy hierarchy;
     fillSourceCounts(source, hierarchy.mesh);
-    const PreparedMesh prepared = prepareMesh(std::move(source));
-    if (prepared.triangleCount() > 0)
+    Build build{prepareMesh(std::move(source)), config, {}};
+    if (build.mesh.triangleCount() > 0)
     {
-        Build build{prepared, config, {}};
         buildLevels(build);
         countOutcomes(build, hierarchy.counts);
         writeRecords(build, hierarchy);
     }
-    fillMeshRecord(prepared, hierarchy);
+    fillMeshRecord(build.mesh, hierarchy);
     return hierarchy;
 }
 

@@ -62,6 +62,12 @@ struct ClusterStore
     void appendCluster(const ClusterStore& other, const ClusterShape& shape);
 };
 
+/// Append a copy of a vertex with its position and attributes.
+void appendVertex(mesh::SourceMesh& to, const mesh::SourceMesh& from, uint32_t vertex);
+
+/// Append all vertices of `from`, which has the same attributes.
+void appendVertices(mesh::SourceMesh& to, const mesh::SourceMesh& from);
+
 /// Move to the grid, weld, drop triangles without area and those that the grid takes an edge from, merge equal vertices.
 PreparedMesh prepareMesh(mesh::SourceMesh source);
 

@@ -2,7 +2,9 @@
 #include "cook/clusters/deviation.h"
 
 #include "cook/clusters/facet_index.h"
+#include "cook/clusters/overlay.h"
 #include "cook/clusters/piece_bound.h"
+#include "cook/clusters/set_hash.h"
 #include "formats/assert.h"
 
 #include <algorithm>
@@ -83,6 +85,11 @@ public:
         candidates_.load(index.facets(), guess);
         return bounder_.bound(triangle, candidates_.blocks(), worst2_, 0, kFewPoints).upper2 <= worst2_;
     }
+
+    /// Whether a triangle within `upper` need not be looked at more closely.
+    bool isNear(float upper) const { return upper * upper <= allowed2(0); }
+
+    void addBound(float upper) { worst2_ = std::max(worst2_, upper * upper); }
 
     /// Raise the bound until it holds for the triangle.
     /// likely  facets that probably lie beside it, likeliest first: if they bound it well enough, no others are
@@ -222,41 +229,6 @@ private:
     Bounder bounder_;
 };
 
-std::vector<Float3> placesOf(const GroupMesh& group, std::span<const uint32_t> corners)
-{
-    std::vector<Float3> places;
-    places.reserve(corners.size());
-    for (const uint32_t wedge : corners)
-        places.push_back(group.positions[group.position_of_wedge[wedge]]);
-    return places;
-}
-
-/// The triangles around each position.
-class Stars
-{
-public:
-    Stars(const GroupMesh& group, std::span<const uint32_t> corners) : offsets_(group.positions.size() + 1, 0)
-    {
-        for (const uint32_t wedge : corners)
-            ++offsets_[group.position_of_wedge[wedge] + 1];
-        for (size_t i = 1; i < offsets_.size(); ++i)
-            offsets_[i] += offsets_[i - 1];
-        items_.resize(corners.size());
-        std::vector<uint32_t> next(offsets_.begin(), offsets_.end() - 1);
-        for (size_t corner = 0; corner < corners.size(); ++corner)
-            items_[next[group.position_of_wedge[corners[corner]]]++] = static_cast<uint32_t>(corner / 3);
-    }
-
-    std::span<const uint32_t> of(uint32_t position) const
-    {
-        return std::span(items_).subspan(offsets_[position], offsets_[position + 1] - offsets_[position]);
-    }
-
-private:
-    std::vector<uint32_t> offsets_;
-    std::vector<uint32_t> items_;
-};
-
 /// A short list of facets, each once.
 class Likely
 {
@@ -269,9 +241,9 @@ public:
         facets_.clear();
     }
 
-    void add(std::span<const uint32_t> facets)
+    void addAround(const Surface& surface, uint32_t position)
     {
-        for (const uint32_t facet : facets)
+        for (const uint32_t facet : surface.facets_at.of(position))
             if (list_of_facet_[facet] != list_ && facets_.size() < kMaxLikely)
             {
                 list_of_facet_[facet] = list_;
@@ -287,6 +259,44 @@ private:
     std::vector<uint32_t> facets_;
 };
 
+/// Where triangles do not close around a position. Both surfaces are open at the same ones: collapses keep borders.
+std::vector<uint8_t> openPositions(const GroupMesh& group)
+{
+    std::vector<uint64_t> difference(group.positions.size(), 0);
+    for (size_t t = 0; t < group.corners.size(); t += 3)
+        for (size_t k = 0; k < 3; ++k)
+            difference[group.positionAt(t + k)] +=
+                hashOf(group.positionAt(t + (k + 1) % 3)) - hashOf(group.positionAt(t + (k + 2) % 3));
+    std::vector<uint8_t> open(difference.size());
+    for (size_t p = 0; p < open.size(); ++p)
+        open[p] = difference[p] != 0 ? 1 : 0;
+    return open;
+}
+
+std::vector<uint32_t> positionsOf(const GroupMesh& group, std::span<const uint32_t> wedges)
+{
+    std::vector<uint32_t> positions;
+    positions.reserve(wedges.size());
+    for (const uint32_t wedge : wedges)
+        positions.push_back(group.position_of_wedge[wedge]);
+    return positions;
+}
+
+/// An upper bound of a triangle's distance.
+struct Height
+{
+    float upper;
+    uint32_t triangle;
+    bool before;
+
+    bool operator<(const Height& b) const
+    {
+        return upper != b.upper     ? upper < b.upper
+               : before != b.before ? before < b.before
+                                    : triangle < b.triangle;
+    }
+};
+
 /// Bounds the triangles from before that are gone or changed, and those that are new. What a collapse moved lies beside
 /// the star of the position that it moved to, and the new star beside that of the position that moved.
 class GroupMeasure
@@ -295,14 +305,14 @@ public:
     GroupMeasure(const GroupMesh& group, const Simplified& simplified, float carried)
         : group_(group),
           simplified_(simplified),
-          before_(placesOf(group, group.corners)),
-          after_(placesOf(group, simplified.corners)),
-          before_index_(before_),
-          after_index_(after_),
-          before_stars_(group, group.corners),
-          after_stars_(group, simplified.corners),
-          likely_before_(group.triangleCount()),
-          likely_after_(simplified.triangleCount()),
+          before_(positionsOf(group, group.corners), group.positions),
+          after_(positionsOf(group, simplified.corners), simplified.placement.places),
+          sources_(NumberLists::byKey<1>(group.positions.size(), simplified.target_of_position)),
+          open_(openPositions(group)),
+          over_before_(before_, open_),
+          over_after_(after_, open_),
+          likely_before_(before_.facetCount()),
+          likely_after_(after_.facetCount()),
           measure_(carried)
     {
     }
@@ -312,12 +322,13 @@ public:
         std::vector<uint8_t> unchanged(group_.triangleCount(), 0);
         for (size_t t = 0; t < simplified_.triangleCount(); ++t)
             unchanged[simplified_.source_triangle[t]] = movedCorner(simplified_.source_triangle[t]) ? 0 : 1;
-        for (size_t t = 0; t < unchanged.size(); ++t)
+        for (uint32_t t = 0; t < unchanged.size(); ++t)
             if (unchanged[t] == 0)
-                addBefore(t);
-        for (size_t t = 0; t < simplified_.triangleCount(); ++t)
+                heights_.push_back({heightBefore(t), t, true});
+        for (uint32_t t = 0; t < simplified_.triangleCount(); ++t)
             if (unchanged[simplified_.source_triangle[t]] == 0)
-                addAfter(t);
+                heights_.push_back({heightAfter(t), t, false});
+        addHeights();
         return {static_cast<double>(std::sqrt(measure_.worst2())) + kRounding, measure_.loosePieces()};
     }
 
@@ -330,21 +341,65 @@ private:
     bool movedCorner(size_t triangle) const
     {
         for (size_t k = 0; k < 3; ++k)
-            if (targetOf(triangle * 3 + k) != group_.positionAt(triangle * 3 + k))
+            if (moved(triangle * 3 + k))
                 return true;
         return false;
+    }
+
+    bool moved(size_t corner) const
+    {
+        const uint32_t target = targetOf(corner);
+        return target != group_.positionAt(corner) || simplified_.placement.remade[target] != 0;
+    }
+
+    /// Largest first: once one needs no closer look, neither do the others.
+    void addHeights()
+    {
+        std::make_heap(heights_.begin(), heights_.end());
+        while (!heights_.empty())
+        {
+            const Height height = heights_.front();
+            if (measure_.isNear(height.upper))
+            {
+                measure_.addBound(height.upper);
+                return;
+            }
+            height.before ? addBefore(height.triangle) : addAfter(height.triangle);
+            std::pop_heap(heights_.begin(), heights_.end());
+            heights_.pop_back();
+        }
+    }
+
+    float heightBefore(size_t t)
+    {
+        over_after_.clear();
+        for (size_t corner = t * 3; corner < t * 3 + 3; ++corner)
+        {
+            if (targetOf(corner) == kPruned)
+                return kInfinity;
+            over_after_.addCenter(targetOf(corner));
+        }
+        return over_after_.heightOver(before_.cornersOf(t));
+    }
+
+    float heightAfter(size_t t)
+    {
+        over_before_.clear();
+        for (size_t corner = t * 3; corner < t * 3 + 3; ++corner)
+            for (const uint32_t position : sources_.of(after_.positions[corner]))
+                over_before_.addCenter(position);
+        return over_before_.heightOver(after_.cornersOf(t));
     }
 
     void addBefore(size_t t)
     {
         likely_after_.clear();
         for (size_t corner = t * 3; corner < t * 3 + 3; ++corner)
-            if (const uint32_t target = targetOf(corner);
-                target != kPruned && target != group_.positionAt(corner))
-                likely_after_.add(after_stars_.of(target));
-        const Corners corners{before_[t * 3], before_[t * 3 + 1], before_[t * 3 + 2]};
-        if (!likely_after_.facets().empty() || !measure_.holds(corners, after_index_, neighboursInOrder(t)))
-            measure_.add(corners, after_index_, likely_after_.facets());
+            if (const uint32_t target = targetOf(corner); target != kPruned && moved(corner))
+                likely_after_.addAround(after_, target);
+        const Corners corners = before_.cornersOf(t);
+        if (!likely_after_.facets().empty() || !measure_.holds(corners, after_.index, neighboursInOrder(t)))
+            measure_.add(corners, after_.index, likely_after_.facets());
     }
 
     void addAfter(size_t t)
@@ -352,10 +407,9 @@ private:
         likely_before_.clear();
         const size_t source = simplified_.source_triangle[t];
         for (size_t corner = source * 3; corner < source * 3 + 3; ++corner)
-            if (targetOf(corner) != group_.positionAt(corner))
-                likely_before_.add(before_stars_.of(group_.positionAt(corner)));
-        measure_.add({after_[t * 3], after_[t * 3 + 1], after_[t * 3 + 2]}, before_index_,
-                     likely_before_.facets());
+            if (moved(corner))
+                likely_before_.addAround(before_, group_.positionAt(corner));
+        measure_.add(after_.cornersOf(t), before_.index, likely_before_.facets());
     }
 
     /// New triangles that were near an old one in the clusters' order: a fair guess for those of islands that are gone.
@@ -374,14 +428,15 @@ private:
 
     const GroupMesh& group_;
     const Simplified& simplified_;
-    std::vector<Float3> before_;
-    std::vector<Float3> after_;
-    FacetIndex before_index_;
-    FacetIndex after_index_;
-    Stars before_stars_;
-    Stars after_stars_;
+    Surface before_;
+    Surface after_;
+    NumberLists sources_;       ///< positions that went to each
+    std::vector<uint8_t> open_; ///< for each position
+    Overlay over_before_;
+    Overlay over_after_;
     Likely likely_before_;
     Likely likely_after_;
+    std::vector<Height> heights_;
     Measure measure_;
 };
 

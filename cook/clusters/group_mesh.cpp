@@ -158,43 +158,19 @@ void nameCharts(GroupMesh& group, const mesh::SourceMesh& source, std::span<cons
     }
 }
 
-void gatherAttributes(GroupMesh& group, const mesh::SourceMesh& source, const Config& config)
+void gatherAttributes(GroupMesh& group, const mesh::SourceMesh& vertices, const Config& config)
 {
-    const bool has_normal = !source.normals.empty() && config.normal_weight > 0;
-    const bool has_color = !source.colors.empty() && config.color_weight > 0;
-    const float uv_scale = source.uvs[0].empty() || config.uv_weight <= 0
-                               ? 0.0f
-                               : config.uv_weight * uvScale(group, source.uvs[0]);
-    const size_t count = (has_normal ? 3u : 0u) + (uv_scale > 0 ? 2u : 0u) + (has_color ? 4u : 0u);
-    group.attribute_rows = static_cast<uint32_t>((count + kLanes - 1) / kLanes);
+    if (!vertices.normals.empty())
+        group.weights.normal = config.normal_weight;
+    if (!vertices.uvs[0].empty() && config.uv_weight > 0)
+        group.weights.uv = config.uv_weight * uvScale(group, vertices.uvs[0]);
+    if (!vertices.colors.empty())
+        group.weights.color = config.color_weight;
+    group.attribute_rows = group.weights.rows();
     group.attributes.assign(group.attribute_rows * group.vertex_of_wedge.size(), Lanes{});
     for (size_t wedge = 0; wedge < group.vertex_of_wedge.size(); ++wedge)
-    {
-        const uint32_t vertex = group.vertex_of_wedge[wedge];
-        Lanes* rows = group.attributes.data() + wedge * group.attribute_rows;
-        size_t next = 0;
-        const auto add = [&](float value)
-        {
-            rows[next / kLanes][next % kLanes] = value;
-            ++next;
-        };
-        if (has_normal)
-        {
-            const Float3 n = source.normals[vertex] * config.normal_weight;
-            add(n.x), add(n.y), add(n.z);
-        }
-        if (uv_scale > 0)
-        {
-            const Float2 uv = source.uvs[0][vertex] * uv_scale;
-            add(uv.x), add(uv.y);
-        }
-        if (has_color)
-        {
-            const Float4 c = source.colors[vertex];
-            const float weight = config.color_weight;
-            add(c.x * weight), add(c.y * weight), add(c.z * weight), add(c.w * weight);
-        }
-    }
+        packAttributes(vertices, group.vertex_of_wedge[wedge], group.weights,
+                       group.attributes.data() + wedge * group.attribute_rows);
 }
 
 } // namespace
@@ -204,6 +180,7 @@ GroupMesh gatherGroup(const PreparedMesh& mesh, const ClusterStore& store, std::
 {
     GroupMesh group;
     const std::vector<uint32_t> material_of_wedge = gatherTriangles(group, mesh, store, members, locked);
+    group.grid_step = mesh.grid.step;
     nameCharts(group, mesh.vertices, material_of_wedge);
     placePositions(group, mesh.vertices.positions);
     gatherAttributes(group, mesh.vertices, config);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
+#include "cook/clusters/attributes.h"
 #include "cook/clusters/cluster.h"
 #include "cook/clusters/hierarchy.h"
 #include "cook/clusters/lanes.h"
@@ -22,13 +23,15 @@ struct GroupMesh
     std::vector<Float3> positions;           ///< local, for each position
     std::vector<uint8_t> locked;             ///< for each position
     std::vector<uint32_t> global_position;   ///< for each position, that of the prepared mesh
-    std::vector<uint32_t> vertex_of_wedge;   ///< vertex of the source
+    std::vector<uint32_t> vertex_of_wedge;   ///< vertex of the prepared mesh
     std::vector<uint32_t> position_of_wedge; ///< position of this mesh
     std::vector<uint32_t> chart_of_wedge;    ///< one number for wedges that differ in the normal alone
     std::vector<uint32_t> corners;           ///< three wedges for each triangle
     std::vector<uint32_t> materials;         ///< for each triangle
-    uint32_t attribute_rows = 0;             ///< rows of four attributes that a wedge has
-    std::vector<Lanes> attributes;           ///< rows of each wedge, weighted: differences are local lengths
+    double grid_step = 0;                    ///< object space
+    AttributeWeights weights;
+    uint32_t attribute_rows = 0;   ///< rows of four attributes that a wedge has
+    std::vector<Lanes> attributes; ///< rows of each wedge, weighted: differences are local lengths
 
     size_t triangleCount() const { return corners.size() / 3; }
     const Lanes* attributesOf(uint32_t wedge) const

@@ -47,7 +47,36 @@ std::vector<uint8_t> degenerateTriangles(const mesh::SourceMesh& source)
     return degenerate;
 }
 
+/// Call `visit` for each array of positions or attributes of both meshes.
+template <typename Visit>
+void forEachArray(mesh::SourceMesh& to, const mesh::SourceMesh& from, Visit visit)
+{
+    visit(to.positions, from.positions);
+    visit(to.normals, from.normals);
+    visit(to.tangents, from.tangents);
+    for (size_t set = 0; set < mesh::kUvSetCount; ++set)
+        visit(to.uvs[set], from.uvs[set]);
+    visit(to.colors, from.colors);
+}
+
 } // namespace
+
+void appendVertex(mesh::SourceMesh& to, const mesh::SourceMesh& from, uint32_t vertex)
+{
+    forEachArray(to, from,
+                 [vertex](auto& target, const auto& source)
+                 {
+                     if (!source.empty())
+                         target.push_back(source[vertex]);
+                 });
+}
+
+void appendVertices(mesh::SourceMesh& to, const mesh::SourceMesh& from)
+{
+    forEachArray(to, from,
+                 [](auto& target, const auto& source)
+                 { target.insert(target.end(), source.begin(), source.end()); });
+}
 
 PreparedMesh prepareMesh(mesh::SourceMesh source)
 {

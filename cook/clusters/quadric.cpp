@@ -92,6 +92,9 @@ void addTriangle(Quadrics& quadrics, const GroupMesh& group, size_t first_corner
         }
     }
     planes.addTo(quadric);
+    quadric.a00 += kSpread * weight;
+    quadric.a11 += kSpread * weight;
+    quadric.a22 += kSpread * weight;
     for (size_t k = 0; k < 3; ++k)
     {
         quadrics.wedge_weight[wedge[k]] += weight;

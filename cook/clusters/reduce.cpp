@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace hearth::clusters
 {
@@ -28,21 +29,46 @@ size_t targetTriangles(size_t triangle_count, const Config& config)
         1, part >= kClusterMaxTriangles ? part / kClusterMaxTriangles * kClusterMaxTriangles : part);
 }
 
+/// The vertex of each wedge that is left; those of remade positions are made.
+std::vector<uint32_t> makeVertices(const PreparedMesh& mesh, const GroupMesh& group,
+                                   const Simplified& simplified, Reduced& reduced)
+{
+    constexpr uint32_t kNoNumber = 0xFFFFFFFFu;
+    const Placement& placement = simplified.placement;
+    std::vector<uint32_t> vertices = group.vertex_of_wedge;
+    std::vector<uint32_t> position_numbers(group.positions.size(), kNoNumber);
+    std::vector<uint8_t> done(vertices.size(), 0);
+    for (const uint32_t wedge : simplified.corners)
+    {
+        const uint32_t position = group.position_of_wedge[wedge];
+        if (placement.remade[position] == 0 || std::exchange(done[wedge], uint8_t{1}) != 0)
+            continue;
+        if (position_numbers[position] == kNoNumber)
+            position_numbers[position] = reduced.made_position_count++;
+        const auto made = static_cast<uint32_t>(reduced.made.vertexCount());
+        appendVertex(reduced.made, mesh.vertices, group.vertex_of_wedge[wedge]);
+        reduced.made.positions[made] = placement.object_places[position];
+        unpackAttributes(placement.attributes.data() + size_t{wedge} * group.attribute_rows, group.weights,
+                         reduced.made, made);
+        reduced.made_positions.push_back(position_numbers[position]);
+        vertices[wedge] = kMadeVertex + made;
+    }
+    return vertices;
+}
+
 /// Cut what is left into clusters, material by material in order of their numbers.
-ClusterStore splitSimplified(const GroupMesh& group, const Simplified& simplified)
+ClusterStore splitSimplified(const GroupMesh& group, const Simplified& simplified,
+                             std::span<const uint32_t> vertex_of_wedge)
 {
     const size_t count = simplified.triangleCount();
     std::vector<uint32_t> vertices(count * 3);
-    std::vector<uint32_t> positions(count * 3);
     for (size_t i = 0; i < vertices.size(); ++i)
-    {
-        vertices[i] = group.vertex_of_wedge[simplified.corners[i]];
-        positions[i] = group.position_of_wedge[simplified.corners[i]];
-    }
+        vertices[i] = vertex_of_wedge[simplified.corners[i]];
+    const auto place = [&](size_t corner)
+    { return simplified.placement.places[group.position_of_wedge[simplified.corners[corner]]]; };
     std::vector<Float3> centers(count);
     for (size_t t = 0; t < count; ++t)
-        centers[t] = triangleCenter(group.positions[positions[t * 3]], group.positions[positions[t * 3 + 1]],
-                                    group.positions[positions[t * 3 + 2]]);
+        centers[t] = triangleCenter(place(t * 3), place(t * 3 + 1), place(t * 3 + 2));
     gatherSmallIslands(centers, simplified.corners, group.vertex_of_wedge.size());
     std::vector<SplitItem> items;
     items.reserve(count);
@@ -79,7 +105,7 @@ Reduced reduceGroup(const PreparedMesh& mesh, const ClusterStore& store, std::sp
     if (static_cast<float>(simplified.triangleCount()) >
         config.stuck_ratio * static_cast<float>(group.triangleCount()))
         return reduced;
-    reduced.clusters = splitSimplified(group, simplified);
+    reduced.clusters = splitSimplified(group, simplified, makeVertices(mesh, group, simplified, reduced));
     if (reduced.clusters.shapes.size() >= members.size())
         return reduced;
     const Deviation deviation = boundDeviation(group, simplified, double{members_error} / group.scale);

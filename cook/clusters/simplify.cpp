@@ -5,6 +5,7 @@
 #include "cook/clusters/islands.h"
 #include "cook/clusters/quadric.h"
 #include "cook/clusters/star_mesh.h"
+#include "cook/clusters/turning.h"
 #include "formats/assert.h"
 
 #include <algorithm>
@@ -19,12 +20,6 @@ namespace
 {
 
 constexpr uint32_t kNoPosition = 0xFFFFFFFFu;
-
-// A collapse may turn a triangle by up to 75 degrees.
-constexpr float kMinTurnCosine = 0.25f;
-
-// Height of a triangle against its longest side below which its area is mostly rounding.
-constexpr float kNeedle = 1e-4f;
 
 // Where the surface is flat all collapses cost nothing: then short edges of small areas go first.
 constexpr float kLengthWeight = 1e-6f;
@@ -66,7 +61,8 @@ public:
           best_target_(group.positions.size(), kNoPosition),
           target_(group.positions.size()),
           edges_held_(group.positions.size(), 0),
-          wedge_blocked_(group.positions.size(), 0)
+          wedge_blocked_(group.positions.size(), 0),
+          grown_(group.positions.size(), 0)
     {
         for (uint32_t p = 0; p < target_.size(); ++p)
             target_[p] = p;
@@ -82,17 +78,14 @@ public:
         heap_.clear();
         for (uint32_t p = 0; p < target_.size(); ++p)
             if (target_[p] == p && group_.locked[p] == 0 && (!permissive || wedge_blocked_[p] != 0))
-            {
-                mesh_.gather(p);
-                evaluateGathered(p);
-            }
+                evaluate(p);
         while (mesh_.aliveCount() > target_triangles && !heap_.empty())
             step();
     }
 
     bool pruneIslands(size_t target_triangles);
 
-    Simplified result() const;
+    Simplified result();
 
 private:
     void holdEdges(uint32_t position);
@@ -106,7 +99,20 @@ private:
     }
     uint32_t chartOf(uint32_t wedge) const { return group_.chart_of_wedge[wedge]; }
     const WedgeMove* moveOfChart(uint32_t wedge) const;
-    bool allMapped() const { return moves_.size() == mesh_.wedges().size(); }
+    bool allMapped() const { return plain_ || moves_.size() == mesh_.wedges().size(); }
+    void gather(uint32_t position)
+    {
+        plain_ = mesh_.gatherFan(position);
+        if (!plain_)
+            mesh_.gather(position);
+    }
+    void evaluate(uint32_t position)
+    {
+        gather(position);
+        evaluateGathered(position);
+    }
+    bool mapTo(uint32_t from, uint32_t to);
+    void gatherFanCandidates(uint32_t position);
     float cost(uint32_t from, uint32_t to) const;
     bool moreChartsThanTwo() const;
     void gatherCandidates(uint32_t position, bool along_seams);
@@ -127,8 +133,10 @@ private:
     std::vector<uint32_t> target_;       ///< of removed positions, the next one
     std::vector<uint8_t> edges_held_;    ///< 1 where holdEdges was
     std::vector<uint8_t> wedge_blocked_; ///< 1 where wedges without a way ruled out a collapse
+    std::vector<uint8_t> grown_;         ///< 1 for positions that others went to
     std::vector<HeapEntry> heap_;
     bool permissive_ = false;
+    bool plain_ = false; ///< a fan is gathered, else a ring
 
     // scratch
     std::vector<WedgeMove> moves_;
@@ -167,6 +175,21 @@ void Collapser::holdEdges(uint32_t position)
 bool Collapser::mapGathered(uint32_t from, const Spoke& spoke)
 {
     return mesh_.layers() == 1 ? mapWedges(spoke) : mapLayers(from, spoke.position);
+}
+
+/// The same for any neighbour, and false for other positions.
+bool Collapser::mapTo(uint32_t from, uint32_t to)
+{
+    if (!plain_)
+    {
+        const Spoke* spoke = mesh_.spokeTo(to);
+        return spoke != nullptr && mapGathered(from, *spoke);
+    }
+    const FanEnd* end = mesh_.endAt(to);
+    if (end == nullptr)
+        return false;
+    moves_.assign(1, {mesh_.fanWedge(), end->wedge});
+    return true;
 }
 
 bool Collapser::mapWedges(const Spoke& spoke)
@@ -284,12 +307,28 @@ bool Collapser::moreChartsThanTwo() const
     return false;
 }
 
+void Collapser::gatherFanCandidates(uint32_t position)
+{
+    edges_held_[position] = 1;
+    if (mesh_.degree(position) <= 2)
+        return;
+    for (const FanEnd end : mesh_.fan())
+    {
+        if (mesh_.degree(end.position) <= 2)
+            continue;
+        moves_.assign(1, {mesh_.fanWedge(), end.wedge});
+        candidates_.push_back({cost(position, end.position), end.position, true});
+    }
+}
+
 /// All collapses of the gathered position that respect borders and wedges, into candidates_.
 /// along_seams  where one of them keeps two wedges on their way, those that keep fewer are left out
 void Collapser::gatherCandidates(uint32_t position, bool along_seams)
 {
     candidates_.clear();
     wedge_blocked_[position] = 0;
+    if (plain_)
+        return gatherFanCandidates(position);
     const auto ring = mesh_.ring();
     if (std::all_of(ring.begin(), ring.end(), [&](const Spoke& s) { return mesh_.emptiesStar(position, s); }))
         return;
@@ -376,26 +415,13 @@ void Collapser::evaluateValid(uint32_t position, float popped_cost)
 
 bool Collapser::turnsOver(uint32_t from, uint32_t to)
 {
-    const Float3 old_place = group_.positions[from];
-    const Float3 new_place = group_.positions[to];
     for (const Corner corner : mesh_.star(from))
     {
         const uint32_t next = mesh_.positionAt(nextCorner(corner));
         const uint32_t previous = mesh_.positionAt(previousCorner(corner));
-        if (next == to || previous == to)
-            continue;
-        const Float3 a = group_.positions[next];
-        const Float3 b = group_.positions[previous];
-        const Float3 new_a = a - new_place;
-        const Float3 new_b = b - new_place;
-        const Float3 old_normal = cross(a - old_place, b - old_place);
-        const Float3 new_normal = cross(new_a, new_b);
-        const float old_area2 = dot(old_normal, old_normal);
-        const float new_area2 = dot(new_normal, new_normal);
-        const float longest2 = std::max(dot(new_a, new_a), dot(new_b, new_b));
-        const bool needle = !(new_area2 > kNeedle * kNeedle * longest2 * longest2);
-        if (!(new_area2 > 0) || (needle && new_area2 < old_area2) ||
-            dot(old_normal, new_normal) < kMinTurnCosine * std::sqrt(old_area2 * new_area2))
+        if (next != to && previous != to &&
+            turnsTriangle(group_.positions[next], group_.positions[previous], group_.positions[from],
+                          group_.positions[to]))
             return true;
     }
     return false;
@@ -405,19 +431,22 @@ bool Collapser::turnsOver(uint32_t from, uint32_t to)
 /// those that had none.
 void Collapser::evaluateAround(uint32_t removed, uint32_t center)
 {
-    mesh_.gather(center);
+    gather(center);
     around_.clear();
+    const auto note = [&](uint32_t position)
+    {
+        if (group_.locked[position] == 0 &&
+            (best_target_[position] == removed || best_target_[position] == kNoPosition))
+            around_.push_back(position);
+    };
+    for (const FanEnd& end : mesh_.fan())
+        note(end.position);
     for (const Spoke& spoke : mesh_.ring())
-        if (group_.locked[spoke.position] == 0 &&
-            (best_target_[spoke.position] == removed || best_target_[spoke.position] == kNoPosition))
-            around_.push_back(spoke.position);
+        note(spoke.position);
     if (group_.locked[center] == 0)
         evaluateGathered(center);
     for (const uint32_t position : around_)
-    {
-        mesh_.gather(position);
-        evaluateGathered(position);
-    }
+        evaluate(position);
 }
 
 void Collapser::step()
@@ -427,9 +456,8 @@ void Collapser::step()
     heap_.pop_back();
     if (entry.version != version_[entry.position])
         return;
-    mesh_.gather(entry.position);
-    const Spoke* spoke = mesh_.spokeTo(entry.target);
-    if (spoke == nullptr || !mapGathered(entry.position, *spoke) || !valid(entry.position, entry.target))
+    gather(entry.position);
+    if (!mapTo(entry.position, entry.target) || !valid(entry.position, entry.target))
     {
         evaluateValid(entry.position, entry.cost);
         return;
@@ -439,6 +467,7 @@ void Collapser::step()
         quadrics_.move(group_, entry.position, entry.target, moves_);
     mesh_.collapse(entry.position, entry.target, moves_);
     target_[entry.position] = entry.target;
+    grown_[entry.target] = 1;
     ++version_[entry.position];
     evaluateAround(entry.position, entry.target);
 }
@@ -494,7 +523,7 @@ bool Collapser::pruneIslands(size_t target_triangles)
     return pruned;
 }
 
-Simplified Collapser::result() const
+Simplified Collapser::result()
 {
     Simplified result;
     result.corners.reserve(mesh_.aliveCount() * 3);
@@ -516,6 +545,10 @@ Simplified Collapser::result() const
             target = target_[target];
         result.target_of_position[p] = target;
     }
+    for (uint32_t p = 0; p < target_.size(); ++p)
+        if (target_[p] != p || group_.locked[p] != 0 || edges_held_[p] == 0)
+            grown_[p] = 0;
+    result.placement = placeOptimally(group_, mesh_, quadrics_, grown_);
     return result;
 }
 

@@ -3,7 +3,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include "cook/clusters/group_mesh.h"
+#include "cook/clusters/placement.h"
 
 #include <cstdint>
 #include <vector>
@@ -19,6 +19,7 @@ struct Simplified
     std::vector<uint32_t> materials;       ///< for each triangle left
     std::vector<uint32_t> source_triangle; ///< for each triangle left, the triangle of the group that it was
     std::vector<uint32_t> target_of_position; ///< where each position went: itself, another, or kPruned
+    Placement placement;                      ///< where the positions that are left lie now
     bool permissive = false;                  ///< attributes had to jump across a seam
     bool pruned = false;                      ///< whole islands are gone
 
@@ -33,6 +34,7 @@ struct Simplified
 ///   that differ from one with a way in the normal alone need none: hard edges cost what they change;
 /// - open borders, and edges of more than two triangles, only shorten along themselves;
 /// - no triangle turns over, no two sheets are glued together (link condition), no island disappears.
+/// Positions that others went to are then placed anew, where the quadrics are least, and their attributes with them.
 /// If that is not enough, whole islands go, the smallest first (`pruned`); one triangle always stays.
 Simplified simplifyGroup(const GroupMesh& group, size_t target_triangles);
 

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/clusters/star_mesh.h"
 
+#include "cook/clusters/set_hash.h"
+
 #include <algorithm>
 #include <limits>
 
@@ -14,8 +16,11 @@ StarMesh::StarMesh(const GroupMesh& group)
       alive_(group.triangleCount(), 1),
       alive_count_(group.triangleCount()),
       stars_(group.positions.size()),
+      hash_of_wedge_(group.vertex_of_wedge.size()),
       mark_(group.positions.size(), 0)
 {
+    for (uint32_t w = 0; w < hash_of_wedge_.size(); ++w)
+        hash_of_wedge_[w] = hashOf(w);
     for (uint32_t t = 0; t < alive_.size(); ++t)
         for (uint32_t k = 0; k < 3; ++k)
         {
@@ -57,20 +62,51 @@ std::span<const Corner> StarMesh::star(uint32_t position)
     return {items, star.count};
 }
 
-void StarMesh::gather(uint32_t center)
+void StarMesh::clearGathered()
 {
-    mark_value_ += static_cast<uint32_t>(ring_.size()) + 1;
+    mark_value_ += static_cast<uint32_t>(ring_.size() + fan_.size()) + 1;
     if (mark_value_ > std::numeric_limits<uint32_t>::max() / 2)
     {
         std::fill(mark_.begin(), mark_.end(), 0u);
         mark_value_ = 1;
     }
     ring_.clear();
+    fan_.clear();
+}
+
+bool StarMesh::gatherFan(uint32_t center)
+{
+    clearGathered();
+    const auto corners = star(center);
+    if (corners.empty())
+        return false;
+    fan_wedge_ = wedge_of_corner_[corners.front()];
+    // the wedges that triangles run to are those that triangles come from: then the sums of their hashes are equal
+    uint64_t difference = 0;
+    bool plain = true;
+    for (const Corner corner : corners)
+    {
+        const Corner next = nextCorner(corner);
+        const FanEnd end{position_of_corner_[next], wedge_of_corner_[next]};
+        plain &= wedge_of_corner_[corner] == fan_wedge_ && !gathered(end.position);
+        difference += hash_of_wedge_[end.wedge] - hash_of_wedge_[wedge_of_corner_[previousCorner(corner)]];
+        mark_[end.position] = mark_value_ + static_cast<uint32_t>(fan_.size());
+        fan_.push_back(end);
+    }
+    if (plain && difference == 0)
+        return true;
+    clearGathered();
+    return false;
+}
+
+void StarMesh::gather(uint32_t center)
+{
+    clearGathered();
     wedges_.clear();
     const auto spokeOf = [&](uint32_t position) -> Spoke&
     {
         const uint32_t place = mark_[position] - mark_value_;
-        if (place < ring_.size() && ring_[place].position == position)
+        if (place < ring_.size())
             return ring_[place];
         mark_[position] = mark_value_ + static_cast<uint32_t>(ring_.size());
         return ring_.emplace_back(Spoke{.position = position});
@@ -96,11 +132,9 @@ void StarMesh::gather(uint32_t center)
 
 bool StarMesh::linkHolds(uint32_t from, uint32_t to)
 {
-    const Spoke* spoke = spokeTo(to);
-    if (spoke == nullptr || emptiesStar(from, *spoke))
-        return false;
     const auto star_from = star(from);
     const auto star_to = star(to);
+    uint32_t common = 0;
     tips_.clear();
     for (const Corner corner : star_from)
     {
@@ -108,14 +142,17 @@ bool StarMesh::linkHolds(uint32_t from, uint32_t to)
         const uint32_t previous = position_of_corner_[previousCorner(corner)];
         if (next != to && previous != to)
             continue;
+        ++common;
         if (const uint32_t tip = next == to ? previous : next; !isTip(tip))
             tips_.push_back(tip);
     }
+    if (common == 0 || common == star_from.size() || common == star_to.size())
+        return false;
 
     // the tips of the common triangles are the only common neighbours
     for (const Corner corner : star_to)
         for (const Corner far : {nextCorner(corner), previousCorner(corner)})
-            if (const uint32_t p = position_of_corner_[far]; spokeTo(p) != nullptr && !isTip(p))
+            if (const uint32_t p = position_of_corner_[far]; gathered(p) && !isTip(p))
                 return false;
     for (const uint32_t tip : tips_)
         if (degree(tip) <= 1)

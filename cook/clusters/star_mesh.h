@@ -28,6 +28,13 @@ struct Spoke
     uint32_t triangleCount() const { return out_count + in_count; }
 };
 
+/// A neighbour of a position in a plain fan, and its wedge there.
+struct FanEnd
+{
+    uint32_t position;
+    uint32_t wedge;
+};
+
 /// A corner k of triangle t is named 4 t + k: steps around a triangle then need no division.
 using Corner = uint32_t;
 
@@ -66,6 +73,12 @@ public:
     /// Their corners at the position.
     std::span<const Corner> star(uint32_t position);
 
+    /// Collect the fan of a position, if it is plain: closed, each edge between two triangles that run against each
+    /// other, no seam at the position or along its edges. Most are, and this is faster than the ring.
+    bool gatherFan(uint32_t center);
+    std::span<const FanEnd> fan() const { return fan_; }
+    uint32_t fanWedge() const { return fan_wedge_; }
+
     /// Collect the ring of a position: its neighbours, each once, and the wedges that its triangles use there.
     void gather(uint32_t center);
     std::span<const Spoke> ring() const { return ring_; }
@@ -75,7 +88,14 @@ public:
     const Spoke* spokeTo(uint32_t position) const
     {
         const uint32_t place = mark_[position] - mark_value_;
-        return place < ring_.size() && ring_[place].position == position ? &ring_[place] : nullptr;
+        return place < ring_.size() ? &ring_[place] : nullptr;
+    }
+
+    /// The gathered end at a position, or nullptr.
+    const FanEnd* endAt(uint32_t position) const
+    {
+        const uint32_t place = mark_[position] - mark_value_;
+        return place < fan_.size() ? &fan_[place] : nullptr;
     }
 
     /// How many sheets lie on each other around the gathered position: 1 but for faces that the source has twice.
@@ -109,6 +129,11 @@ private:
         const uint32_t* at = &position_of_corner_[size_t{triangle} * 4];
         return at[0] == position || at[1] == position || at[2] == position;
     }
+    void clearGathered();
+    bool gathered(uint32_t position) const
+    {
+        return mark_[position] - mark_value_ < ring_.size() + fan_.size();
+    }
     bool isTip(uint32_t position) const
     {
         return std::find(tips_.begin(), tips_.end(), position) != tips_.end();
@@ -121,10 +146,13 @@ private:
     std::vector<Star> stars_; ///< pieces of star_items_, which may name triangles that are gone
     std::vector<Corner> star_items_;
 
+    std::vector<uint64_t> hash_of_wedge_;
+    std::vector<FanEnd> fan_; ///< of the gathered position, or ring_
+    uint32_t fan_wedge_ = 0;
     std::vector<Spoke> ring_;
     std::vector<uint32_t> wedges_;
     uint32_t layers_ = 1;
-    std::vector<uint32_t> mark_; ///< mark_value_ + place in ring_, for the positions in it
+    std::vector<uint32_t> mark_; ///< mark_value_ + place in fan_ or ring_, for the positions in it
     uint32_t mark_value_ = 0;
     std::vector<uint32_t> tips_;
 };

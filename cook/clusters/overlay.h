@@ -1,0 +1,45 @@
+// How far a triangle is from a surface that lies over it, measured along the triangle's normal.
+// See README.md, "Error".
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "cook/clusters/star_blocks.h"
+#include "cook/clusters/surface.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace hearth::clusters
+{
+
+/// Looks at one surface from triangles of another.
+class Overlay
+{
+public:
+    /// open  for each position: whether the facets do not close around it
+    Overlay(const Surface& surface, std::span<const uint8_t> open)
+        : surface_(surface), open_(open), blocks_(surface, open)
+    {
+    }
+
+    /// Begin a list of centers: the facets around them are the patch that is looked at.
+    void clear() { centers_.clear(); }
+    void addCenter(uint32_t position);
+
+    /// An upper bound of the distance of any point of the triangle to the patch; infinity where the patch does not
+    /// lie over the whole triangle, or turns over there.
+    ///
+    /// Seen along the triangle's normal both are maps of linear pieces, so that their distance is greatest at a corner
+    /// of one of them, or where an edge of one crosses an edge of the other. If no edge of the patch's rim comes over
+    /// the triangle, and its corners are covered, all of it is.
+    float heightOver(const Corners& triangle) const;
+
+private:
+    const Surface& surface_;
+    std::span<const uint8_t> open_;
+    StarBlocks blocks_;
+    std::vector<uint32_t> centers_;
+};
+
+} // namespace hearth::clusters

@@ -1,0 +1,176 @@
+// Elimination of the attributes from the quadric: H. Hoppe, "New quadric metric for simplifying meshes with appearance
+// attributes", 1999.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/clusters/placement.h"
+
+#include "cook/clusters/turning.h"
+#include "cook/mesh/grid.h"
+
+#include <cmath>
+#include <optional>
+
+namespace hearth::clusters
+{
+
+namespace
+{
+
+// The farthest a position goes, in parts of its longest edge.
+constexpr float kFarthest = 1.0f;
+
+constexpr int kMaxHalvings = 2;
+
+/// Solves A x = -b for a symmetric positive definite A.
+std::optional<Float3> solve(const PositionQuadric& q)
+{
+    const double a00 = q.a00, a11 = q.a11, a22 = q.a22, a01 = q.a01, a02 = q.a02, a12 = q.a12;
+    const double c00 = a11 * a22 - a12 * a12, c01 = a02 * a12 - a01 * a22, c02 = a01 * a12 - a02 * a11;
+    const double c11 = a00 * a22 - a02 * a02, c12 = a01 * a02 - a00 * a12, c22 = a00 * a11 - a01 * a01;
+    const double det = a00 * c00 + a01 * c01 + a02 * c02;
+    const double trace = a00 + a11 + a22;
+    if (!(a00 > 0) || !(c22 > 0) || !(det > 1e-12 * trace * trace * trace))
+        return std::nullopt;
+    const double x = -(c00 * q.b.x + c01 * q.b.y + c02 * q.b.z) / det;
+    const double y = -(c01 * q.b.x + c11 * q.b.y + c12 * q.b.z) / det;
+    const double z = -(c02 * q.b.x + c12 * q.b.y + c22 * q.b.z) / det;
+    return Float3{static_cast<float>(x), static_cast<float>(y), static_cast<float>(z)};
+}
+
+class Placer
+{
+public:
+    Placer(const GroupMesh& group, StarMesh& mesh, const Quadrics& quadrics)
+        : group_(group),
+          mesh_(mesh),
+          quadrics_(quadrics),
+          result_{group.positions, std::vector<Float3>(group.positions.size()),
+                  std::vector<uint8_t>(group.positions.size(), 0), group.attributes}
+    {
+    }
+
+    Placement run(std::span<const uint8_t> movable)
+    {
+        for (uint32_t p = 0; p < movable.size(); ++p)
+            if (movable[p] != 0 && mesh_.degree(p) > 0)
+                place(p);
+        return std::move(result_);
+    }
+
+private:
+    void place(uint32_t position)
+    {
+        mesh_.gather(position);
+        // open borders keep their places: the next mesh may lie against them
+        const auto ring = mesh_.ring();
+        if (std::any_of(ring.begin(), ring.end(),
+                        [&](const Spoke& spoke) { return !spoke.regular(mesh_.layers()); }))
+            return;
+        PositionQuadric quadric = quadrics_.position[position];
+        for (const uint32_t wedge : mesh_.wedges())
+            eliminateAttributes(wedge, quadric);
+        const std::optional<Float3> best = solve(quadric);
+        Float3 offset = best ? *best : Float3{};
+        const float longest = longestEdge(position);
+        if (!(dot(offset, offset) <= kFarthest * kFarthest * longest * longest))
+            offset = {};
+        result_.object_places[position] = objectPlace(group_.positions[position]);
+        for (int halvings = 0; halvings <= kMaxHalvings; ++halvings, offset = offset * 0.5f)
+        {
+            const Float3 object_place = objectPlace(group_.positions[position] + offset);
+            const Float3 place = localPlace(object_place);
+            if (turnsOver(position, place))
+                continue;
+            result_.places[position] = place;
+            result_.object_places[position] = object_place;
+            break;
+        }
+        for (const uint32_t wedge : mesh_.wedges())
+            solveAttributes(wedge, result_.places[position] - group_.positions[position]);
+        result_.remade[position] = 1;
+    }
+
+    float longestEdge(uint32_t position) const
+    {
+        float longest2 = 0;
+        for (const Spoke& spoke : mesh_.ring())
+        {
+            const Float3 along = result_.places[spoke.position] - group_.positions[position];
+            longest2 = std::max(longest2, dot(along, along));
+        }
+        return std::sqrt(longest2);
+    }
+
+    /// What the quadric is when the wedge takes the attributes that are best wherever it goes.
+    void eliminateAttributes(uint32_t wedge, PositionQuadric& quadric) const
+    {
+        const float inverse = inverseOr0(quadrics_.wedge_weight[wedge]);
+        for (uint32_t r = 0; r < group_.attribute_rows; ++r)
+        {
+            const AttributeGradients& g = quadrics_.gradients[size_t{wedge} * group_.attribute_rows + r];
+            const LaneVector scaled = g.gradient * allLanes(inverse);
+            quadric.a00 -= sumOfLanes(g.gradient.x * scaled.x);
+            quadric.a11 -= sumOfLanes(g.gradient.y * scaled.y);
+            quadric.a22 -= sumOfLanes(g.gradient.z * scaled.z);
+            quadric.a01 -= sumOfLanes(g.gradient.x * scaled.y);
+            quadric.a02 -= sumOfLanes(g.gradient.x * scaled.z);
+            quadric.a12 -= sumOfLanes(g.gradient.y * scaled.z);
+            quadric.b.x -= sumOfLanes(g.offset * scaled.x);
+            quadric.b.y -= sumOfLanes(g.offset * scaled.y);
+            quadric.b.z -= sumOfLanes(g.offset * scaled.z);
+        }
+    }
+
+    void solveAttributes(uint32_t wedge, Float3 offset)
+    {
+        const Lanes inverse = allLanes(inverseOr0(quadrics_.wedge_weight[wedge]));
+        const LaneVector moved = allLanes(offset);
+        for (uint32_t r = 0; r < group_.attribute_rows; ++r)
+        {
+            const AttributeGradients& g = quadrics_.gradients[size_t{wedge} * group_.attribute_rows + r];
+            result_.attributes[size_t{wedge} * group_.attribute_rows + r] +=
+                (dot(g.gradient, moved) + g.offset) * inverse;
+        }
+    }
+
+    /// On the grid.
+    Float3 objectPlace(Float3 local) const
+    {
+        Float3 place;
+        for (int axis = 0; axis < 3; ++axis)
+            place[axis] = mesh::snap(group_.center[axis] + group_.scale * local[axis], group_.grid_step);
+        return place;
+    }
+
+    Float3 localPlace(Float3 object) const
+    {
+        Float3 place;
+        for (int axis = 0; axis < 3; ++axis)
+            place[axis] = static_cast<float>((object[axis] - group_.center[axis]) / group_.scale);
+        return place;
+    }
+
+    bool turnsOver(uint32_t position, Float3 place) const
+    {
+        for (const Corner corner : mesh_.star(position))
+            if (turnsTriangle(result_.places[mesh_.positionAt(nextCorner(corner))],
+                              result_.places[mesh_.positionAt(previousCorner(corner))],
+                              result_.places[position], place))
+                return true;
+        return false;
+    }
+
+    const GroupMesh& group_;
+    StarMesh& mesh_;
+    const Quadrics& quadrics_;
+    Placement result_;
+};
+
+} // namespace
+
+Placement placeOptimally(const GroupMesh& group, StarMesh& mesh, const Quadrics& quadrics,
+                         std::span<const uint8_t> movable)
+{
+    return Placer(group, mesh, quadrics).run(movable);
+}
+
+} // namespace hearth::clusters

@@ -1,0 +1,31 @@
+// Where the positions that a simplification leaves are best placed, and with which attributes.
+// See README.md, "Placing".
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "cook/clusters/group_mesh.h"
+#include "cook/clusters/quadric.h"
+#include "cook/clusters/star_mesh.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace hearth::clusters
+{
+
+/// The group's positions and attributes after simplification: copies of the group's, but for what moved.
+struct Placement
+{
+    std::vector<Float3> places;        ///< for each position, in units of the group's mesh
+    std::vector<Float3> object_places; ///< for each position that is remade, on the grid
+    std::vector<uint8_t> remade;       ///< for each position: it has another place or other attributes
+    std::vector<Lanes> attributes;     ///< rows of each wedge, weighted as the group's
+};
+
+/// Move each position that is `movable` to where its quadrics are least, on the mesh's grid, and give its wedges the
+/// attributes that are best there; positions whose triangles would turn over go half as far, or stay.
+Placement placeOptimally(const GroupMesh& group, StarMesh& mesh, const Quadrics& quadrics,
+                         std::span<const uint8_t> movable);
+
+} // namespace hearth::clusters
