@@ -46,8 +46,12 @@ constexpr std::string_view fieldTypeName()
         return "f32[3][4]";
     else if constexpr (std::is_array_v<T> && std::is_same_v<std::remove_extent_t<T>, uint8_t>)
         return "u8[]";
+    else if constexpr (std::is_array_v<T> && std::is_same_v<std::remove_extent_t<T>, uint16_t>)
+        return "u16[]";
     else if constexpr (std::is_array_v<T> && std::is_same_v<std::remove_extent_t<T>, uint32_t>)
         return "u32[]";
+    else if constexpr (std::is_array_v<T> && std::is_same_v<std::remove_extent_t<T>, int32_t>)
+        return "i32[]";
     else if constexpr (std::is_array_v<T> && std::is_same_v<std::remove_extent_t<T>, float>)
         return "f32[]";
     else

@@ -19,9 +19,17 @@ Double3 widen(Float3 v)
 {
     return {v.x, v.y, v.z};
 }
+Double3 operator+(Double3 a, Double3 b)
+{
+    return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
 Double3 operator-(Double3 a, Double3 b)
 {
     return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+Double3 operator*(Double3 a, double s)
+{
+    return {a.x * s, a.y * s, a.z * s};
 }
 double dot(Double3 a, Double3 b)
 {
@@ -36,51 +44,63 @@ Double3 cross(Double3 a, Double3 b)
     return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
+bool legalUv(const ClusterGeometry& geometry, uint32_t vertex, uint32_t set)
+{
+    if (geometry.has(kVertexFloatUv0 << set))
+        return finite(geometry.uv(vertex, set));
+    const std::array<int32_t, 2> point = geometry.uvPoint(vertex, set);
+    return std::all_of(point.begin(), point.end(),
+                       [](int32_t coordinate)
+                       { return coordinate >= -kGridMost && coordinate <= kGridMost; });
+}
+
 Status checkVertices(const PackView& view, size_t i, const ClusterGeometry& geometry)
 {
     const ClusterRecord& cluster = view.clusters()[i];
-    const Double3 center = widen(cluster.sphere_center);
+    const uint32_t layout = geometry.layout();
     const auto wrong = [&](Issue issue, uint32_t vertex, const char* what)
     { return fail(view, issue, "cluster", i, "vertex " + std::to_string(vertex) + ": " + what); };
     for (uint32_t v = 0; v < geometry.vertexCount(); ++v)
     {
-        const Float3 p = geometry.position(v);
-        if (!finite(p))
-            return wrong(Issue::meaning_geometry, v, "its position is not finite");
+        const std::array<uint32_t, 3> offset = geometry.gridOffset(v);
         for (int axis = 0; axis < 3; ++axis)
-            if (p[axis] < cluster.box_min[axis] || p[axis] > cluster.box_max[axis])
+            if (offset[static_cast<size_t>(axis)] > boxSteps(cluster, axis))
                 return wrong(Issue::meaning_bounds, v, "it lies outside the cluster's box");
-        if (length(widen(p) - center) > cluster.sphere_radius * (1 + kSphereSlack))
-            return wrong(Issue::meaning_bounds, v, "it lies outside the cluster's sphere");
-        for (const uint32_t attribute : {kVertexNormal, kVertexTangent})
-            if (geometry.has(attribute) &&
-                !legalOctahedral(geometry.word(v, attributeWord(geometry.attributes(), attribute))))
-                return wrong(Issue::meaning_geometry, v, "a direction has no legal code");
+        if (!geometry.has(kVertexWide) && (!geometry.has(kVertexNormal) || geometry.has(kVertexFineNormal)) &&
+            geometry.word(v, 1) >> 16 != 0)
+            return wrong(Issue::meaning_padding, v, "the unused half of a word is not 0");
+        if (geometry.has(kVertexNormal) && !legalNormal(layout, geometry.normalCode(v)))
+            return wrong(Issue::meaning_geometry, v, "its normal has no legal code");
+        if (geometry.has(kVertexTangent) &&
+            !legalTangent(layout, geometry.word(v, attributeWord(layout, kVertexTangent))))
+            return wrong(Issue::meaning_geometry, v, "its tangent has no legal code");
         for (uint32_t set = 0; set < 4; ++set)
-            if (geometry.has(uint32_t{kVertexUv0} << set) && !finite(geometry.uv(v, set)))
-                return wrong(Issue::meaning_geometry, v, "a UV is not finite");
+            if (geometry.has(kVertexUv0 << set) && !legalUv(geometry, v, set))
+                return wrong(Issue::meaning_geometry, v, "a UV is not finite, or beyond the grid");
     }
     return success();
 }
 
 /// The normal cone holds the triangle's normal, and its apex is not in front of the triangle.
-Status checkCone(const PackView& view, size_t i, Double3 normal, Double3 corner)
+Status checkCone(const PackView& view, size_t i, float grid_step, Double3 normal, Double3 corner)
 {
     const ClusterRecord& cluster = view.clusters()[i];
-    const Double3 axis = widen(cluster.cone_axis);
+    const Double3 axis = widen(coneAxis(cluster));
     const double sine = length(cross(normal, axis)) / length(axis);
-    if (!(dot(normal, axis) > 0) || !(sine <= cluster.cone_cutoff + kConeSlack))
+    if (!(dot(normal, axis) > 0) || !(sine <= coneCutoff(cluster) + kConeSlack))
         return fail(view, Issue::meaning_bounds, "cluster", i,
                     "a triangle's normal lies outside its normal cone");
-    const Double3 apex = widen(cluster.cone_apex);
-    const double reach = cluster.sphere_radius + length(apex - widen(cluster.sphere_center));
-    if (!(dot(normal, apex - corner) <= kApexSlack * reach))
+    const Box3 box = boxOf(cluster, grid_step);
+    const Double3 center = (widen(box.min) + widen(box.max)) * 0.5;
+    const double back = coneBack(cluster, grid_step);
+    const double reach = length(widen(box.max) - center) + back;
+    if (!(dot(normal, center - axis * (back / length(axis)) - corner) <= kApexSlack * reach))
         return fail(view, Issue::meaning_bounds, "cluster", i,
                     "the apex of its normal cone is in front of a triangle");
     return success();
 }
 
-Status checkTriangles(const PackView& view, size_t i, const ClusterGeometry& geometry)
+Status checkTriangles(const PackView& view, size_t i, float grid_step, const ClusterGeometry& geometry)
 {
     bool has_area = false;
     for (uint32_t t = 0; t < geometry.triangleCount(); ++t)
@@ -99,8 +119,8 @@ Status checkTriangles(const PackView& view, size_t i, const ClusterGeometry& geo
         if (!(area > 0))
             continue;
         has_area = true;
-        if (view.clusters()[i].cone_cutoff < 1)
-            HEARTH_TRY(checkCone(view, i, {normal.x / area, normal.y / area, normal.z / area}, a));
+        if (view.clusters()[i].cone_cutoff != kNoCone)
+            HEARTH_TRY(checkCone(view, i, grid_step, {normal.x / area, normal.y / area, normal.z / area}, a));
     }
     if (!has_area)
         return fail(view, Issue::meaning_geometry, "cluster", i, "none of its triangles has an area");
@@ -111,22 +131,24 @@ Status checkTriangles(const PackView& view, size_t i, const ClusterGeometry& geo
 Status checkPage(const PackView& view, uint32_t page_index, std::span<const std::byte> page)
 {
     const PageRecord& record = view.pages()[page_index];
-    const uint32_t attributes = view.meshes()[record.mesh].attributes;
+    const MeshRecord& mesh = view.meshes()[record.mesh];
     size_t end = 0;
     for (uint32_t i = record.clusters.first; i < record.clusters.first + record.clusters.count; ++i)
     {
         const ClusterRecord& cluster = view.clusters()[i];
-        const auto geometry = ClusterGeometry::at(page, cluster, attributes);
+        const auto geometry = ClusterGeometry::at(page, cluster, mesh);
         if (!geometry)
             return fail(view, Issue::meaning_range, "cluster", i, "its geometry lies outside its page");
-        if (cluster.page_offset < end)
+        const size_t first = size_t{cluster.page_word} * 4;
+        if (first < end)
             return fail(view, Issue::meaning_order, "cluster", i, "its geometry overlaps that of another");
-        if (!allZero(page.subspan(end, cluster.page_offset - end)))
+        if (!allZero(page.subspan(end, first - end)))
             return fail(view, Issue::meaning_padding, "cluster", i, "bytes before its geometry are not 0");
         HEARTH_TRY(checkVertices(view, i, *geometry));
-        HEARTH_TRY(checkTriangles(view, i, *geometry));
+        HEARTH_TRY(checkTriangles(view, i, mesh.grid_step, *geometry));
         // zeros behind the indices are looked at as bytes before the next cluster
-        end = cluster.page_offset + geometry->vertexBytes().size() + geometry->indexBytes().size();
+        end = first + clusterBytes(geometry->layout(), cluster.vertex_count, 0) +
+              size_t{cluster.triangle_count} * 3;
     }
     if (!allZero(page.subspan(end)))
         return fail(view, Issue::meaning_padding, "page", page_index, "bytes at its end are not 0");

@@ -14,12 +14,27 @@ bool validBox(Float3 low, Float3 high)
     return finite(low) && finite(high) && low.x <= high.x && low.y <= high.y && low.z <= high.z;
 }
 
-bool boxContains(Float3 low, Float3 high, const ClusterRecord& cluster)
+bool boxContains(Float3 low, Float3 high, const Box3& box)
 {
     for (int axis = 0; axis < 3; ++axis)
-        if (cluster.box_min[axis] < low[axis] || cluster.box_max[axis] > high[axis])
+        if (box.min[axis] < low[axis] || box.max[axis] > high[axis])
             return false;
     return true;
+}
+
+bool powerOfTwo(float value)
+{
+    int exponent;
+    return std::isfinite(value) && std::frexp(value, &exponent) == 0.5f;
+}
+
+/// The corners of its box are points of the grid that floats have.
+bool onGrid(const ClusterRecord& cluster)
+{
+    for (int axis = 0; axis < 3; ++axis)
+        if (cluster.base[axis] < -kGridMost || cluster.base[axis] > kGridMost)
+            return false;
+    return cluster.extent_shift <= kMostExtentShift;
 }
 
 bool sphereContains(const GroupRecord& outer, const GroupRecord& inner)
@@ -33,8 +48,13 @@ bool sphereContains(const GroupRecord& outer, const GroupRecord& inner)
 Status checkMesh(const PackView& view, size_t i)
 {
     const MeshRecord& mesh = view.meshes()[i];
-    if ((mesh.attributes & ~kVertexAttributesAll) != 0)
+    if (!legalLayout(mesh.attributes))
         return fail(view, Issue::meaning_value, "mesh", i, "attributes " + std::to_string(mesh.attributes));
+    if (!(mesh.clusters.count == 0 ? mesh.grid_step == 0 : powerOfTwo(mesh.grid_step)) ||
+        !nonNegative(mesh.grid_error))
+        return fail(view, Issue::meaning_value, "mesh", i,
+                    "its grid has a step of " + std::to_string(mesh.grid_step) + ", an error of " +
+                        std::to_string(mesh.grid_error));
     if (mesh.skinned > 1)
         return fail(view, Issue::meaning_value, "mesh", i, "skinned " + std::to_string(mesh.skinned));
     if (!validBox(mesh.box_min, mesh.box_max))
@@ -71,20 +91,16 @@ Status checkLevels(const PackView& view, const MeshRecord& mesh)
         next += level.clusters.count;
 
         uint64_t triangles = 0;
-        float max_error = 0;
         for (const ClusterRecord& cluster : recordsOf(view.clusters(), level.clusters))
         {
             if (cluster.level != l)
                 return fail(view, Issue::meaning_order, "level", i, "it has a cluster of another level");
             triangles += cluster.triangle_count;
-            max_error = std::max(max_error, cluster.error);
         }
         if (triangles != level.triangle_count)
             return fail(view, Issue::meaning_value, "level", i,
                         std::to_string(level.triangle_count) + " triangles, its clusters have " +
                             std::to_string(triangles));
-        if (!(level.max_error == max_error))
-            return fail(view, Issue::meaning_value, "level", i, "max_error is not that of its clusters");
     }
     if (next != mesh.clusters.first + mesh.clusters.count)
         return fail(view, Issue::meaning_range, "cluster", next, "it belongs to no level");
@@ -105,10 +121,9 @@ Status checkGroup(const PackView& view, uint32_t mesh_index, uint32_t i)
     if (group.clusters.count == 0)
         return fail(view, Issue::meaning_value, "group", i, "it has no clusters");
     for (const ClusterRecord& cluster : recordsOf(view.clusters(), group.clusters))
-        if (cluster.group != i || cluster.level != group.level || cluster.page != group.page ||
-            cluster.mesh != mesh_index)
+        if (cluster.group != i || cluster.level != group.level || cluster.page != group.page)
             return fail(view, Issue::meaning_reference, "group", i,
-                        "one of its clusters names another group, level, page or mesh");
+                        "one of its clusters names another group, level or page");
     return success();
 }
 
@@ -140,19 +155,13 @@ Status checkClusterValues(const PackView& view, const MeshRecord& mesh, size_t i
         return fail(view, Issue::meaning_value, "cluster", i,
                     std::to_string(cluster.vertex_count) + " vertices, " +
                         std::to_string(cluster.triangle_count) + " triangles");
-    if (!validBox(cluster.box_min, cluster.box_max))
-        return fail(view, Issue::meaning_value, "cluster", i, "its box is empty or not finite");
-    if (!boxContains(mesh.box_min, mesh.box_max, cluster))
+    if (!onGrid(cluster))
+        return fail(view, Issue::meaning_value, "cluster", i, "its box lies beyond the grid");
+    if (!boxContains(mesh.box_min, mesh.box_max, boxOf(cluster, mesh.grid_step)))
         return fail(view, Issue::meaning_bounds, "cluster", i, "its box leaves the box of its mesh");
-    if (!finite(cluster.sphere_center) || !nonNegative(cluster.sphere_radius))
-        return fail(view, Issue::meaning_value, "cluster", i, "its sphere is negative or not finite");
-    if (!finite(cluster.cone_axis) || !inside(cluster.cone_cutoff, 0, 1) || !finite(cluster.cone_apex))
-        return fail(view, Issue::meaning_value, "cluster", i, "its normal cone is not finite");
-    if (cluster.cone_cutoff < 1 && !(std::abs(double{length(cluster.cone_axis)} - 1) <= kUnitSlack))
+    if (!NormalCode<8>::legal(cluster.cone_axis))
         return fail(view, Issue::meaning_value, "cluster", i,
-                    "the axis of its normal cone is not a unit vector");
-    if (cluster.page_offset % 4 != 0)
-        return fail(view, Issue::meaning_value, "cluster", i, "its offset is not a multiple of 4");
+                    "the axis of its normal cone has no legal code");
     if (cluster.reserved != 0)
         return fail(view, Issue::meaning_padding, "cluster", i, "a reserved field is not 0");
     return success();
@@ -166,9 +175,7 @@ Status checkRefinement(const PackView& view, const MeshRecord& mesh, size_t i)
         return fail(view, Issue::meaning_tree, "cluster", i,
                     "it has no refined group, or has one at level 0");
     if (cluster.refined_group == kNone)
-        return cluster.error == 0
-                   ? success()
-                   : fail(view, Issue::meaning_value, "cluster", i, "it has an error at level 0");
+        return success();
     if (cluster.refined_group < mesh.groups.first ||
         cluster.refined_group - mesh.groups.first >= mesh.groups.count)
         return fail(view, Issue::meaning_reference, "cluster", i,
@@ -180,8 +187,8 @@ Status checkRefinement(const PackView& view, const MeshRecord& mesh, size_t i)
     const GroupRecord& own = view.groups()[cluster.group];
     if (finer.level >= cluster.level)
         return fail(view, Issue::meaning_tree, "cluster", i, "its refined group is not of a finer level");
-    if (!std::isfinite(finer.error) || cluster.error != finer.error)
-        return fail(view, Issue::meaning_value, "cluster", i, "its error is not that of its refined group");
+    if (!std::isfinite(finer.error))
+        return fail(view, Issue::meaning_value, "cluster", i, "it was made from a root");
     if (!(finer.error <= own.error))
         return fail(view, Issue::meaning_monotone, "cluster", i,
                     "error " + std::to_string(finer.error) + " of its refined group, " +
@@ -189,6 +196,19 @@ Status checkRefinement(const PackView& view, const MeshRecord& mesh, size_t i)
     if (!sphereContains(own, finer))
         return fail(view, Issue::meaning_monotone, "cluster", i,
                     "the sphere of its refined group leaves the sphere of its group");
+    return success();
+}
+
+Status checkLevelErrors(const PackView& view, const MeshRecord& mesh)
+{
+    for (uint32_t i = mesh.levels.first; i < mesh.levels.first + mesh.levels.count; ++i)
+    {
+        float max_error = 0;
+        for (const ClusterRecord& cluster : recordsOf(view.clusters(), view.levels()[i].clusters))
+            max_error = std::max(max_error, errorOf(cluster, view.groups()));
+        if (!(view.levels()[i].max_error == max_error))
+            return fail(view, Issue::meaning_value, "level", i, "max_error is not that of its clusters");
+    }
     return success();
 }
 
@@ -340,6 +360,7 @@ Status checkMeshTables(const PackView& view)
             HEARTH_TRY(checkClusterValues(view, mesh, mesh.clusters.first + c));
             HEARTH_TRY(checkRefinement(view, mesh, mesh.clusters.first + c));
         }
+        HEARTH_TRY(checkLevelErrors(view, mesh));
     }
     return checkRoots(view);
 }

@@ -5,6 +5,8 @@
 
 #include "formats/container.h"
 
+#include <bit>
+
 namespace hearth::formats
 {
 
@@ -23,29 +25,50 @@ inline constexpr uint32_t kClusterMaxTriangles = 128;
 inline constexpr uint32_t kClusterMaxVertices = 256;
 inline constexpr uint32_t kPageMaxBytes = 65536;
 
-/// Which attributes a mesh's vertices have. A vertex is 32-bit words in this order:
-/// position (3 floats), then each present attribute.
+/// Which attributes a mesh's vertices have, and how each is coded: the layout of a vertex. A vertex is 32-bit words in
+/// this order: position, normal, tangent, UV sets, colour; the codes are those of vertex_codec.h.
 enum VertexAttributes : uint32_t
 {
-    kVertexNormal = 1,  ///< 1 word: octahedral, 2 x snorm16 (x in the low half)
-    kVertexTangent = 2, ///< 1 word: the same; lowest bit of y: the bitangent is flipped
-    kVertexUv0 = 4,     ///< 2 floats each
+    kVertexNormal = 1,
+    kVertexTangent = 2, ///< only beside a normal
+    kVertexUv0 = 4,
     kVertexUv1 = 8,
     kVertexUv2 = 16,
     kVertexUv3 = 32,
-    kVertexColor = 64, ///< 2 words: 4 x unorm16, linear RGBA
+    kVertexColor = 64,
+
+    kVertexFineNormal = 128, ///< normal 2 x 16 bits instead of 2 x 8, tangent 15 bits instead of 7
+    kVertexFineColor = 256,  ///< 4 x 16 bits instead of 4 x 8
+    kVertexFloatUv0 = 512,   ///< the UVs of the set are floats; else they lie on a grid
+    kVertexFloatUv1 = 1024,
+    kVertexFloatUv2 = 2048,
+    kVertexFloatUv3 = 4096,
+    kVertexWide = 8192, ///< of a cluster, never of a mesh: offsets on grids are 32 bits instead of 16
 };
 
-/// Words of one vertex with these attributes.
-constexpr uint32_t vertexWords(uint32_t attributes)
+inline constexpr uint32_t kVertexUvs = kVertexUv0 | kVertexUv1 | kVertexUv2 | kVertexUv3;
+
+/// From this bit on, four bits for each UV set: n, where the steps of its grid are 2^-n; 0 for floats or no set.
+inline constexpr uint32_t kVertexUvStepShift = 16;
+
+/// Words of one vertex with this layout.
+constexpr uint32_t vertexWords(uint32_t layout)
 {
-    uint32_t words = 3;
-    words += (attributes & kVertexNormal) ? 1 : 0;
-    words += (attributes & kVertexTangent) ? 1 : 0;
-    for (uint32_t uv = kVertexUv0; uv <= kVertexUv3; uv <<= 1)
-        words += (attributes & uv) ? 2 : 0;
-    words += (attributes & kVertexColor) ? 2 : 0;
+    const bool own_normal_word = (layout & (kVertexFineNormal | kVertexWide)) != 0;
+    const uint32_t two_word_uvs = (layout & kVertexWide) ? uint32_t{kVertexUvs} : layout >> 7;
+    uint32_t words = (layout & kVertexWide) ? 3 : 2;
+    words += (layout & kVertexNormal) && own_normal_word ? 1 : 0;
+    words += (layout & kVertexTangent) ? 1 : 0;
+    words += static_cast<uint32_t>(std::popcount(layout & kVertexUvs) +
+                                   std::popcount(layout & kVertexUvs & two_word_uvs));
+    words += (layout & kVertexColor) ? ((layout & kVertexFineColor) ? 2 : 1) : 0;
     return words;
+}
+
+/// Words in front of a cluster's vertices: u and v of the grid point that each UV set on a grid counts from.
+constexpr uint32_t uvBaseWords(uint32_t layout)
+{
+    return 2 * static_cast<uint32_t>(std::popcount(layout & kVertexUvs & ~(layout >> 7)));
 }
 
 struct MeshRecord
@@ -65,6 +88,8 @@ struct MeshRecord
     Float3 box_max;
     uint32_t skinned;
     uint32_t morph_target_count;
+    float grid_step;
+    float grid_error;
 };
 
 /// Levels stand finest first: the first level of a mesh is the source.
@@ -94,31 +119,34 @@ struct GroupRecord
     uint32_t reserved[2];
 };
 
-/// What culling and drawing need to know of a cluster; 112 bytes, read by the GPU as it is.
+/// What culling and drawing need to know of a cluster; 48 bytes, read by the GPU as it is (formats/shared/records.h).
+/// Its box is base .. base + (extent << extent_shift), in steps of the mesh's grid. Its normal cone has its apex
+/// 16 cone_back << extent_shift steps behind the middle of the box, against the axis.
 struct ClusterRecord
 {
-    Float3 box_min;
+    int32_t base[3];
+    uint16_t extent[3];
+    uint8_t extent_shift;
+    uint8_t level;
+    uint16_t cone_axis;
+    uint16_t cone_cutoff;
+    uint16_t cone_back;
+    uint16_t vertex_count;
+    uint8_t triangle_count;
+    uint8_t reserved;
+    uint16_t page_word;
     uint32_t material;
-    Float3 box_max;
-    uint32_t page;
-    Float3 sphere_center;
-    float sphere_radius;
-    Float3 cone_axis;
-    float cone_cutoff;
-    Float3 cone_apex;
-    uint32_t page_offset;
     uint32_t group;
     uint32_t refined_group;
-    uint32_t vertex_count;
-    uint32_t triangle_count;
-    float error;
-    uint32_t level;
-    uint32_t mesh;
-    uint32_t reserved;
+    uint32_t page;
 };
 
+/// cone_cutoff of a cone that never culls.
+inline constexpr uint16_t kNoCone = 65535;
+
 /// One page: clusters of whole groups, in the order of the cluster table. Each cluster's data starts at its
-/// page_offset: vertex_count vertices, then 3 u8 vertex indices for each triangle, padded to 4 bytes with zeros.
+/// page_word: uvBaseWords words, vertex_count vertices, then 3 u8 vertex indices for each triangle, padded to 4 bytes
+/// with zeros.
 struct PageRecord
 {
     uint64_t offset;
@@ -184,8 +212,8 @@ struct SourceArray
 } // namespace hearth::formats
 
 HEARTH_RECORD(
-    hearth::formats::MeshRecord, 96, HEARTH_FIELD(hearth::formats::MeshRecord, name, "may be empty"),
-    HEARTH_FIELD(hearth::formats::MeshRecord, attributes, "bits of the vertex layout"),
+    hearth::formats::MeshRecord, 104, HEARTH_FIELD(hearth::formats::MeshRecord, name, "may be empty"),
+    HEARTH_FIELD(hearth::formats::MeshRecord, attributes, "the layout of its vertices"),
     HEARTH_FIELD(hearth::formats::MeshRecord, source_faces, "polygons before triangulation"),
     HEARTH_FIELD(hearth::formats::MeshRecord, source_triangles, "triangles of the source"),
     HEARTH_FIELD(hearth::formats::MeshRecord, source_vertices, "vertices as the source counts them"),
@@ -199,7 +227,11 @@ HEARTH_RECORD(
     HEARTH_FIELD(hearth::formats::MeshRecord, box_min, "object space"),
     HEARTH_FIELD(hearth::formats::MeshRecord, box_max, "object space"),
     HEARTH_FIELD(hearth::formats::MeshRecord, skinned, "1: chunk DEFM has joints and weights"),
-    HEARTH_FIELD(hearth::formats::MeshRecord, morph_target_count, "targets in chunk DEFM"));
+    HEARTH_FIELD(hearth::formats::MeshRecord, morph_target_count, "targets in chunk DEFM"),
+    HEARTH_FIELD(hearth::formats::MeshRecord, grid_step,
+                 "a power of two; all positions are whole multiples of it; 0 without clusters"),
+    HEARTH_FIELD(hearth::formats::MeshRecord, grid_error,
+                 "how far at most a vertex of the source moved to come on the grid"));
 HEARTH_RECORD(hearth::formats::LevelRecord, 16,
               HEARTH_FIELD(hearth::formats::LevelRecord, clusters, "chunk CLUS"),
               HEARTH_FIELD(hearth::formats::LevelRecord, triangle_count, ""),
@@ -217,29 +249,29 @@ HEARTH_RECORD(hearth::formats::GroupRecord, 48,
               HEARTH_FIELD(hearth::formats::GroupRecord, set_offset,
                            "how many groups it stands behind the first of its set; 0 where it is alone"),
               HEARTH_FIELD(hearth::formats::GroupRecord, reserved, "0"));
-HEARTH_RECORD(hearth::formats::ClusterRecord, 112,
-              HEARTH_FIELD(hearth::formats::ClusterRecord, box_min, "object space"),
-              HEARTH_FIELD(hearth::formats::ClusterRecord, material, "material, or none for the default"),
-              HEARTH_FIELD(hearth::formats::ClusterRecord, box_max, "object space"),
-              HEARTH_FIELD(hearth::formats::ClusterRecord, page, "page that holds the geometry"),
-              HEARTH_FIELD(hearth::formats::ClusterRecord, sphere_center, "bounding sphere"),
-              HEARTH_FIELD(hearth::formats::ClusterRecord, sphere_radius, ""),
-              HEARTH_FIELD(hearth::formats::ClusterRecord, cone_axis, "normal cone"),
+HEARTH_RECORD(hearth::formats::ClusterRecord, 48,
+              HEARTH_FIELD(hearth::formats::ClusterRecord, base,
+                           "low corner of the box in steps of the grid; offsets of positions count from it"),
+              HEARTH_FIELD(hearth::formats::ClusterRecord, extent,
+                           "size of the box, rounded up where extent_shift is not 0"),
+              HEARTH_FIELD(hearth::formats::ClusterRecord, extent_shift,
+                           "0 to 9; not 0: a wide cluster, its offsets are 32 bits"),
+              HEARTH_FIELD(hearth::formats::ClusterRecord, level, "0 is the source"),
+              HEARTH_FIELD(hearth::formats::ClusterRecord, cone_axis, "normal cone: octahedral, 2 x snorm8"),
               HEARTH_FIELD(hearth::formats::ClusterRecord, cone_cutoff,
-                           "sine of the half-angle, rounded up; 1: the cone never culls"),
-              HEARTH_FIELD(hearth::formats::ClusterRecord, cone_apex,
-                           "every triangle's plane has it on or behind its front side"),
-              HEARTH_FIELD(hearth::formats::ClusterRecord, page_offset,
-                           "first byte of its data in the decoded page"),
-              HEARTH_FIELD(hearth::formats::ClusterRecord, group, "group that it is simplified in"),
-              HEARTH_FIELD(hearth::formats::ClusterRecord, refined_group,
-                           "group that it was made from, none at level 0"),
+                           "sine of the half-angle in 1/65536, rounded up; 65535: the cone never culls"),
+              HEARTH_FIELD(hearth::formats::ClusterRecord, cone_back,
+                           "the apex: every triangle's plane has it on or behind its front side"),
               HEARTH_FIELD(hearth::formats::ClusterRecord, vertex_count, "1 to 256"),
               HEARTH_FIELD(hearth::formats::ClusterRecord, triangle_count, "1 to 128"),
-              HEARTH_FIELD(hearth::formats::ClusterRecord, error, "of refined_group, 0 at level 0"),
-              HEARTH_FIELD(hearth::formats::ClusterRecord, level, "0 is the source"),
-              HEARTH_FIELD(hearth::formats::ClusterRecord, mesh, "mesh"),
-              HEARTH_FIELD(hearth::formats::ClusterRecord, reserved, "0"));
+              HEARTH_FIELD(hearth::formats::ClusterRecord, reserved, "0"),
+              HEARTH_FIELD(hearth::formats::ClusterRecord, page_word,
+                           "first word of its data in the decoded page"),
+              HEARTH_FIELD(hearth::formats::ClusterRecord, material, "material, or none for the default"),
+              HEARTH_FIELD(hearth::formats::ClusterRecord, group, "group that it is simplified in"),
+              HEARTH_FIELD(hearth::formats::ClusterRecord, refined_group,
+                           "group that it was made from, none at level 0; its error is the cluster's"),
+              HEARTH_FIELD(hearth::formats::ClusterRecord, page, "page that holds the geometry"));
 HEARTH_RECORD(hearth::formats::PageRecord, 56,
               HEARTH_FIELD(hearth::formats::PageRecord, offset,
                            "from the start of chunk PAGE; a multiple of 64"),

@@ -12,10 +12,10 @@ namespace hearth::formats
 
 /// A sphere contains another, or a point, if the distance needed is at most radius * (1 + kSphereSlack).
 inline constexpr double kSphereSlack = 1e-5;
-/// A normal lies in a cone if the sine of its angle to the axis is at most cone_cutoff + kConeSlack.
+/// A normal lies in a cone if the sine of its angle to the axis is at most the cone's + kConeSlack.
 inline constexpr double kConeSlack = 1e-4;
-/// An apex lies behind a plane if it is in front by at most kApexSlack * (sphere_radius + distance of the apex from
-/// the centre of the sphere).
+/// An apex lies behind a plane if it is in front by at most kApexSlack * (half the diagonal of the cluster's box +
+/// distance of the apex from the middle of the box).
 inline constexpr double kApexSlack = 1e-4;
 /// Vectors that must be unit have a length within this of 1.
 inline constexpr double kUnitSlack = 1e-3;

@@ -10,21 +10,22 @@ namespace hearth::formats
 {
 
 std::optional<ClusterGeometry> ClusterGeometry::at(std::span<const std::byte> page,
-                                                   const ClusterRecord& cluster, uint32_t attributes)
+                                                   const ClusterRecord& cluster, const MeshRecord& mesh)
 {
-    if ((attributes & ~kVertexAttributesAll) != 0 || cluster.vertex_count > kClusterMaxVertices ||
+    if (!legalLayout(mesh.attributes) || cluster.vertex_count > kClusterMaxVertices ||
         cluster.triangle_count > kClusterMaxTriangles)
         return std::nullopt;
-    const uint32_t words = vertexWords(attributes);
-    const auto data = checkedPart(page, cluster.page_offset,
-                                  clusterBytes(attributes, cluster.vertex_count, cluster.triangle_count));
+    const uint32_t layout = layoutOf(cluster, mesh.attributes);
+    const auto data = checkedPart(page, uint64_t{cluster.page_word} * 4,
+                                  clusterBytes(layout, cluster.vertex_count, cluster.triangle_count));
     if (!data)
         return std::nullopt;
     ClusterGeometry geometry;
-    geometry.vertices_ = data->first(size_t{cluster.vertex_count} * words * 4);
-    geometry.indices_ = data->subspan(geometry.vertices_.size(), size_t{cluster.triangle_count} * 3);
-    geometry.attributes_ = attributes;
-    geometry.words_ = words;
+    geometry.data_ = *data;
+    std::copy(std::begin(cluster.base), std::end(cluster.base), geometry.base_.begin());
+    geometry.grid_step_ = mesh.grid_step;
+    geometry.layout_ = layout;
+    geometry.words_ = vertexWords(layout);
     geometry.vertex_count_ = cluster.vertex_count;
     geometry.triangle_count_ = cluster.triangle_count;
     return geometry;

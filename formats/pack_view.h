@@ -3,10 +3,10 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
+#include "formats/cluster_bounds.h"
 #include "formats/container_reader.h"
 #include "formats/mesh.h"
 #include "formats/scene.h"
-#include "formats/vertex_codec.h"
 
 #include <array>
 #include <cstring>
@@ -66,72 +66,119 @@ constexpr uint64_t mipOffset(const ImageRecord& image, uint32_t mip)
     return offset;
 }
 
+/// Error of a cluster: that of the group it was made from, 0 at level 0. The group is in the table.
+inline float errorOf(const ClusterRecord& cluster, std::span<const GroupRecord> groups)
+{
+    return cluster.refined_group == kNone ? 0 : groups[cluster.refined_group].error;
+}
+
 /// A cluster's vertices and triangles in a decoded page, which must outlive it. Vertex and triangle numbers are the
 /// caller's contract; the indices in the data are as the file has them.
 class ClusterGeometry
 {
 public:
-    /// nullopt where the cluster's data does not lie inside the page, or its attributes do not exist.
+    /// nullopt where the cluster's data does not lie inside the page, or its layout does not exist.
     static std::optional<ClusterGeometry> at(std::span<const std::byte> page, const ClusterRecord& cluster,
-                                             uint32_t attributes);
+                                             const MeshRecord& mesh);
 
     uint32_t vertexCount() const { return vertex_count_; }
     uint32_t triangleCount() const { return triangle_count_; }
-    uint32_t attributes() const { return attributes_; }
-    bool has(uint32_t attribute) const { return (attributes_ & attribute) != 0; }
+    uint32_t layout() const { return layout_; }
+    bool has(uint32_t attribute) const { return (layout_ & attribute) != 0; }
 
-    /// The bytes of all vertices, vertexWords(attributes()) words each.
-    std::span<const std::byte> vertexBytes() const { return vertices_; }
-    /// Three u8 for each triangle.
-    std::span<const std::byte> indexBytes() const { return indices_; }
+    /// UV bases, vertices and indices, and the zeros behind them.
+    std::span<const std::byte> bytes() const { return data_; }
 
     uint32_t word(uint32_t vertex, uint32_t word) const
     {
         HEARTH_RUNTIME_ASSERT(vertex < vertex_count_ && word < words_);
-        uint32_t value;
-        std::memcpy(&value, vertices_.data() + (size_t{vertex} * words_ + word) * 4, sizeof(value));
-        return value;
+        return wordAt(uvBaseWords(layout_) + size_t{vertex} * words_ + word);
     }
 
     std::array<uint32_t, 3> triangle(uint32_t triangle) const
     {
         HEARTH_RUNTIME_ASSERT(triangle < triangle_count_);
-        const std::byte* index = indices_.data() + size_t{triangle} * 3;
+        const std::byte* index =
+            data_.data() + (uvBaseWords(layout_) + size_t{vertex_count_} * words_) * 4 + size_t{triangle} * 3;
         return {std::to_integer<uint32_t>(index[0]), std::to_integer<uint32_t>(index[1]),
                 std::to_integer<uint32_t>(index[2])};
     }
 
+    /// Steps from the cluster's base.
+    std::array<uint32_t, 3> gridOffset(uint32_t vertex) const
+    {
+        if (has(kVertexWide))
+            return {word(vertex, 0), word(vertex, 1), word(vertex, 2)};
+        return {word(vertex, 0) & 0xFFFFu, word(vertex, 0) >> 16, word(vertex, 1) & 0xFFFFu};
+    }
     Float3 position(uint32_t vertex) const
     {
-        return {asFloat(word(vertex, 0)), asFloat(word(vertex, 1)), asFloat(word(vertex, 2))};
+        const std::array<uint32_t, 3> offset = gridOffset(vertex);
+        Float3 position;
+        for (size_t axis = 0; axis < 3; ++axis)
+            position[static_cast<int>(axis)] = fromGrid(sum(base_[axis], offset[axis]), grid_step_);
+        return position;
     }
 
     /// Each of these needs has(its attribute).
-    Float3 normal(uint32_t vertex) const { return decodeNormal(word(vertex, wordOf(kVertexNormal))); }
-    Float4 tangent(uint32_t vertex) const { return decodeTangent(word(vertex, wordOf(kVertexTangent))); }
+    uint32_t normalCode(uint32_t vertex) const
+    {
+        const uint32_t value = word(vertex, wordOf(kVertexNormal));
+        if (has(kVertexFineNormal))
+            return value;
+        return has(kVertexWide) ? value : value >> 16;
+    }
+    Float3 normal(uint32_t vertex) const { return decodeNormal(layout_, normalCode(vertex)); }
+    Float4 tangent(uint32_t vertex) const
+    {
+        return decodeTangent(layout_, word(vertex, wordOf(kVertexTangent)), normal(vertex));
+    }
+    /// Grid point of a UV; the set is not one of floats.
+    std::array<int32_t, 2> uvPoint(uint32_t vertex, uint32_t set) const
+    {
+        HEARTH_RUNTIME_ASSERT(!has(kVertexFloatUv0 << set));
+        const uint32_t first = wordOf(kVertexUv0 << set);
+        const uint32_t base = uvBaseWord(layout_, set);
+        const uint32_t u = has(kVertexWide) ? word(vertex, first) : word(vertex, first) & 0xFFFFu;
+        const uint32_t v = has(kVertexWide) ? word(vertex, first + 1) : word(vertex, first) >> 16;
+        return {sum(wordAt(base), u), sum(wordAt(base + 1), v)};
+    }
     Float2 uv(uint32_t vertex, uint32_t set) const
     {
-        const uint32_t first = wordOf(uint32_t{kVertexUv0} << set);
-        return {asFloat(word(vertex, first)), asFloat(word(vertex, first + 1))};
+        const uint32_t first = wordOf(kVertexUv0 << set);
+        if (has(kVertexFloatUv0 << set))
+            return {std::bit_cast<float>(word(vertex, first)), std::bit_cast<float>(word(vertex, first + 1))};
+        const std::array<int32_t, 2> point = uvPoint(vertex, set);
+        const float step = uvStep(uvFractionBits(layout_, set));
+        return {fromGrid(point[0], step), fromGrid(point[1], step)};
     }
     Float4 color(uint32_t vertex) const
     {
         const uint32_t first = wordOf(kVertexColor);
-        return decodeColor({{word(vertex, first), word(vertex, first + 1)}});
+        return decodeColor(layout_,
+                           {word(vertex, first), has(kVertexFineColor) ? word(vertex, first + 1) : 0u});
     }
 
 private:
     ClusterGeometry() = default;
-    static float asFloat(uint32_t bits) { return std::bit_cast<float>(bits); }
+    uint32_t wordAt(size_t word) const
+    {
+        uint32_t value;
+        std::memcpy(&value, data_.data() + word * 4, sizeof(value));
+        return value;
+    }
     uint32_t wordOf(uint32_t attribute) const
     {
         HEARTH_RUNTIME_ASSERT(has(attribute));
-        return attributeWord(attributes_, attribute);
+        return attributeWord(layout_, attribute);
     }
+    /// Wraps around where a file makes no sense.
+    static int32_t sum(uint32_t base, uint32_t offset) { return static_cast<int32_t>(base + offset); }
 
-    std::span<const std::byte> vertices_;
-    std::span<const std::byte> indices_;
-    uint32_t attributes_ = 0;
+    std::span<const std::byte> data_;
+    std::array<uint32_t, 3> base_{};
+    float grid_step_ = 0;
+    uint32_t layout_ = 0;
     uint32_t words_ = 0;
     uint32_t vertex_count_ = 0;
     uint32_t triangle_count_ = 0;

@@ -1,63 +1,93 @@
-// How a vertex lies in a geometry page: word offsets, and the packing of normals, tangents and colours.
-// Octahedral map: Q. Meyer et al., "On floating-point normal vectors", 2010. The bit definitions are in FORMAT.md.
+// How a vertex lies in a geometry page: word offsets, and the codes of positions, normals, tangents, UVs and colours.
+// Octahedral map: Q. Meyer et al., "On floating-point normal vectors", 2010; its rounding: Z. Cigolle et al., "A survey
+// of efficient representations for independent unit vectors", 2014; frame of a normal: T. Duff et al., "Building an
+// orthonormal basis, revisited", 2017. The bit definitions are in FORMAT.md.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
 #include "formats/math.h"
 #include "formats/mesh.h"
 
+#include <array>
 #include <bit>
 #include <cstdint>
 
 // Only + - * / and sqrt on 32-bit floats are used, each rounded once: every machine gets the same bits.
+// runtime/shaders/scene.glsl and resolve.glsl decode the same codes.
 //
-//   snorm16  q in [-32767, 32767] stands for q / 32767; -32768 (0x8000) is not a legal code
-//   unorm16  q in [0, 65535] stands for q / 65535
-//   octahedral word: bits 0..15 = x, bits 16..31 = y, both snorm16.
-//       z = 1 - |x| - |y|;  where z < 0: (x, y) becomes ((1 - |y|) * sign(x), (1 - |x|) * sign(y)), sign(0) = +1;
-//       the direction is normalize(x, y, z). All legal codes are directions.
-//   tangent word: the same, and bit 16 (the lowest of y) is 1 where the bitangent is flipped,
-//       bitangent = (flipped ? -1 : 1) * cross(normal, tangent). The bit is part of the value of y: a reader decodes y
-//       as it stands, the writer takes the nearest y that has the right lowest bit.
-//
-// Quantising what was decoded gives the same word again, except on the border of the octahedral square, where two
-// codes are one direction.
+//   position     (base + offset) * grid_step: whole numbers of at most 24 bits times a power of two, exact as floats.
+//                The base is the cluster's, offsets are 3 x u16, x in the lowest bits, or 3 x u32 in a wide cluster.
+//   snorm B bits q in [-m, m], m = 2^(B-1) - 1, stands for q / m; -m - 1 is not a legal code
+//   normal       octahedral: x and y, snorm8 or snorm16, x in the low half.
+//                z = 1 - |x| - |y|;  where z < 0: (x, y) becomes ((1 - |y|) * sign(x), (1 - |x|) * sign(y)),
+//                sign(0) = +1; the direction is normalize(x, y, z). All legal codes are directions.
+//   tangent      bit 0: the bitangent is flipped, bitangent = (flipped ? -1 : 1) * cross(normal, tangent);
+//                above it the angle about the decoded normal, 7 or 15 bits: its top two are a quarter turn, the rest
+//                say where between the two axes of the normal's frame, on the line from one to the other
+//   UV           floats, or (base + offset) * 2^-n, the base the cluster's, offsets 2 x u16, or 2 x u32 in a wide one
+//   colour       4 x unorm8 or unorm16, linear RGBA: q / 255 or q / 65535
 
 namespace hearth::formats
 {
 
-/// Bits that VertexAttributes defines.
+/// Bits that say which attributes there are.
 inline constexpr uint32_t kVertexAttributesAll = 127;
 
-/// First word of attribute `bit` in a vertex that has `attributes`; `bit` is one of them. Positions are at 0.
-constexpr uint32_t attributeWord(uint32_t attributes, uint32_t bit)
+/// Grid coordinates are whole numbers in [-kGridMost, kGridMost]: floats have all of them.
+inline constexpr int32_t kGridMost = 1 << 24;
+
+/// Most steps from a cluster's base to a vertex that a 16-bit offset reaches.
+inline constexpr int64_t kNarrowMost = 65535;
+
+/// n of UV set `set`, whose grid has steps of 2^-n; 0 for floats.
+constexpr uint32_t uvFractionBits(uint32_t layout, uint32_t set)
 {
-    return vertexWords(attributes & (bit - 1));
+    return layout >> (kVertexUvStepShift + 4 * set) & 15u;
 }
 
-inline constexpr float kSnorm16Max = 32767.0f;
-inline constexpr float kUnorm16Max = 65535.0f;
-
-/// Nearest snorm16; values outside [-1, 1] are clamped.
-inline int32_t quantizeSnorm16(float value)
+/// Whether a mesh may say this of its vertices: an absent attribute is not said to be coded in some way, a present UV
+/// set has floats or a grid, and tangents stand beside normals.
+constexpr bool legalLayout(uint32_t layout)
 {
-    return static_cast<int32_t>(std::floor(std::clamp(value, -1.0f, 1.0f) * kSnorm16Max + 0.5f));
+    if ((layout & (kVertexWide | 3u << 14)) != 0)
+        return false;
+    for (uint32_t set = 0; set < 4; ++set)
+    {
+        const bool present = (layout & kVertexUv0 << set) != 0;
+        const bool floats = (layout & kVertexFloatUv0 << set) != 0;
+        const bool grid = uvFractionBits(layout, set) != 0;
+        if (present ? floats == grid : floats || grid)
+            return false;
+    }
+    return ((layout & kVertexNormal) != 0 || (layout & (kVertexTangent | kVertexFineNormal)) == 0) &&
+           ((layout & kVertexColor) != 0 || (layout & kVertexFineColor) == 0);
 }
 
-inline float dequantizeSnorm16(int32_t q)
+/// First word of attribute `bit` in a vertex with this layout; `bit` is one of them. Positions are at 0, and a normal
+/// that has no word of its own is the upper half of word 1.
+constexpr uint32_t attributeWord(uint32_t layout, uint32_t bit)
 {
-    return std::max(static_cast<float>(q) / kSnorm16Max, -1.0f);
+    const bool shares_word = bit == kVertexNormal && (layout & (kVertexFineNormal | kVertexWide)) == 0;
+    return shares_word ? 1 : vertexWords(layout & ((bit - 1) | ~kVertexAttributesAll));
 }
 
-/// Nearest unorm16; values outside [0, 1] are clamped.
-inline uint32_t quantizeUnorm16(float value)
+/// Word of UV set `set`'s base among the uvBaseWords in front of a cluster's vertices.
+constexpr uint32_t uvBaseWord(uint32_t layout, uint32_t set)
 {
-    return static_cast<uint32_t>(std::lround(std::clamp(value, 0.0f, 1.0f) * kUnorm16Max));
+    return uvBaseWords(layout & (((kVertexUv0 << set) - 1) | ~kVertexAttributesAll));
 }
 
-inline float dequantizeUnorm16(uint32_t q)
+/// Bytes of a cluster in its page: UV bases, vertices, then three u8 indices for each triangle, padded with zeros to
+/// words.
+constexpr uint32_t clusterBytes(uint32_t layout, uint32_t vertex_count, uint32_t triangle_count)
 {
-    return static_cast<float>(q) / kUnorm16Max;
+    return 4 * (uvBaseWords(layout) + vertex_count * vertexWords(layout) + (triangle_count * 3 + 3) / 4);
+}
+
+/// The layout that needs the most bytes of all that have these attributes.
+constexpr uint32_t largestLayout(uint32_t attributes)
+{
+    return (attributes & kVertexAttributesAll) | kVertexFineNormal | kVertexFineColor | kVertexWide;
 }
 
 constexpr uint32_t packHalves(int32_t low, int32_t high)
@@ -71,6 +101,24 @@ constexpr int32_t lowHalf(uint32_t word)
 constexpr int32_t highHalf(uint32_t word)
 {
     return static_cast<int16_t>(word >> 16);
+}
+
+/// Nearest unorm code of q / most; values outside [0, 1] are clamped.
+inline uint32_t quantizeUnorm(float value, float most)
+{
+    return static_cast<uint32_t>(std::lround(std::clamp(value, 0.0f, 1.0f) * most));
+}
+
+/// A coordinate on the grid; exact for |coordinate| <= kGridMost.
+inline float fromGrid(int32_t coordinate, float step)
+{
+    return static_cast<float>(coordinate) * step;
+}
+
+/// 2^-n, n < 127.
+constexpr float uvStep(uint32_t fraction_bits)
+{
+    return std::bit_cast<float>((127 - fraction_bits) << 23);
 }
 
 /// The point of the square [-1, 1]^2 that stands for a direction of any length > 0.
@@ -95,63 +143,147 @@ inline Float3 directionFromOctahedral(Float2 p)
     return d / length(d); // |d| >= 1/sqrt(3): never zero
 }
 
-/// `normal` finite and not zero; any length.
-inline uint32_t encodeNormal(Float3 normal)
+/// Normal codes of B = 8 or 16 bits for x and for y: 2B bits, x in the low half.
+template <int B>
+struct NormalCode
 {
-    const Float2 p = octahedralFromDirection(normal);
-    return packHalves(quantizeSnorm16(p.x), quantizeSnorm16(p.y));
+    static constexpr int32_t kMost = (1 << (B - 1)) - 1;
+
+    static constexpr int32_t x(uint32_t code) { return static_cast<int32_t>(code << (32 - B)) >> (32 - B); }
+    static constexpr int32_t y(uint32_t code) { return x(code >> B); }
+    static constexpr uint32_t pack(int32_t x, int32_t y)
+    {
+        constexpr uint32_t kMask = (1u << B) - 1;
+        return (static_cast<uint32_t>(x) & kMask) | (static_cast<uint32_t>(y) & kMask) << B;
+    }
+    static constexpr bool legal(uint32_t code) { return x(code) >= -kMost && y(code) >= -kMost; }
+
+    static Float3 decode(uint32_t code)
+    {
+        return directionFromOctahedral(
+            {static_cast<float>(x(code)) / kMost, static_cast<float>(y(code)) / kMost});
+    }
+
+    /// Of the four codes around the direction, the one with the least angle to it. `normal` finite and not zero.
+    static uint32_t encode(Float3 normal)
+    {
+        const Float2 p = octahedralFromDirection(normal);
+        const Float3 unit = normal / length(normal);
+        const auto below = [](float value)
+        { return std::clamp(static_cast<int32_t>(std::floor(value * kMost)), -kMost, kMost - 1); };
+        const int32_t low_x = below(p.x);
+        const int32_t low_y = below(p.y);
+        uint32_t best = 0;
+        float best_distance2 = 5;
+        for (int32_t corner = 0; corner < 4; ++corner)
+        {
+            const uint32_t code = pack(low_x + (corner & 1), low_y + (corner >> 1));
+            // the chord: unlike the cosine, floats tell it for the smallest angles
+            const Float3 off = decode(code) - unit;
+            if (const float distance2 = dot(off, off); distance2 < best_distance2)
+            {
+                best = code;
+                best_distance2 = distance2;
+            }
+        }
+        return best;
+    }
+};
+
+/// The code of a normal in 16 bits (2 x 8), or 32 (2 x 16) in a layout with kVertexFineNormal.
+inline uint32_t encodeNormal(uint32_t layout, Float3 normal)
+{
+    return (layout & kVertexFineNormal) ? NormalCode<16>::encode(normal) : NormalCode<8>::encode(normal);
+}
+inline Float3 decodeNormal(uint32_t layout, uint32_t code)
+{
+    return (layout & kVertexFineNormal) ? NormalCode<16>::decode(code) : NormalCode<8>::decode(code);
+}
+constexpr bool legalNormal(uint32_t layout, uint32_t code)
+{
+    return (layout & kVertexFineNormal) ? NormalCode<16>::legal(code)
+                                        : code <= 0xFFFF && NormalCode<8>::legal(code);
 }
 
-inline Float3 decodeNormal(uint32_t word)
+/// Bits of the angle of a tangent.
+constexpr uint32_t tangentAngleBits(uint32_t layout)
 {
-    return directionFromOctahedral({dequantizeSnorm16(lowHalf(word)), dequantizeSnorm16(highHalf(word))});
+    return (layout & kVertexFineNormal) ? 15 : 7;
 }
 
-/// xyz finite and not zero, w < 0 where the bitangent is flipped.
-inline uint32_t encodeTangent(Float4 tangent)
+/// Two unit vectors that stand on a unit normal and on each other.
+struct NormalFrame
 {
-    const Float2 p = octahedralFromDirection({tangent.x, tangent.y, tangent.z});
-    const int32_t flipped = tangent.w < 0 ? 1 : 0;
-    // y = 2k + flipped with the nearest k; -32767 is the least odd and -32766 the least even legal code
-    const float k = std::floor((p.y * kSnorm16Max - static_cast<float>(flipped)) * 0.5f + 0.5f);
-    const int32_t y = std::clamp(2 * static_cast<int32_t>(k) + flipped, -32766 - flipped, 32766 + flipped);
-    return packHalves(quantizeSnorm16(p.x), y);
+    Float3 first;
+    Float3 second;
+};
+
+inline NormalFrame frameOf(Float3 n)
+{
+    const float sign = n.z < 0 ? -1.0f : 1.0f;
+    const float a = -1.0f / (sign + n.z);
+    const float b = n.x * n.y * a;
+    return {{1.0f + sign * n.x * n.x * a, sign * b, -sign * n.x}, {b, sign + n.y * n.y * a, -n.y}};
+}
+
+/// `tangent` xyz finite, w < 0 where the bitangent is flipped; `normal` as it is decoded. What the tangent has along the
+/// normal is lost; one without any other part gets the frame's first vector.
+inline uint32_t encodeTangent(uint32_t layout, Float4 tangent, Float3 normal)
+{
+    const NormalFrame frame = frameOf(normal);
+    const Float3 t{tangent.x, tangent.y, tangent.z};
+    const float u = dot(t, frame.first);
+    const float v = dot(t, frame.second);
+    const float sum = std::abs(u) + std::abs(v);
+    // quarter turns, then the way from one axis to the next
+    float turn = 0;
+    if (sum > 0)
+        turn = v >= 0 ? (u >= 0 ? v / sum : 1 - u / sum) : (u < 0 ? 2 - v / sum : 3 + u / sum);
+    const uint32_t quarter = 1u << (tangentAngleBits(layout) - 2);
+    const auto angle = static_cast<uint32_t>(std::lround(turn * static_cast<float>(quarter)));
+    return (angle & (4 * quarter - 1)) << 1 | (tangent.w < 0 ? 1u : 0u);
 }
 
 /// xyz unit, w = +1 or -1.
-inline Float4 decodeTangent(uint32_t word)
+inline Float4 decodeTangent(uint32_t layout, uint32_t code, Float3 normal)
 {
-    const Float3 direction = decodeNormal(word);
-    return {direction.x, direction.y, direction.z, (word & 0x10000u) != 0 ? -1.0f : 1.0f};
+    const uint32_t quarter = 1u << (tangentAngleBits(layout) - 2);
+    const uint32_t angle = code >> 1;
+    const float along = static_cast<float>(angle & (quarter - 1)) / static_cast<float>(quarter);
+    const uint32_t turn = angle / quarter;
+    const float u = turn == 0 ? 1 - along : turn == 1 ? -along : turn == 2 ? along - 1 : along;
+    const float v = turn == 0 ? along : turn == 1 ? 1 - along : turn == 2 ? -along : along - 1;
+    const NormalFrame frame = frameOf(normal);
+    const Float3 t = frame.first * u + frame.second * v;
+    const Float3 unit = t / length(t);
+    return {unit.x, unit.y, unit.z, (code & 1) != 0 ? -1.0f : 1.0f};
 }
 
-/// Whether both halves are legal snorm16.
-constexpr bool legalOctahedral(uint32_t word)
+constexpr bool legalTangent(uint32_t layout, uint32_t code)
 {
-    return lowHalf(word) != -32768 && highHalf(word) != -32768;
+    return code >> (tangentAngleBits(layout) + 1) == 0;
 }
 
-struct ColorWords
+/// The words of a colour: red in the lowest bits. The second is 0 and not stored unless the layout has
+/// kVertexFineColor.
+inline std::array<uint32_t, 2> encodeColor(uint32_t layout, Float4 color)
 {
-    uint32_t word[2]; ///< red | green << 16, blue | alpha << 16
-};
-
-inline ColorWords encodeColor(Float4 color)
-{
-    return {{quantizeUnorm16(color.x) | quantizeUnorm16(color.y) << 16,
-             quantizeUnorm16(color.z) | quantizeUnorm16(color.w) << 16}};
+    if (layout & kVertexFineColor)
+        return {quantizeUnorm(color.x, 65535) | quantizeUnorm(color.y, 65535) << 16,
+                quantizeUnorm(color.z, 65535) | quantizeUnorm(color.w, 65535) << 16};
+    return {quantizeUnorm(color.x, 255) | quantizeUnorm(color.y, 255) << 8 |
+                quantizeUnorm(color.z, 255) << 16 | quantizeUnorm(color.w, 255) << 24,
+            0};
 }
 
-inline Float4 decodeColor(ColorWords words)
+inline Float4 decodeColor(uint32_t layout, std::array<uint32_t, 2> words)
 {
-    return {dequantizeUnorm16(words.word[0] & 0xFFFFu), dequantizeUnorm16(words.word[0] >> 16),
-            dequantizeUnorm16(words.word[1] & 0xFFFFu), dequantizeUnorm16(words.word[1] >> 16)};
-}
-
-/// Bytes of a cluster in its page: vertices, then three u8 indices for each triangle, padded with zeros to words.
-constexpr uint32_t clusterBytes(uint32_t attributes, uint32_t vertex_count, uint32_t triangle_count)
-{
-    return 4 * (vertex_count * vertexWords(attributes) + (triangle_count * 3 + 3) / 4);
+    const auto part = [](uint32_t q, float most) { return static_cast<float>(q) / most; };
+    if (layout & kVertexFineColor)
+        return {part(words[0] & 0xFFFFu, 65535), part(words[0] >> 16, 65535), part(words[1] & 0xFFFFu, 65535),
+                part(words[1] >> 16, 65535)};
+    return {part(words[0] & 0xFFu, 255), part(words[0] >> 8 & 0xFFu, 255), part(words[0] >> 16 & 0xFFu, 255),
+            part(words[0] >> 24, 255)};
 }
 
 } // namespace hearth::formats

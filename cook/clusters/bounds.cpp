@@ -3,6 +3,7 @@
 
 #include "cook/clusters/lanes.h"
 #include "formats/assert.h"
+#include "formats/cluster_bounds.h"
 
 #include <algorithm>
 #include <cmath>
@@ -305,11 +306,9 @@ void growToHold(Sphere& sphere, std::span<const Float3> points)
         sphere.radius = roundUp(radius * kMonotoneSlack);
 }
 
-NormalCone coneOfTriangles(std::span<const Float3> places)
+NormalCone coneOfTriangles(std::span<const Float3> places, Float3 middle)
 {
     NormalCone cone;
-    cone.axis = {0, 0, 1};
-    cone.apex = places.empty() ? Float3{} : places.front();
     const std::vector<Plane> planes = planesOf(places);
     // a triangle too thin for a normal in double could face anywhere
     if (planes.empty() || planes.size() * 3 != places.size())
@@ -317,31 +316,57 @@ NormalCone coneOfTriangles(std::span<const Float3> places)
     const Double3 wide_axis = coneAxis(planes);
     if (!(length(wide_axis) > 0))
         return cone;
-    cone.axis = narrow(wide_axis);
-    const Double3 axis = widen(cone.axis) * (1 / length(widen(cone.axis)));
+    cone.axis = formats::NormalCode<8>::encode(narrow(wide_axis));
+    Double3 axis = widen(formats::NormalCode<8>::decode(cone.axis));
+    axis = axis * (1 / length(axis));
     const double cosine = std::min(1.0, leastCosine(axis, planes).cosine);
     if (cosine <= kMinConeCosine)
         return cone;
 
-    // from the middle of the triangles back along the axis until no plane has the apex in front
-    Double3 middle;
-    for (const Plane& plane : planes)
-        middle = middle + plane.point * (1.0 / static_cast<double>(planes.size()));
     double reach = 0;
     double back = 0;
     for (const Plane& plane : planes)
     {
-        reach = std::max(reach, length(plane.point - middle));
-        back = std::max(back, dot(middle - plane.point, plane.normal) / dot(axis, plane.normal));
+        const Double3 away = widen(middle) - plane.point;
+        reach = std::max(reach, length(away));
+        back = std::max(back, dot(away, plane.normal) / dot(axis, plane.normal));
     }
-    // room for rounding the apex to floats, and the runtime's arithmetic with it
-    const double magnitude = length(middle) + reach + back;
-    back += 1e-5 * (reach + back) + magnitude * 4e-7 / cosine;
-    cone.apex = narrow(middle - axis * back);
-    const double sine = std::sqrt(std::max(0.0, 1 - cosine * cosine)) + kConeMargin;
-    if (sine < 1 && isFinite(cone.apex))
-        cone.cutoff = roundUp(sine);
+    // room for the runtime's arithmetic
+    const double magnitude = length(widen(middle)) + reach + back;
+    cone.back = back + 1e-5 * (reach + back) + magnitude * 4e-7 / cosine;
+    cone.cutoff = std::min(1.0, std::sqrt(std::max(0.0, 1 - cosine * cosine)) + kConeMargin);
     return cone;
+}
+
+void setBounds(formats::ClusterRecord& record, double grid_step, std::span<const Float3> points,
+               std::span<const Float3> places, bool wide)
+{
+    HEARTH_ASSERT(!points.empty());
+    Box3 box;
+    for (const Float3 point : points)
+        box.add(point);
+    int64_t steps[3];
+    for (int axis = 0; axis < 3; ++axis)
+    {
+        record.base[axis] = static_cast<int32_t>(box.min[axis] / grid_step);
+        steps[axis] = static_cast<int64_t>(box.max[axis] / grid_step) - record.base[axis];
+    }
+    const auto most = static_cast<uint64_t>(*std::max_element(std::begin(steps), std::end(steps)));
+    uint32_t shift = wide ? 1 : 0;
+    while (most > uint64_t{0xFFFF} << shift)
+        ++shift;
+    record.extent_shift = static_cast<uint8_t>(shift);
+    for (int axis = 0; axis < 3; ++axis)
+        record.extent[axis] = static_cast<uint16_t>((steps[axis] + (int64_t{1} << shift) - 1) >> shift);
+
+    const NormalCone cone =
+        coneOfTriangles(places, formats::boxOf(record, static_cast<float>(grid_step)).center());
+    const double cutoff = std::ceil(cone.cutoff * 65536);
+    const double back = std::ceil(cone.back / (grid_step * formats::kConeBackSteps * (1 << shift)));
+    const bool fits = cutoff < formats::kNoCone && back <= 0xFFFF;
+    record.cone_axis = static_cast<uint16_t>(cone.axis);
+    record.cone_cutoff = fits ? static_cast<uint16_t>(cutoff) : formats::kNoCone;
+    record.cone_back = fits ? static_cast<uint16_t>(back) : uint16_t{0};
 }
 
 } // namespace hearth::clusters

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "formats/math.h"
+#include "formats/mesh.h"
 
 #include <cstdint>
 #include <span>
@@ -28,16 +29,24 @@ Sphere sphereOfSpheres(std::span<const Sphere> spheres, const Sphere& start);
 /// Make the radius, but for the slack, large enough for the points.
 void growToHold(Sphere& sphere, std::span<const Float3> points);
 
-/// Cone of the triangles' normals. The runtime may skip the triangles when the eye sees the cone from behind:
-/// dot(normalize(apex - eye), axis) >= cutoff.
+/// Cone of the triangles' normals; its apex stands behind `middle`. The runtime may skip the triangles when the eye sees
+/// the cone from behind: dot(normalize(apex - eye), axis) >= cutoff.
 struct NormalCone
 {
-    Float3 axis;
-    float cutoff = 1; ///< sine of the half-angle with a margin; 1: never skip
-    Float3 apex;
+    uint32_t axis = 0; ///< formats::NormalCode<8>
+    double cutoff = 1; ///< sine of the half-angle with a margin; 1: never skip
+    double back = 0;   ///< apex = middle - back * axis
 };
 
 /// places  three for each triangle, finite
-NormalCone coneOfTriangles(std::span<const Float3> places);
+NormalCone coneOfTriangles(std::span<const Float3> places, Float3 middle);
+
+/// The box and the normal cone of a cluster, as its record holds them.
+///
+/// points  its vertices, on the grid, at least one
+/// places  three for each triangle
+/// wide    its offsets need 32 bits for another reason than the size of its box
+void setBounds(formats::ClusterRecord& record, double grid_step, std::span<const Float3> points,
+               std::span<const Float3> places, bool wide);
 
 } // namespace hearth::clusters

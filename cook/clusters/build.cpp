@@ -9,6 +9,7 @@
 #include "cook/clusters/split.h"
 #include "cook/clusters/surface_bound.h"
 #include "formats/assert.h"
+#include "formats/cluster_bounds.h"
 
 #include <algorithm>
 #include <cmath>
@@ -371,34 +372,6 @@ void countOutcomes(const Build& build, BuildCounts& counts)
         }
 }
 
-ClusterRecord clusterRecord(const PreparedMesh& mesh, const ClusterStore& store, const ClusterShape& shape)
-{
-    ClusterRecord record{};
-    std::vector<Float3> points;
-    Box3 box;
-    for (const uint32_t vertex : store.verticesOf(shape))
-    {
-        points.push_back(mesh.vertices.positions[vertex]);
-        box.add(points.back());
-    }
-    std::vector<Float3> places;
-    for (const uint8_t index : store.indicesOf(shape))
-        places.push_back(points[index]);
-    const Sphere sphere = sphereOfPoints(points);
-    const NormalCone cone = coneOfTriangles(places);
-    record.box_min = box.min;
-    record.box_max = box.max;
-    record.material = shape.material;
-    record.sphere_center = sphere.center;
-    record.sphere_radius = sphere.radius;
-    record.cone_axis = cone.axis;
-    record.cone_cutoff = cone.cutoff;
-    record.cone_apex = cone.apex;
-    record.vertex_count = shape.vertex_count;
-    record.triangle_count = shape.triangle_count;
-    return record;
-}
-
 /// Where the groups of the build stand in the file: coarse to fine, in spatial order within a level.
 std::vector<uint32_t> recordNumbers(const Build& build)
 {
@@ -444,11 +417,11 @@ void addLevelRecords(const Build& build, uint32_t l, std::span<const uint32_t> r
             if (const uint32_t refined = level.refined_group[member]; refined != kNone)
             {
                 record.refined_group = record_of_group[refined];
-                record.error = build.group(refined).error;
+                level_record.max_error = std::max(level_record.max_error, build.group(refined).error);
             }
-            record.level = l;
+            record.level = static_cast<uint8_t>(l);
+            record.material = shape.material;
             level_record.triangle_count += shape.triangle_count;
-            level_record.max_error = std::max(level_record.max_error, record.error);
             hierarchy.clusters.push_back(record);
             shape.first_vertex += vertex_offset;
             shape.first_index += index_offset;
@@ -459,21 +432,6 @@ void addLevelRecords(const Build& build, uint32_t l, std::span<const uint32_t> r
     }
     level_record.clusters.count =
         static_cast<uint32_t>(hierarchy.clusters.size()) - level_record.clusters.first;
-}
-
-void fillBounds(const PreparedMesh& mesh, const ClusterStore& store, std::span<const ClusterShape> shapes,
-                std::vector<ClusterRecord>& clusters)
-{
-    tbb::parallel_for(size_t{0}, clusters.size(),
-                      [&](size_t c)
-                      {
-                          ClusterRecord record = clusterRecord(mesh, store, shapes[c]);
-                          record.group = clusters[c].group;
-                          record.refined_group = clusters[c].refined_group;
-                          record.error = clusters[c].error;
-                          record.level = clusters[c].level;
-                          clusters[c] = record;
-                      });
 }
 
 /// Turn the levels into records and pages.
@@ -493,8 +451,7 @@ void writeRecords(Build& build, Hierarchy& hierarchy)
         store.indices.insert(store.indices.end(), from.indices.begin(), from.indices.end());
         from = {};
     }
-    fillBounds(build.mesh, store, shapes, hierarchy.clusters);
-    buildPages(build.mesh, store, shapes, hierarchy);
+    buildPages(build.mesh, store, shapes, build.config, hierarchy);
     if (std::any_of(build.level_of_authored.begin(), build.level_of_authored.end(),
                     [](uint32_t level) { return level != kNone; }))
         linkPagesOfSets(hierarchy);
@@ -512,7 +469,7 @@ void fillSourceCounts(const mesh::SourceMesh& source, MeshRecord& mesh)
 void fillMeshRecord(const PreparedMesh& prepared, Hierarchy& hierarchy)
 {
     MeshRecord& mesh = hierarchy.mesh;
-    mesh.attributes = prepared.attributes;
+    mesh.grid_error = prepared.grid.error;
     mesh.degenerate_triangles = prepared.degenerate_count;
     mesh.lod_count = static_cast<uint32_t>(hierarchy.levels.size());
     mesh.levels = {0, mesh.lod_count};
@@ -521,7 +478,7 @@ void fillMeshRecord(const PreparedMesh& prepared, Hierarchy& hierarchy)
     mesh.pages = {0, static_cast<uint32_t>(hierarchy.pages.size())};
     Box3 box;
     for (const ClusterRecord& cluster : hierarchy.clusters)
-        box.add(Box3{cluster.box_min, cluster.box_max});
+        box.add(boxOf(cluster, mesh.grid_step));
     mesh.box_min = box.empty() ? Float3{} : box.min;
     mesh.box_max = box.empty() ? Float3{} : box.max;
 }

@@ -57,7 +57,6 @@ void appendTables(Tables& tables, Hierarchy hierarchy, uint64_t page_offset, con
         move(cluster.page, tables.pages.size());
         move(cluster.group, tables.groups.size());
         move(cluster.refined_group, tables.groups.size());
-        cluster.mesh = mesh_index;
     }
     for (PageRecord& page : hierarchy.pages)
     {

@@ -145,8 +145,8 @@ public:
             const ClusterShape& shape = store.shapes[c];
             groups_[c].members = {c};
             groups_[c].links = std::move(links[c]);
-            groups_[c].bytes =
-                formats::clusterBytes(mesh.attributes, shape.vertex_count, shape.triangle_count);
+            groups_[c].bytes = formats::clusterBytes(formats::largestLayout(mesh.attributes),
+                                                     shape.vertex_count, shape.triangle_count);
         }
     }
 

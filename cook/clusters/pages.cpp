@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/clusters/pages.h"
 
+#include "cook/clusters/coded_cluster.h"
 #include "formats/assert.h"
-#include "formats/vertex_codec.h"
+#include "formats/container_reader.h"
 
 #include <zstd.h>
 
@@ -23,17 +24,20 @@ using namespace formats;
 // does. Level 1 packs 868.
 constexpr int kZstdLevel = 1;
 
+uint32_t bytesOf(const CodedCluster& cluster)
+{
+    return static_cast<uint32_t>(4 * (cluster.words.size() + (cluster.indices.size() + 3) / 4));
+}
+
 /// Give each group its page, and each cluster its place in the page.
-void assignPages(uint32_t attributes, Hierarchy& hierarchy)
+void assignPages(std::span<const CodedCluster> coded, Hierarchy& hierarchy)
 {
     uint32_t used = kPageMaxBytes;
     for (GroupRecord& group : hierarchy.groups)
     {
-        const auto clusters =
-            std::span(hierarchy.clusters).subspan(group.clusters.first, group.clusters.count);
         uint32_t bytes = 0;
-        for (const ClusterRecord& cluster : clusters)
-            bytes += clusterBytes(attributes, cluster.vertex_count, cluster.triangle_count);
+        for (uint32_t c = 0; c < group.clusters.count; ++c)
+            bytes += bytesOf(coded[group.clusters.first + c]);
         HEARTH_ASSERT(bytes <= kPageMaxBytes);
         if (used + bytes > kPageMaxBytes)
         {
@@ -45,68 +49,25 @@ void assignPages(uint32_t attributes, Hierarchy& hierarchy)
         group.page = static_cast<uint32_t>(hierarchy.pages.size() - 1);
         PageRecord& page = hierarchy.pages.back();
         page.clusters.count += group.clusters.count;
-        for (ClusterRecord& cluster : clusters)
+        for (uint32_t c = group.clusters.first; c < group.clusters.first + group.clusters.count; ++c)
         {
-            cluster.page = group.page;
-            cluster.page_offset = used;
-            used += clusterBytes(attributes, cluster.vertex_count, cluster.triangle_count);
+            hierarchy.clusters[c].page = group.page;
+            hierarchy.clusters[c].page_word = static_cast<uint16_t>(used / 4);
+            used += bytesOf(coded[c]);
         }
         page.size = used;
     }
 }
 
-class WordWriter
-{
-public:
-    explicit WordWriter(std::byte* at) : at_(at) {}
-    void word(uint32_t value)
-    {
-        std::memcpy(at_, &value, sizeof(value));
-        at_ += sizeof(value);
-    }
-    void number(float value) { word(std::bit_cast<uint32_t>(value)); }
-    std::byte* at() const { return at_; }
-
-private:
-    std::byte* at_;
-};
-
-void writeVertex(WordWriter& out, const mesh::SourceMesh& source, uint32_t vertex)
-{
-    const Float3 position = source.positions[vertex];
-    out.number(position.x);
-    out.number(position.y);
-    out.number(position.z);
-    if (!source.normals.empty())
-        out.word(encodeNormal(source.normals[vertex]));
-    if (!source.tangents.empty())
-        out.word(encodeTangent(source.tangents[vertex]));
-    for (const auto& uvs : source.uvs)
-        if (!uvs.empty())
-        {
-            out.number(uvs[vertex].x);
-            out.number(uvs[vertex].y);
-        }
-    if (!source.colors.empty())
-    {
-        const ColorWords words = encodeColor(source.colors[vertex]);
-        out.word(words.word[0]);
-        out.word(words.word[1]);
-    }
-}
-
-std::vector<std::byte> pageContent(const PreparedMesh& mesh, const ClusterStore& store,
-                                   std::span<const ClusterShape> shapes, const Hierarchy& hierarchy,
+std::vector<std::byte> pageContent(std::span<const CodedCluster> coded, const Hierarchy& hierarchy,
                                    const PageRecord& page)
 {
     std::vector<std::byte> bytes(page.size);
     for (uint32_t c = page.clusters.first; c < page.clusters.first + page.clusters.count; ++c)
     {
-        WordWriter out(bytes.data() + hierarchy.clusters[c].page_offset);
-        for (const uint32_t vertex : store.verticesOf(shapes[c]))
-            writeVertex(out, mesh.vertices, vertex);
-        const auto indices = store.indicesOf(shapes[c]);
-        std::memcpy(out.at(), indices.data(), indices.size());
+        std::byte* at = bytes.data() + size_t{hierarchy.clusters[c].page_word} * 4;
+        std::memcpy(at, coded[c].words.data(), coded[c].words.size() * 4);
+        std::memcpy(at + coded[c].words.size() * 4, coded[c].indices.data(), coded[c].indices.size());
     }
     return bytes;
 }
@@ -150,15 +111,23 @@ void linkPages(Hierarchy& hierarchy)
 } // namespace
 
 void buildPages(const PreparedMesh& mesh, const ClusterStore& store, std::span<const ClusterShape> shapes,
-                Hierarchy& hierarchy)
+                const Config& config, Hierarchy& hierarchy)
 {
-    assignPages(mesh.attributes, hierarchy);
+    hierarchy.mesh.attributes = chooseLayout(mesh, config);
+    hierarchy.mesh.grid_step = static_cast<float>(mesh.grid.step);
+    std::vector<CodedCluster> coded(hierarchy.clusters.size());
+    tbb::parallel_for(size_t{0}, coded.size(),
+                      [&](size_t c) {
+                          coded[c] = codeCluster(mesh, store, shapes[c], hierarchy.mesh.attributes,
+                                                 hierarchy.clusters[c]);
+                      });
+    assignPages(coded, hierarchy);
     std::vector<std::vector<std::byte>> stored(hierarchy.pages.size());
     tbb::parallel_for(size_t{0}, stored.size(),
                       [&](size_t i)
                       {
                           PageRecord& page = hierarchy.pages[i];
-                          stored[i] = compressPage(pageContent(mesh, store, shapes, hierarchy, page), page);
+                          stored[i] = compressPage(pageContent(coded, hierarchy, page), page);
                           page.stored_size = static_cast<uint32_t>(stored[i].size());
                           page.hash = hashBytes(stored[i]);
                       });

@@ -13,9 +13,10 @@ namespace hearth::clusters
 /// Put the groups, in their order, into pages, each page filled before the next is begun; write the vertex and index
 /// data, compress each page where it gains more than 5 %, and link each page to those that it refines.
 ///
-/// hierarchy  groups and clusters are final but for page and page_offset, which are filled here with the page tables
+/// hierarchy  groups and clusters say how they belong together; bounds, counts and pages of clusters, the pages of groups,
+///            the layout and the grid of the mesh are filled here with the page tables
 /// shapes     the geometry of each of hierarchy's clusters, in `store`
 void buildPages(const PreparedMesh& mesh, const ClusterStore& store, std::span<const ClusterShape> shapes,
-                Hierarchy& hierarchy);
+                const Config& config, Hierarchy& hierarchy);
 
 } // namespace hearth::clusters

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/clusters/statistics.h"
 
+#include "formats/pack_view.h"
+
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -20,7 +22,8 @@ LevelStatistics levelStatistics(const Hierarchy& hierarchy, const LevelRecord& l
     statistics.triangles = level.triangle_count;
     statistics.max_error = level.max_error;
     for (uint32_t c = level.clusters.first; c < level.clusters.first + level.clusters.count; ++c)
-        statistics.mean_error += double{hierarchy.clusters[c].error} * hierarchy.clusters[c].triangle_count;
+        statistics.mean_error +=
+            double{errorOf(hierarchy.clusters[c], hierarchy.groups)} * hierarchy.clusters[c].triangle_count;
     statistics.mean_error /= static_cast<double>(statistics.triangles);
     statistics.fill = static_cast<double>(statistics.triangles) /
                       (static_cast<double>(statistics.clusters) * kClusterMaxTriangles);

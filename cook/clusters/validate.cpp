@@ -82,7 +82,7 @@ Status checkMonotone(const Hierarchy& h)
         replaced[cluster.refined_group] = 1;
         if (cluster.refined_group <= cluster.group || finer.level + 1 != cluster.level)
             return wrong(Issue::meaning_tree, "cluster", c, "was not made from a group of the finer level");
-        if (cluster.error != finer.error || !(finer.error <= own.error))
+        if (!(finer.error <= own.error))
             return wrong(Issue::meaning_monotone, "cluster", c, "error falls towards the root");
         if (distance(finer.sphere_center, own.sphere_center) + finer.sphere_radius > own.sphere_radius)
             return wrong(Issue::meaning_monotone, "cluster", c,
@@ -152,14 +152,13 @@ Status checkPages(const Hierarchy& h)
 
 Result<ClusterGeometry> geometryOf(const Hierarchy& h, const DecodedHierarchy& decoded, uint32_t c)
 {
-    const auto geometry =
-        ClusterGeometry::at(decoded.pages[h.clusters[c].page], h.clusters[c], h.mesh.attributes);
+    const auto geometry = ClusterGeometry::at(decoded.pages[h.clusters[c].page], h.clusters[c], h.mesh);
     if (!geometry)
         return wrong(Issue::meaning_range, "cluster", c, "lies outside its page");
     return *geometry;
 }
 
-Status checkCone(const ClusterRecord& cluster, size_t c, Float3 pa, Float3 pb, Float3 pc)
+Status checkCone(const ClusterRecord& cluster, float grid_step, size_t c, Float3 pa, Float3 pb, Float3 pc)
 {
     const auto sub = [](Float3 a, Float3 b) {
         return std::array<double, 3>{double{a.x} - b.x, double{a.y} - b.y, double{a.z} - b.z};
@@ -171,13 +170,38 @@ Status checkCone(const ClusterRecord& cluster, size_t c, Float3 pa, Float3 pb, F
     if (!(area > 0))
         return wrong(Issue::meaning_bounds, "cluster", c,
                      "has a normal cone though a triangle has no normal");
-    const std::array<double, 3> axis{cluster.cone_axis.x, cluster.cone_axis.y, cluster.cone_axis.z};
-    const double cosine = dot3(n, axis) / area / std::sqrt(dot3(axis, axis));
-    if (cosine < std::sqrt(1 - double{cluster.cone_cutoff} * cluster.cone_cutoff))
+    const Float3 ray = coneAxis(cluster);
+    const std::array<double, 3> axis{ray.x, ray.y, ray.z};
+    const double axis_length = std::sqrt(dot3(axis, axis));
+    const double cosine = dot3(n, axis) / area / axis_length;
+    const double sine = coneCutoff(cluster);
+    if (cosine < std::sqrt(1 - sine * sine))
         return wrong(Issue::meaning_bounds, "cluster", c, "a normal leaves the cone");
-    if (dot3(n, sub(cluster.cone_apex, pa)) > 0)
+    const Box3 box = boxOf(cluster, grid_step);
+    std::array<double, 3> to_apex{};
+    for (size_t i = 0; i < 3; ++i)
+    {
+        const int k = static_cast<int>(i);
+        to_apex[i] = (double{box.min[k]} + box.max[k]) / 2 - double{pa[k]} -
+                     axis[i] / axis_length * coneBack(cluster, grid_step);
+    }
+    if (dot3(n, to_apex) > 0)
         return wrong(Issue::meaning_bounds, "cluster", c, "the apex is in front of a triangle");
     return success();
+}
+
+/// Exact, but for the high corner of a box that is stored in more than single steps.
+bool isBoxOf(const ClusterRecord& cluster, float grid_step, const Box3& vertices)
+{
+    const Box3 box = boxOf(cluster, grid_step);
+    for (int axis = 0; axis < 3; ++axis)
+    {
+        const double slack = ((1 << cluster.extent_shift) - 1) * double{grid_step};
+        if (box.min[axis] != vertices.min[axis] || box.max[axis] < vertices.max[axis] ||
+            box.max[axis] > vertices.max[axis] + slack)
+            return false;
+    }
+    return true;
 }
 
 Status checkGeometry(const Hierarchy& h, const DecodedHierarchy& decoded)
@@ -195,8 +219,6 @@ Status checkGeometry(const Hierarchy& h, const DecodedHierarchy& decoded)
         {
             const Float3 p = geometry.position(v);
             box.add(p);
-            if (distance(p, cluster.sphere_center) > cluster.sphere_radius)
-                return wrong(Issue::meaning_bounds, "cluster", c, "a vertex leaves its sphere");
             if (distance(p, group.sphere_center) > group.sphere_radius)
                 return wrong(Issue::meaning_bounds, "cluster", c, "a vertex leaves its group's sphere");
             if (cluster.refined_group != kNone && distance(p, h.groups[cluster.refined_group].sphere_center) >
@@ -204,7 +226,7 @@ Status checkGeometry(const Hierarchy& h, const DecodedHierarchy& decoded)
                 return wrong(Issue::meaning_bounds, "cluster", c,
                              "a vertex leaves the sphere of the finer group");
         }
-        if (!(box.min == cluster.box_min && box.max == cluster.box_max))
+        if (!isBoxOf(cluster, h.mesh.grid_step, box))
             return wrong(Issue::meaning_bounds, "cluster", c, "its box is not that of its vertices");
         std::vector<uint8_t> used(cluster.vertex_count, 0);
         for (uint32_t t = 0; t < cluster.triangle_count; ++t)
@@ -218,8 +240,8 @@ Status checkGeometry(const Hierarchy& h, const DecodedHierarchy& decoded)
                          pc = geometry.position(corner[2]);
             if (cluster.level == 0 && (pa == pb || pb == pc || pc == pa))
                 return wrong(Issue::meaning_geometry, "cluster", c, "a triangle lacks an edge");
-            if (cluster.cone_cutoff < 1)
-                HEARTH_TRY(checkCone(cluster, c, pa, pb, pc));
+            if (cluster.cone_cutoff != kNoCone)
+                HEARTH_TRY(checkCone(cluster, h.mesh.grid_step, c, pa, pb, pc));
         }
         if (std::count(used.begin(), used.end(), 1) != static_cast<ptrdiff_t>(used.size()))
             return wrong(Issue::meaning_geometry, "cluster", c, "a vertex is not used");
@@ -246,22 +268,59 @@ uint64_t hashWords(std::span<const uint32_t> words)
     return hashBytes(std::as_bytes(words));
 }
 
-/// What the words of a vertex of the source must be.
-uint64_t sourceVertexHash(const mesh::SourceMesh& source, uint32_t v)
+/// What a vertex of the source is after its coding, whichever cluster it comes to lie in.
+uint64_t sourceVertexHash(const mesh::SourceMesh& source, uint32_t layout, double grid_step, uint32_t v)
 {
     std::vector<uint32_t> words;
-    const auto add = [&](float value) { words.push_back(std::bit_cast<uint32_t>(value)); };
-    add(source.positions[v].x), add(source.positions[v].y), add(source.positions[v].z);
-    if (!source.normals.empty())
-        words.push_back(encodeNormal(source.normals[v]));
-    if (!source.tangents.empty())
-        words.push_back(encodeTangent(source.tangents[v]));
-    for (const auto& uvs : source.uvs)
-        if (!uvs.empty())
-            add(uvs[v].x), add(uvs[v].y);
-    if (!source.colors.empty())
-        for (const uint32_t word : encodeColor(source.colors[v]).word)
+    const auto addPoint = [&](double steps)
+    { words.push_back(static_cast<uint32_t>(static_cast<int32_t>(std::nearbyint(steps)))); };
+    for (int axis = 0; axis < 3; ++axis)
+        addPoint(source.positions[v][axis] / grid_step);
+    if (layout & kVertexNormal)
+        words.push_back(encodeNormal(layout, source.normals[v]));
+    if (layout & kVertexTangent)
+        words.push_back(encodeTangent(layout, source.tangents[v],
+                                      decodeNormal(layout, encodeNormal(layout, source.normals[v]))));
+    for (uint32_t set = 0; set < 4; ++set)
+        if (layout & kVertexFloatUv0 << set)
+            words.insert(words.end(), {std::bit_cast<uint32_t>(source.uvs[set][v].x),
+                                       std::bit_cast<uint32_t>(source.uvs[set][v].y)});
+        else if (layout & kVertexUv0 << set)
+        {
+            const double step = uvStep(uvFractionBits(layout, set));
+            addPoint(source.uvs[set][v].x / step);
+            addPoint(source.uvs[set][v].y / step);
+        }
+    if (layout & kVertexColor)
+        for (const uint32_t word : encodeColor(layout, source.colors[v]))
             words.push_back(word);
+    return hashWords(words);
+}
+
+/// The same of a vertex of a cluster.
+uint64_t vertexHash(const ClusterGeometry& geometry, const ClusterRecord& cluster, uint32_t v)
+{
+    const uint32_t layout = geometry.layout();
+    std::vector<uint32_t> words;
+    for (size_t axis = 0; axis < 3; ++axis)
+        words.push_back(static_cast<uint32_t>(cluster.base[axis]) + geometry.gridOffset(v)[axis]);
+    if (layout & kVertexNormal)
+        words.push_back(geometry.normalCode(v));
+    if (layout & kVertexTangent)
+        words.push_back(geometry.word(v, attributeWord(layout, kVertexTangent)));
+    for (uint32_t set = 0; set < 4; ++set)
+        if (layout & kVertexFloatUv0 << set)
+            words.insert(words.end(), {std::bit_cast<uint32_t>(geometry.uv(v, set).x),
+                                       std::bit_cast<uint32_t>(geometry.uv(v, set).y)});
+        else if (layout & kVertexUv0 << set)
+            for (const int32_t point : geometry.uvPoint(v, set))
+                words.push_back(static_cast<uint32_t>(point));
+    if (layout & kVertexColor)
+    {
+        const uint32_t first = attributeWord(layout, kVertexColor);
+        words.push_back(geometry.word(v, first));
+        words.push_back((layout & kVertexFineColor) ? geometry.word(v, first + 1) : 0);
+    }
     return hashWords(words);
 }
 
@@ -286,7 +345,7 @@ Status checkFinestLevel(const mesh::SourceMesh& source, std::span<const mesh::So
     const mesh::SourceMesh on_grid = onGrid(source, authored);
     std::vector<uint64_t> hashes(source.vertexCount());
     for (uint32_t v = 0; v < hashes.size(); ++v)
-        hashes[v] = sourceVertexHash(on_grid, v);
+        hashes[v] = sourceVertexHash(on_grid, h.mesh.attributes, h.mesh.grid_step, v);
     std::vector<TriangleKey> wanted;
     for (size_t t = 0; t < source.triangleCount(); ++t)
     {
@@ -307,15 +366,9 @@ Status checkFinestLevel(const mesh::SourceMesh& source, std::span<const mesh::So
         if (h.clusters[c].level != 0)
             continue;
         HEARTH_ASSIGN_OR_RETURN(const ClusterGeometry geometry, geometryOf(h, decoded, c));
-        const uint32_t word_count = vertexWords(h.mesh.attributes);
         std::vector<uint64_t> vertex_hashes;
         for (uint32_t v = 0; v < geometry.vertexCount(); ++v)
-        {
-            std::vector<uint32_t> words;
-            for (uint32_t w = 0; w < word_count; ++w)
-                words.push_back(geometry.word(v, w));
-            vertex_hashes.push_back(hashWords(words));
-        }
+            vertex_hashes.push_back(vertexHash(geometry, h.clusters[c], v));
         for (uint32_t t = 0; t < geometry.triangleCount(); ++t)
         {
             const auto corner = geometry.triangle(t);

@@ -122,20 +122,69 @@ HEARTH_FUNCTION bool clusterInCut(HEARTH_IN(FrameView) view, HEARTH_IN(Instance)
     return errorExceeds(view, instance, own.sphere_center, own.sphere_radius, own.error);
 }
 
+HEARTH_FUNCTION Float3 clusterBoxMin(HEARTH_IN(Cluster) cluster, float grid_step)
+{
+    HEARTH_PRECISE Float3 corner =
+        Float3(float(cluster.base_x) * grid_step, float(cluster.base_y) * grid_step,
+               float(cluster.base_z) * grid_step);
+    return corner;
+}
+
+HEARTH_FUNCTION uint extentShift(HEARTH_IN(Cluster) cluster)
+{
+    return cluster.extent_z >> 16 & 255u;
+}
+
+HEARTH_FUNCTION Float3 clusterBoxMax(HEARTH_IN(Cluster) cluster, float grid_step)
+{
+    uint shift = extentShift(cluster);
+    int x = cluster.base_x + int((cluster.extent_xy & 65535u) << shift);
+    int y = cluster.base_y + int((cluster.extent_xy >> 16) << shift);
+    int z = cluster.base_z + int((cluster.extent_z & 65535u) << shift);
+    HEARTH_PRECISE Float3 corner = Float3(float(x) * grid_step, float(y) * grid_step, float(z) * grid_step);
+    return corner;
+}
+
+/// The axis of the cluster's normal cone, 127 times as long as its octahedral code's point: whole numbers.
+HEARTH_FUNCTION Float3 coneRay(HEARTH_IN(Cluster) cluster)
+{
+    // the sign of each byte comes down with the shift
+    float x = float(int(cluster.cone << 24) >> 24);
+    float y = float(int(cluster.cone << 16) >> 24);
+    HEARTH_PRECISE float z = 127.0f - abs(x) - abs(y);
+    if (z >= 0.0f)
+        return Float3(x, y, z);
+    HEARTH_PRECISE float folded_x = (127.0f - abs(y)) * (x < 0.0f ? -1.0f : 1.0f);
+    HEARTH_PRECISE float folded_y = (127.0f - abs(x)) * (y < 0.0f ? -1.0f : 1.0f);
+    return Float3(folded_x, folded_y, z);
+}
+
 /// True where every triangle of the cluster faces away from the eye. In object space, where any affine matrix,
 /// mirrored or sheared, leaves the facing as it is. Not for double-sided materials.
-HEARTH_FUNCTION bool coneFacesAway(Float3 eye_object, float eye_slack, HEARTH_IN(Cluster) cluster)
+HEARTH_FUNCTION bool coneFacesAway(HEARTH_IN(InstanceState) state, HEARTH_IN(Cluster) cluster)
 {
-    if (cluster.cone_cutoff >= 1.0f)
+    uint cutoff_code = cluster.cone >> 16;
+    if (cutoff_code == 65535u)
         return false;
-    HEARTH_PRECISE Float3 to_apex = cluster.cone_apex - eye_object;
-    HEARTH_PRECISE Float3 from_center = cluster.cone_apex - cluster.sphere_center;
-    HEARTH_PRECISE float distance = sqrt(dot3(to_apex, to_apex));
-    HEARTH_PRECISE float reach = cluster.sphere_radius + sqrt(dot3(from_center, from_center));
+    Float3 box_min = clusterBoxMin(cluster, state.grid_step);
+    Float3 box_max = clusterBoxMax(cluster, state.grid_step);
+    HEARTH_PRECISE Float3 center = (box_min + box_max) * 0.5f;
+    HEARTH_PRECISE Float3 half_size = (box_max - box_min) * 0.5f;
+    HEARTH_PRECISE float back =
+        float((cluster.cone_back & 65535u) << extentShift(cluster)) * 16.0f * state.grid_step;
+
+    // everything times the length of the ray: no division, whose last bits differ between devices
+    Float3 ray = coneRay(cluster);
+    HEARTH_PRECISE float ray2 = dot3(ray, ray);
+    HEARTH_PRECISE float ray_length = sqrt(ray2);
+    HEARTH_PRECISE Float3 to_center = center - state.eye_object;
+    HEARTH_PRECISE Float3 to_apex = to_center * ray_length - ray * back;
+    HEARTH_PRECISE float reach = sqrt(dot3(half_size, half_size)) + back;
     HEARTH_PRECISE float position_slack =
-        (2.0f * eye_slack + sum3(abs3(cluster.cone_apex)) * kRoundingSlack) + reach * kApexMargin;
-    HEARTH_PRECISE float needed = (cluster.cone_cutoff + kConeMargin) * distance + position_slack;
-    return dot3(to_apex, cluster.cone_axis) >= needed;
+        (2.0f * state.eye_slack + (sum3(abs3(center)) + 2.0f * back) * kRoundingSlack) + reach * kApexMargin;
+    HEARTH_PRECISE float sine = float(cutoff_code) * 1.52587890625e-5f + kConeMargin;
+    HEARTH_PRECISE float needed = (sine * sqrt(dot3(to_apex, to_apex))) * ray_length + position_slack * ray2;
+    return dot3(to_apex, ray) >= needed;
 }
 
 /// The instance pass: where the eye is in object space, and whether anything of the mesh can be seen.
@@ -163,8 +212,8 @@ HEARTH_FUNCTION InstanceState decideInstance(HEARTH_IN(FrameView) view, HEARTH_I
     if (bounds.box_min.x > bounds.box_max.x)
         state.visible = 0u;
     state.cone_valid = inverse.object_from_world_x.w != 0.0f ? 1u : 0u;
-    state.reserved1 = 0u;
-    state.reserved2 = 0u;
+    state.grid_step = bounds.grid_step;
+    state.reserved = 0u;
     return state;
 }
 
@@ -178,10 +227,11 @@ HEARTH_FUNCTION bool decideCluster(HEARTH_IN(FrameView) view, HEARTH_IN(Instance
     if (!clusterInCut(view, instance, own, cluster.refined_group != kNoGroup, refined))
         return false;
     if ((view.flags & kCullFrustum) != 0u &&
-        boxOutsideFrustum(view, instance, cluster.box_min, cluster.box_max))
+        boxOutsideFrustum(view, instance, clusterBoxMin(cluster, state.grid_step),
+                          clusterBoxMax(cluster, state.grid_step)))
         return false;
     bool test_cone = (view.flags & kCullCone) != 0u && !double_sided && state.cone_valid != 0u;
-    return !(test_cone && coneFacesAway(state.eye_object, state.eye_slack, cluster));
+    return !(test_cone && coneFacesAway(state, cluster));
 }
 
 HEARTH_SHARED_END

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "formats/shared/frame.h"
 
+#include "formats/cluster_bounds.h"
+
 namespace hearth::shared
 {
 
@@ -95,8 +97,8 @@ std::vector<MeshBounds> makeMeshBounds(std::span<const formats::MeshRecord> mesh
         Box3 box;
         for (const formats::ClusterRecord& cluster :
              clusters.subspan(mesh.clusters.first, mesh.clusters.count))
-            box.add({cluster.box_min, cluster.box_max});
-        bounds.push_back({box.min, 0, box.max, 0});
+            box.add(formats::boxOf(cluster, mesh.grid_step));
+        bounds.push_back({box.min, mesh.grid_step, box.max, 0});
     }
     return bounds;
 }

@@ -35,36 +35,30 @@ struct Group
     uint reserved1;
 };
 
-/// formats::ClusterRecord.
+/// formats::ClusterRecord, in words.
 struct Cluster
 {
-    Float3 box_min;
+    int base_x;
+    int base_y;
+    int base_z;
+    uint extent_xy; ///< x in the low half
+    uint extent_z;  ///< extent_shift << 16, level << 24
+    uint cone;      ///< axis in the low half, cutoff
+    uint cone_back; ///< vertex_count << 16
+    uint counts;    ///< triangle_count, page_word << 16
     uint material;
-    Float3 box_max;
-    uint page;
-    Float3 sphere_center;
-    float sphere_radius;
-    Float3 cone_axis;
-    float cone_cutoff;
-    Float3 cone_apex;
-    uint page_offset;
     uint group;
     uint refined_group;
-    uint vertex_count;
-    uint triangle_count;
-    float error;
-    uint level;
-    uint mesh;
-    uint reserved;
+    uint page;
 };
 
 /// Bounds of a mesh over all its levels, in object space.
 struct MeshBounds
 {
     Float3 box_min;
-    uint reserved0;
+    float grid_step;
     Float3 box_max;
-    uint reserved1;
+    uint reserved;
 };
 
 /// Inverse of the linear part of an instance's matrix, for the normal-cone test in object space.
@@ -83,8 +77,8 @@ struct InstanceState
     float eye_slack; ///< how far eye_object may be off through rounding, object space
     uint visible;
     uint cone_valid; ///< 0: the instance has no inverse and eye_object means nothing
-    uint reserved1;
-    uint reserved2;
+    float grid_step; ///< of its mesh
+    uint reserved;
 };
 
 /// Clusters order[first .. first + count) of one instance, all drawn by the same bin; one workgroup.
@@ -142,13 +136,17 @@ struct FrameCounters
     uint reserved1;
 };
 
-/// What drawing needs of a cluster; `address` counts words in the geometry pool.
+/// What drawing needs of a cluster.
 struct ClusterDraw
 {
-    uint address;
-    uint counts; ///< vertices | triangles << 9 | level << 17
-    uint attributes;
-    uint material; ///< 1 + row of the material table; 0 is the sky
+    uint address;       ///< of its first vertex, in words of the geometry pool; the UV bases stand before it
+    uint counts;        ///< vertices | triangles << 9 | level << 17
+    uint vertex_layout; ///< formats::VertexAttributes
+    uint material;      ///< 1 + row of the material table; 0 is the sky
+    int base_x;         ///< positions are (base + offset) * grid_step
+    int base_y;
+    int base_z;
+    float grid_step;
 };
 
 /// Camera and switches of one frame. All positions that reach the screen are relative to the eye, in world axes,

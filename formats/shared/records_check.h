@@ -27,23 +27,16 @@ HEARTH_SAME_OFFSET(Group, page, GroupRecord, page);
 HEARTH_SAME_OFFSET(Group, set_offset, GroupRecord, set_offset);
 
 static_assert(sizeof(hearth::shared::Cluster) == sizeof(hearth::formats::ClusterRecord));
-HEARTH_SAME_OFFSET(Cluster, box_min, ClusterRecord, box_min);
+HEARTH_SAME_OFFSET(Cluster, base_x, ClusterRecord, base);
+HEARTH_SAME_OFFSET(Cluster, extent_xy, ClusterRecord, extent);
+HEARTH_SAME_OFFSET(Cluster, extent_z, ClusterRecord, extent[2]);
+HEARTH_SAME_OFFSET(Cluster, cone, ClusterRecord, cone_axis);
+HEARTH_SAME_OFFSET(Cluster, cone_back, ClusterRecord, cone_back);
+HEARTH_SAME_OFFSET(Cluster, counts, ClusterRecord, triangle_count);
 HEARTH_SAME_OFFSET(Cluster, material, ClusterRecord, material);
-HEARTH_SAME_OFFSET(Cluster, box_max, ClusterRecord, box_max);
-HEARTH_SAME_OFFSET(Cluster, page, ClusterRecord, page);
-HEARTH_SAME_OFFSET(Cluster, sphere_center, ClusterRecord, sphere_center);
-HEARTH_SAME_OFFSET(Cluster, sphere_radius, ClusterRecord, sphere_radius);
-HEARTH_SAME_OFFSET(Cluster, cone_axis, ClusterRecord, cone_axis);
-HEARTH_SAME_OFFSET(Cluster, cone_cutoff, ClusterRecord, cone_cutoff);
-HEARTH_SAME_OFFSET(Cluster, cone_apex, ClusterRecord, cone_apex);
-HEARTH_SAME_OFFSET(Cluster, page_offset, ClusterRecord, page_offset);
 HEARTH_SAME_OFFSET(Cluster, group, ClusterRecord, group);
 HEARTH_SAME_OFFSET(Cluster, refined_group, ClusterRecord, refined_group);
-HEARTH_SAME_OFFSET(Cluster, vertex_count, ClusterRecord, vertex_count);
-HEARTH_SAME_OFFSET(Cluster, triangle_count, ClusterRecord, triangle_count);
-HEARTH_SAME_OFFSET(Cluster, error, ClusterRecord, error);
-HEARTH_SAME_OFFSET(Cluster, level, ClusterRecord, level);
-HEARTH_SAME_OFFSET(Cluster, mesh, ClusterRecord, mesh);
+HEARTH_SAME_OFFSET(Cluster, page, ClusterRecord, page);
 
 #undef HEARTH_SAME_OFFSET
 
@@ -56,5 +49,5 @@ static_assert(sizeof(hearth::shared::FrameView) == 176);
 static_assert(sizeof(hearth::shared::BinDraw) == 32);
 static_assert(sizeof(hearth::shared::WorkItem) == 16);
 static_assert(sizeof(hearth::shared::WorkResult) == 16);
-static_assert(sizeof(hearth::shared::ClusterDraw) == 16);
+static_assert(sizeof(hearth::shared::ClusterDraw) == 32);
 static_assert(hearth::shared::kClusterVertices == 3 * hearth::formats::kClusterMaxTriangles);

@@ -21,14 +21,14 @@ class PageCache
 public:
     explicit PageCache(const PackView& pack) : pack_(pack) {}
 
-    Result<ClusterGeometry> geometryOf(const ClusterRecord& cluster, uint32_t attributes)
+    Result<ClusterGeometry> geometryOf(const ClusterRecord& cluster, const MeshRecord& mesh)
     {
         if (cluster.page != page_)
         {
             HEARTH_ASSIGN_OR_RETURN(bytes_, pack_.decodePage(cluster.page));
             page_ = cluster.page;
         }
-        const auto geometry = ClusterGeometry::at(bytes_, cluster, attributes);
+        const auto geometry = ClusterGeometry::at(bytes_, cluster, mesh);
         if (!geometry)
             return Error{Issue::meaning_geometry, pack_.name(), chunkName(kChunkPages, 0),
                          fmt::format("a cluster lies outside page {}", cluster.page)};
@@ -133,14 +133,14 @@ Status extractCut(const std::string& path, uint32_t mesh, float error, const std
     for (const uint32_t cluster : cut)
     {
         HEARTH_ASSIGN_OR_RETURN(const ClusterGeometry geometry,
-                                pages.geometryOf(pack.clusters()[cluster], record.attributes));
+                                pages.geometryOf(pack.clusters()[cluster], record));
         writeVertices(file, geometry);
     }
     uint32_t first_vertex = 0;
     for (const uint32_t cluster : cut)
     {
         HEARTH_ASSIGN_OR_RETURN(const ClusterGeometry geometry,
-                                pages.geometryOf(pack.clusters()[cluster], record.attributes));
+                                pages.geometryOf(pack.clusters()[cluster], record));
         writeFaces(file, geometry, first_vertex);
         first_vertex += geometry.vertexCount();
     }

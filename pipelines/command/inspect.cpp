@@ -17,12 +17,13 @@ void addClusters(MeshSummary& summary, std::span<const ClusterRecord> clusters)
 {
     for (const ClusterRecord& cluster : clusters)
     {
-        const uint64_t vertex_bytes = uint64_t{cluster.vertex_count} * vertexWords(summary.attributes) * 4;
+        const uint32_t layout = layoutOf(cluster, summary.attributes);
+        const uint64_t vertex_bytes = clusterBytes(layout, cluster.vertex_count, 0);
         summary.triangles += cluster.triangle_count;
         summary.vertices += cluster.vertex_count;
         summary.vertex_bytes += vertex_bytes;
         summary.index_bytes +=
-            clusterBytes(summary.attributes, cluster.vertex_count, cluster.triangle_count) - vertex_bytes;
+            clusterBytes(layout, cluster.vertex_count, cluster.triangle_count) - vertex_bytes;
     }
 }
 

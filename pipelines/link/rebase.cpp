@@ -128,7 +128,6 @@ void rebase(ClusterRecord& cluster, const Offsets& offsets)
     shift(cluster.page, offsets.pages);
     shift(cluster.group, offsets.groups);
     shift(cluster.refined_group, offsets.groups);
-    shift(cluster.mesh, offsets.meshes);
 }
 
 void rebase(PageRecord& page, const Offsets& offsets)

@@ -75,11 +75,20 @@ void makeDraws(const formats::PackView& pack, SceneLayout& layout)
 {
     layout.draws.reserve(pack.clusters().size());
     for (const formats::ClusterRecord& cluster : pack.clusters())
-        layout.draws.push_back({.address = layout.page_addresses[cluster.page] + cluster.page_offset / 4,
-                                .counts = cluster.vertex_count | cluster.triangle_count << 9 |
-                                          std::min(cluster.level, 0x7FFFu) << 17,
-                                .attributes = pack.meshes()[cluster.mesh].attributes,
-                                .material = 1 + materialRow(pack, cluster.material)});
+    {
+        const formats::MeshRecord& mesh = pack.meshes()[pack.pages()[cluster.page].mesh];
+        const uint32_t counts = uint32_t{cluster.vertex_count} | uint32_t{cluster.triangle_count} << 9 |
+                                uint32_t{cluster.level} << 17;
+        layout.draws.push_back({.address = layout.page_addresses[cluster.page] + cluster.page_word +
+                                           formats::uvBaseWords(mesh.attributes),
+                                .counts = counts,
+                                .vertex_layout = formats::layoutOf(cluster, mesh.attributes),
+                                .material = 1 + materialRow(pack, cluster.material),
+                                .base_x = cluster.base[0],
+                                .base_y = cluster.base[1],
+                                .base_z = cluster.base[2],
+                                .grid_step = mesh.grid_step});
+    }
 }
 
 /// Append the clusters of a mesh to the order, sorted by key and otherwise as they are.

@@ -34,7 +34,7 @@ Surface resolveSurface(uint id, vec2 pixel)
     for (uint i = 0u; i < 3u; ++i)
     {
         s.vertices[i] = cornerAddress(s.draw, s.triangle, i);
-        s.corners[i] = relativePoint(s.instance, view.eye, poolFloat3(s.vertices[i]));
+        s.corners[i] = relativePoint(s.instance, view.eye, vertexPosition(s.draw, s.vertices[i]));
         vec4 clip = clipPosition(view, s.corners[i]);
         p[i] = clip.xy - ndc * clip.w;
         w[i] = clip.w;
@@ -93,16 +93,6 @@ vec4 surfaceColor(Surface s)
            vertexColor(s.draw, s.vertices[2]) * s.weights.z;
 }
 
-// formats/vertex_codec.h
-vec3 decodeOctahedral(uint word)
-{
-    vec2 p = unpackSnorm2x16(word);
-    vec3 d = vec3(p, 1.0 - abs(p.x) - abs(p.y));
-    if (d.z < 0.0)
-        d.xy = (1.0 - abs(p.yx)) * vec2(p.x < 0.0 ? -1.0 : 1.0, p.y < 0.0 ? -1.0 : 1.0);
-    return normalize(d);
-}
-
 vec3 worldVector(Instance instance, vec3 v)
 {
     return vec3(dot(instance.world_from_object_x.xyz, v), dot(instance.world_from_object_y.xyz, v),
@@ -136,12 +126,11 @@ vec3 geometricNormal(Surface s)
 vec3 smoothNormal(Surface s)
 {
     vec3 flat_normal = geometricNormal(s);
-    if ((s.draw.attributes & kVertexNormal) == 0u)
+    if ((s.draw.vertex_layout & kVertexNormal) == 0u)
         return flat_normal;
-    uint word = attributeWord(s.draw.attributes, kVertexNormal);
     vec3 n = vec3(0.0);
     for (uint i = 0u; i < 3u; ++i)
-        n += decodeOctahedral(poolWord(s.vertices[i] + word)) * s.weights[i];
+        n += vertexNormal(s.draw, s.vertices[i]) * s.weights[i];
     return normalizeOr(worldNormal(s, n), flat_normal);
 }
 
@@ -150,14 +139,16 @@ void tangentFrame(Surface s, vec3 normal, uint uv_set, out vec3 tangent, out vec
 {
     vec3 t = vec3(0.0);
     float side = s.mirrored ? -1.0 : 1.0;
-    if ((s.draw.attributes & kVertexTangent) != 0u)
+    if ((s.draw.vertex_layout & kVertexTangent) != 0u)
     {
-        uint word = attributeWord(s.draw.attributes, kVertexTangent);
         for (uint i = 0u; i < 3u; ++i)
-            t += decodeOctahedral(poolWord(s.vertices[i] + word)) * s.weights[i];
+        {
+            vec4 at_vertex = vertexTangent(s.draw, s.vertices[i], vertexNormal(s.draw, s.vertices[i]));
+            t += at_vertex.xyz * s.weights[i];
+            if (i == 0u)
+                side *= at_vertex.w;
+        }
         t = worldVector(s.instance, t);
-        if ((poolWord(s.vertices[0] + word) & 0x10000u) != 0u)
-            side = -side;
     }
     else
     {

@@ -28,24 +28,37 @@ uint poolWord(uint address)
 
 float poolFloat(uint address) { return uintBitsToFloat(poolWord(address)); }
 
-vec3 poolFloat3(uint address)
-{
-    return vec3(poolFloat(address), poolFloat(address + 1u), poolFloat(address + 2u));
-}
-
-// formats::VertexAttributes
+// formats::VertexAttributes; formats/vertex_codec.h says what the codes mean
 const uint kVertexNormal = 1u;
 const uint kVertexTangent = 2u;
 const uint kVertexUv0 = 4u;
+const uint kVertexUvs = 60u;
 const uint kVertexColor = 64u;
+const uint kVertexFineNormal = 128u;
+const uint kVertexFineColor = 256u;
+const uint kVertexWide = 8192u;
+const uint kVertexUvStepShift = 16u;
 
-// Words of a vertex with these attributes; with fewer bits, where the next attribute starts.
-uint vertexWords(uint attributes)
+// Words of a vertex; where the sets of UVs end, with fewer of their bits where the next set starts.
+uint uvEnd(uint layout_bits, uint sets)
 {
-    return 3u + uint(bitCount(attributes & 3u)) + 2u * uint(bitCount(attributes & 124u));
+    bool wide = (layout_bits & kVertexWide) != 0u;
+    uint words = wide ? 3u : 2u;
+    if ((layout_bits & kVertexNormal) != 0u && (layout_bits & (kVertexFineNormal | kVertexWide)) != 0u)
+        words += 1u;
+    if ((layout_bits & kVertexTangent) != 0u)
+        words += 1u;
+    return words + uint(bitCount(layout_bits & sets)) +
+           uint(bitCount(layout_bits & sets & (wide ? kVertexUvs : layout_bits >> 7)));
 }
 
-uint attributeWord(uint attributes, uint bit) { return vertexWords(attributes & (bit - 1u)); }
+uint vertexWords(uint layout_bits)
+{
+    uint words = uvEnd(layout_bits, kVertexUvs);
+    if ((layout_bits & kVertexColor) != 0u)
+        words += (layout_bits & kVertexFineColor) != 0u ? 2u : 1u;
+    return words;
+}
 
 uint vertexCount(ClusterDraw draw) { return draw.counts & 0x1FFu; }
 uint triangleCount(ClusterDraw draw) { return draw.counts >> 9 & 0xFFu; }
@@ -54,25 +67,85 @@ uint levelOf(ClusterDraw draw) { return draw.counts >> 17; }
 // Address of the first word of a corner's vertex. Indices are bytes behind the vertices.
 uint cornerAddress(ClusterDraw draw, uint triangle, uint corner)
 {
-    uint words = vertexWords(draw.attributes);
+    uint words = vertexWords(draw.vertex_layout);
     uint index = triangle * 3u + corner;
     uint word = poolWord(draw.address + vertexCount(draw) * words + (index >> 2));
     return draw.address + (word >> ((index & 3u) * 8u) & 0xFFu) * words;
 }
 
+// In object space. Whole numbers of at most 24 bits times a power of two: exact.
+vec3 vertexPosition(ClusterDraw draw, uint vertex)
+{
+    uint x = poolWord(vertex);
+    uint y = poolWord(vertex + 1u);
+    ivec3 offset = (draw.vertex_layout & kVertexWide) != 0u ? ivec3(x, y, poolWord(vertex + 2u))
+                                                            : ivec3(x & 0xFFFFu, x >> 16, y & 0xFFFFu);
+    return vec3(ivec3(draw.base_x, draw.base_y, draw.base_z) + offset) * draw.grid_step;
+}
+
+vec3 directionFromOctahedral(vec2 p)
+{
+    vec3 d = vec3(p, 1.0 - abs(p.x) - abs(p.y));
+    if (d.z < 0.0)
+        d.xy = (1.0 - abs(p.yx)) * vec2(p.x < 0.0 ? -1.0 : 1.0, p.y < 0.0 ? -1.0 : 1.0);
+    return normalize(d);
+}
+
+// Of a vertex that has one.
+vec3 vertexNormal(ClusterDraw draw, uint vertex)
+{
+    uint layout_bits = draw.vertex_layout;
+    if ((layout_bits & kVertexFineNormal) != 0u)
+        return directionFromOctahedral(unpackSnorm2x16(poolWord(vertex + ((layout_bits & kVertexWide) != 0u ? 3u : 2u))));
+    uint code = (layout_bits & kVertexWide) != 0u ? poolWord(vertex + 3u) : poolWord(vertex + 1u) >> 16;
+    return directionFromOctahedral(unpackSnorm4x8(code).xy);
+}
+
+// Of a vertex that has one; w = -1 where the bitangent is flipped.
+vec4 vertexTangent(ClusterDraw draw, uint vertex, vec3 normal)
+{
+    uint code = poolWord(vertex + uvEnd(draw.vertex_layout, 0u) - 1u);
+    uint quarter_bits = (draw.vertex_layout & kVertexFineNormal) != 0u ? 13u : 5u;
+    uint angle = code >> 1;
+    float along = float(angle & ((1u << quarter_bits) - 1u)) / float(1u << quarter_bits);
+    uint turn = angle >> quarter_bits;
+    vec2 at = (turn & 1u) == 0u ? vec2(1.0 - along, along) : vec2(-along, 1.0 - along);
+    if (turn >= 2u)
+        at = -at;
+    float side = normal.z < 0.0 ? -1.0 : 1.0;
+    float a = -1.0 / (side + normal.z);
+    float b = normal.x * normal.y * a;
+    vec3 first = vec3(1.0 + side * normal.x * normal.x * a, side * b, -side * normal.x);
+    vec3 second = vec3(b, side + normal.y * normal.y * a, -normal.y);
+    return vec4(normalize(first * at.x + second * at.y), (code & 1u) != 0u ? -1.0 : 1.0);
+}
+
 vec2 vertexUv(ClusterDraw draw, uint vertex, uint set)
 {
+    uint layout_bits = draw.vertex_layout;
     uint bit = kVertexUv0 << set;
-    if ((draw.attributes & bit) == 0u)
+    if ((layout_bits & bit) == 0u)
         return vec2(0.0);
-    uint at = vertex + attributeWord(draw.attributes, bit);
-    return vec2(poolFloat(at), poolFloat(at + 1u));
+    uint before = (bit - 1u) & kVertexUvs;
+    uint at = vertex + uvEnd(layout_bits, before);
+    if ((layout_bits >> 7 & bit) != 0u)
+        return vec2(poolFloat(at), poolFloat(at + 1u));
+    // the bases of the sets on grids end where the first vertex starts
+    uint later_grids = uint(bitCount(layout_bits & kVertexUvs & ~(layout_bits >> 7) & ~before));
+    uint base = draw.address - 2u * later_grids;
+    uint word = poolWord(at);
+    ivec2 offset = (layout_bits & kVertexWide) != 0u ? ivec2(word, poolWord(at + 1u)) : ivec2(word & 0xFFFFu, word >> 16);
+    uint fraction_bits = layout_bits >> (kVertexUvStepShift + 4u * set) & 15u;
+    return vec2(ivec2(poolWord(base), poolWord(base + 1u)) + offset) * uintBitsToFloat((127u - fraction_bits) << 23);
 }
 
 vec4 vertexColor(ClusterDraw draw, uint vertex)
 {
-    if ((draw.attributes & kVertexColor) == 0u)
+    uint layout_bits = draw.vertex_layout;
+    if ((layout_bits & kVertexColor) == 0u)
         return vec4(1.0);
-    uint at = vertex + attributeWord(draw.attributes, kVertexColor);
+    uint at = vertex + uvEnd(layout_bits, kVertexUvs);
+    if ((layout_bits & kVertexFineColor) == 0u)
+        return unpackUnorm4x8(poolWord(at));
     return vec4(unpackUnorm2x16(poolWord(at)), unpackUnorm2x16(poolWord(at + 1u)));
 }

@@ -25,7 +25,7 @@ CornerOfSlot cornerOfSlot()
     {
         Instance instance = instances[visible[slot].instance];
         corner.vertex = cornerAddress(corner.draw, triangle, gl_VertexIndex % 3u);
-        corner.position = clipPosition(view, relativePoint(instance, view.eye, poolFloat3(corner.vertex)));
+        corner.position = clipPosition(view, relativePoint(instance, view.eye, vertexPosition(corner.draw, corner.vertex)));
     }
     return corner;
 }

@@ -83,7 +83,7 @@ CutSurface surfaceOfCut(const clusters::Hierarchy& hierarchy, const clusters::De
     {
         const formats::ClusterRecord& cluster = hierarchy.clusters[c];
         const auto geometry =
-            formats::ClusterGeometry::at(decoded.pages[cluster.page], cluster, hierarchy.mesh.attributes);
+            formats::ClusterGeometry::at(decoded.pages[cluster.page], cluster, hierarchy.mesh);
         HEARTH_ASSERT(geometry.has_value());
         const auto first = static_cast<uint32_t>(surface.positions.size());
         for (uint32_t v = 0; v < geometry->vertexCount(); ++v)
@@ -95,7 +95,8 @@ CutSurface surfaceOfCut(const clusters::Hierarchy& hierarchy, const clusters::De
         for (uint32_t t = 0; t < geometry->triangleCount(); ++t)
             for (const uint32_t corner : geometry->triangle(t))
                 surface.triangles.push_back(first + corner);
-        surface.stored_error = std::max(surface.stored_error, double{cluster.error});
+        surface.stored_error =
+            std::max(surface.stored_error, double{formats::errorOf(cluster, hierarchy.groups)});
     }
     return surface;
 }

@@ -1,6 +1,7 @@
 // Measures the hierarchies of whole meshes: speed, shape, bytes, quality and honesty, with the peers' figures beside
 // them. `./dev bench clusters` makes the meshes and runs it.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "formats/pack_view.h"
 #include "formats/program.h"
 #include "tests/bench/cut_quality.h"
 #include "tests/bench/peer_figures.h"
@@ -76,7 +77,8 @@ size_t trianglesAt(const clusters::Hierarchy& hierarchy, double error)
 {
     size_t triangles = 0;
     for (const auto& cluster : hierarchy.clusters)
-        if (cluster.error <= error && hierarchy.groups[cluster.group].error > error)
+        if (formats::errorOf(cluster, hierarchy.groups) <= error &&
+            hierarchy.groups[cluster.group].error > error)
             triangles += cluster.triangle_count;
     return triangles;
 }

@@ -156,7 +156,7 @@ TEST_F(LinkPack, secondSourceStandsBehindTheFirst)
     EXPECT_EQ(pack.channels()[3].first_time, model.keys.size());
     EXPECT_EQ(pack.channels()[3].first_value, model.keys.size() + 3);
     EXPECT_EQ(pack.clusters()[clusters].material, 1u);
-    EXPECT_EQ(pack.clusters()[clusters].mesh, meshes);
+    EXPECT_EQ(pack.pages()[pack.clusters()[clusters].page].mesh, meshes);
     EXPECT_EQ(pack.clusters()[clusters].refined_group, model.groups.size() + 1);
     EXPECT_EQ(pack.clusters()[2 * clusters - 1].refined_group, kNone);
     EXPECT_EQ(pack.pageParents()[2], model.pages.size());

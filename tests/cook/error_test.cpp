@@ -1,6 +1,7 @@
 // A stored error is a bound: no cut is farther from the source, in either direction, than it says.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/clusters/validate.h"
+#include "formats/pack_view.h"
 #include "tests/cook/cuts.h"
 #include "tests/cook/shapes.h"
 #include "tests/cook/surface_distance.h"
@@ -27,7 +28,8 @@ Measured measure(const Hierarchy& hierarchy, const DecodedHierarchy& decoded,
 {
     Measured measured;
     for (const uint32_t c : clusters::clustersOfCut(hierarchy, replaced))
-        measured.bound = std::max(measured.bound, double{hierarchy.clusters[c].error});
+        measured.bound =
+            std::max(measured.bound, double{formats::errorOf(hierarchy.clusters[c], hierarchy.groups)});
     const std::vector<uint8_t> nothing(hierarchy.groups.size(), 0);
     const auto source = cuts::trianglesOfCut(hierarchy, decoded, nothing);
     const auto cut = cuts::trianglesOfCut(hierarchy, decoded, replaced);

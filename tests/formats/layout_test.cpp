@@ -63,8 +63,14 @@ TEST(ChunkList, hasEachFourCCOnce)
 
 TEST(VertexWords, areTheOffsetBehindTheLastAttribute)
 {
-    EXPECT_EQ(vertexWords(0), 3u);
-    EXPECT_EQ(vertexWords(127), 15u);
+    EXPECT_EQ(vertexWords(0), 2u);
+    EXPECT_EQ(vertexWords(kVertexNormal), 2u) << "beside z";
+    EXPECT_EQ(vertexWords(kVertexNormal | kVertexFineNormal), 3u);
+    EXPECT_EQ(vertexWords(127), 8u);
+    EXPECT_EQ(vertexWords(127 | kVertexWide), 14u);
+    EXPECT_EQ(vertexWords(127 | kVertexFloatUv1), 9u);
+    EXPECT_EQ(vertexWords(127 | kVertexFloatUv1 | kVertexWide), 14u);
+    EXPECT_EQ(vertexWords(kVertexColor | kVertexFineColor), 4u);
 }
 
 } // namespace hearth::test

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "formats/cluster_bounds.h"
 #include "formats/container_reader.h"
 #include "tests/formats/malformed_packs.h"
 
@@ -17,9 +18,10 @@ constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr uint32_t kHuge = 0xFFFFFFF0u; ///< first + count overflows 32 bits
 
-// a vertex of the strip: position, normal, tangent, uv (2), colour (2)
-constexpr size_t kStripVertexBytes = 9 * 4;
-constexpr size_t kStripIndices = 4 * kStripVertexBytes; ///< of the first cluster of a page
+// a cluster of the strip: base of u and v, then vertices of 5 words: position (with the normal in the upper half of its
+// second), tangent, UV, colour
+constexpr size_t kStripVertices = 2 * 4;
+constexpr size_t kStripIndices = kStripVertices + 4 * 5 * 4; ///< of the first cluster of a page
 
 /// Overwrite a word of the first cluster of a page.
 template <typename T>
@@ -43,6 +45,9 @@ std::vector<MalformedPack> malformedTables()
          }},
         {"meshAttributes", Issue::meaning_value, "mesh 1",
          [](PackModel& p) { p.meshes[1].attributes = 128; }},
+        {"meshGrid", Issue::meaning_value, "mesh 0", [](PackModel& p) { p.meshes[0].grid_step = 0.3f; }},
+        {"meshGridError", Issue::meaning_value, "mesh 0",
+         [](PackModel& p) { p.meshes[0].grid_error = kNaN; }},
         {"meshSkinned", Issue::meaning_value, "mesh 2", [](PackModel& p) { p.meshes[2].skinned = 2; }},
         {"meshBoxInfinite", Issue::meaning_value, "mesh 1",
          [](PackModel& p) { p.meshes[1].box_min.x = kInfinity; }},
@@ -83,7 +88,7 @@ std::vector<MalformedPack> malformedTables()
         {"groupOrder", Issue::meaning_order, "group 1", [](PackModel& p) { p.groups[1].clusters.first = 3; }},
         {"groupMissesClusters", Issue::meaning_range, "mesh 0",
          [](PackModel& p) { p.groups[2].clusters.count = 1; }},
-        {"groupTakesOtherMesh", Issue::meaning_reference, "group 2",
+        {"groupTakesOtherMesh", Issue::meaning_range, "mesh 0",
          [](PackModel& p)
          {
              p.groups[2].clusters.count = 3;
@@ -135,20 +140,14 @@ std::vector<MalformedPack> malformedTables()
          }},
         {"clusterVertices", Issue::meaning_value, "cluster 3",
          [](PackModel& p) { p.clusters[3].vertex_count = 257; }},
-        {"clusterBoxNaN", Issue::meaning_value, "cluster 1",
-         [](PackModel& p) { p.clusters[1].box_max.z = kNaN; }},
+        {"clusterBeyondGrid", Issue::meaning_value, "cluster 1",
+         [](PackModel& p) { p.clusters[1].base[2] = kGridMost + 1; }},
+        {"clusterExtentShift", Issue::meaning_value, "cluster 1",
+         [](PackModel& p) { p.clusters[1].extent_shift = kMostExtentShift + 1; }},
         {"clusterBoxOutsideMesh", Issue::meaning_bounds, "cluster 1",
-         [](PackModel& p) { p.clusters[1].box_max.z = 2; }},
-        {"clusterSphere", Issue::meaning_value, "cluster 1",
-         [](PackModel& p) { p.clusters[1].sphere_radius = kInfinity; }},
-        {"clusterConeCutoff", Issue::meaning_value, "cluster 1",
-         [](PackModel& p) { p.clusters[1].cone_cutoff = 1.1f; }},
+         [](PackModel& p) { ++p.clusters[1].extent[2]; }},
         {"clusterConeAxis", Issue::meaning_value, "cluster 1",
-         [](PackModel& p) { p.clusters[1].cone_axis = {}; }},
-        {"clusterConeApex", Issue::meaning_value, "cluster 1",
-         [](PackModel& p) { p.clusters[1].cone_apex.y = kNaN; }},
-        {"clusterOffset", Issue::meaning_value, "cluster 3",
-         [](PackModel& p) { ++p.clusters[3].page_offset; }},
+         [](PackModel& p) { p.clusters[1].cone_axis = 0x0080; }},
         {"clusterReserved", Issue::meaning_padding, "cluster 3",
          [](PackModel& p) { p.clusters[3].reserved = 1; }},
         {"clusterRefinedMissing", Issue::meaning_tree, "cluster 0",
@@ -159,10 +158,8 @@ std::vector<MalformedPack> malformedTables()
          [](PackModel& p) { p.clusters[0].refined_group = 3; }},
         {"clusterRefinedItself", Issue::meaning_tree, "cluster 0",
          [](PackModel& p) { p.clusters[0].refined_group = 0; }},
-        {"clusterErrorAtLevel0", Issue::meaning_value, "cluster 6",
-         [](PackModel& p) { p.clusters[6].error = 0.5f, p.levels[2].max_error = 0.5f; }},
-        {"clusterErrorOfGroup", Issue::meaning_value, "cluster 1",
-         [](PackModel& p) { p.clusters[1].error = 0.05f; }},
+        {"clusterMadeFromRoot", Issue::meaning_value, "cluster 0",
+         [](PackModel& p) { p.groups[1].error = kInfinity; }},
         {"clusterErrorGrows", Issue::meaning_monotone, "cluster 0",
          [](PackModel& p) { p.groups[0].error = 0.05f; }},
         {"clusterSphereGrows", Issue::meaning_monotone, "cluster 0",
@@ -232,35 +229,34 @@ std::vector<MalformedPack> malformedGeometry()
 {
     return {
         {"geometryOutsidePage", Issue::meaning_range, "cluster 6",
-         [](PackModel& p) { p.clusters[6].page_offset = 4; }},
+         [](PackModel& p) { p.clusters[6].page_word = 1; }},
         {"geometryOffsetHuge", Issue::meaning_range, "cluster 0",
-         [](PackModel& p) { p.clusters[0].page_offset = kHuge; }},
+         [](PackModel& p) { p.clusters[0].page_word = 0xFFFF; }},
         {"geometryOverlaps", Issue::meaning_order, "cluster 3",
-         [](PackModel& p) { p.clusters[3].page_offset -= 4; }},
+         [](PackModel& p) { --p.clusters[3].page_word; }},
         {"geometryPadding", Issue::meaning_padding, "cluster 3",
          [](PackModel& p) { poke(p, 1, kStripIndices + 6, uint8_t{1}); }, true},
         {"geometryBytesBehind", Issue::meaning_padding, "page 2",
          [](PackModel& p) { p.decoded_pages[2].resize(p.decoded_pages[2].size() + 4, std::byte{1}); }, true},
-        {"positionNaN", Issue::meaning_geometry, "cluster 2", [](PackModel& p) { poke(p, 1, 4, kNaN); },
-         true},
         {"positionOutsideBox", Issue::meaning_bounds, "cluster 2",
-         [](PackModel& p) { poke(p, 1, 4, -0.01f); }, true},
-        {"positionOutsideSphere", Issue::meaning_bounds, "cluster 5",
-         [](PackModel& p) { p.clusters[5].sphere_radius *= 0.999f; }},
+         [](PackModel& p) { poke(p, 1, kStripVertices + 2, uint16_t{97}); }, true},
+        {"positionHalfUsed", Issue::meaning_padding, "cluster 6",
+         [](PackModel& p) { poke(p, 3, 6, uint16_t{1}); }, true},
         {"normalCode", Issue::meaning_geometry, "cluster 4",
-         [](PackModel& p) { poke(p, 2, 12, 0x00008000u); }, true},
+         [](PackModel& p) { poke(p, 2, kStripVertices + 6, uint16_t{0x0080}); }, true},
         {"tangentCode", Issue::meaning_geometry, "cluster 4",
-         [](PackModel& p) { poke(p, 2, 16, 0x80000000u); }, true},
-        {"uvNaN", Issue::meaning_geometry, "cluster 0", [](PackModel& p) { poke(p, 0, 24, kNaN); }, true},
+         [](PackModel& p) { poke(p, 2, kStripVertices + 8, uint32_t{0x100}); }, true},
+        {"uvBeyondGrid", Issue::meaning_geometry, "cluster 0",
+         [](PackModel& p) { poke(p, 0, 4, kGridMost + 1); }, true},
         {"indexOutside", Issue::meaning_geometry, "cluster 0",
          [](PackModel& p) { poke(p, 0, kStripIndices + 5, uint8_t{4}); }, true},
         {"allDegenerate", Issue::meaning_geometry, "cluster 6",
-         [](PackModel& p) { poke(p, 3, 3 * 12 + 1, uint8_t{0}); }, true},
+         [](PackModel& p) { poke(p, 3, 3 * 8 + 1, uint8_t{0}); }, true},
         {"coneTooNarrow", Issue::meaning_bounds, "cluster 2",
-         [](PackModel& p) { p.clusters[2].cone_cutoff = 0.05f; }},
+         [](PackModel& p) { p.clusters[2].cone_cutoff = 65536 / 20; }},
         {"coneTurned", Issue::meaning_bounds, "cluster 0",
          [](PackModel& p) {
-             p.clusters[0].cone_axis = {0, -1, 0};
+             p.clusters[0].cone_axis = static_cast<uint16_t>(NormalCode<8>::encode({0, -1, 0}));
          }},
         {"triangleTurned", Issue::meaning_bounds, "cluster 0",
          [](PackModel& p)
@@ -270,7 +266,12 @@ std::vector<MalformedPack> malformedGeometry()
          },
          true},
         {"apexInFront", Issue::meaning_bounds, "cluster 1",
-         [](PackModel& p) { p.clusters[1].cone_apex.y = 0.1f; }},
+         [](PackModel& p)
+         {
+             // the box may be too large: its middle comes to lie above the flat quad
+             p.clusters[1].extent[1] = 96;
+             p.clusters[1].cone_back = 0;
+         }},
     };
 }
 

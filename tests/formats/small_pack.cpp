@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "tests/formats/small_pack.h"
 
+#include "formats/cluster_bounds.h"
 #include "formats/container_reader.h"
-#include "formats/vertex_codec.h"
 
 #include <bit>
 #include <cmath>
@@ -17,8 +17,11 @@ namespace
 {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
-constexpr uint32_t kStripAttributes = kVertexNormal | kVertexTangent | kVertexUv0 | kVertexColor;
-constexpr float kFold = 0.1f; ///< metres by which every second edge of the strip is lifted
+constexpr uint32_t kStripAttributes =
+    kVertexNormal | kVertexTangent | kVertexUv0 | kVertexColor | 14u << kVertexUvStepShift;
+constexpr float kGridStep = 1.0f / 1024;
+constexpr float kFold = 96 * kGridStep; ///< metres by which every second edge of the strip is lifted
+constexpr float kFoldError = 0.1f;
 
 StringRef intern(PackModel& pack, std::string_view text)
 {
@@ -53,33 +56,40 @@ Shape quad(float x0, float y0, float x1, float y1)
     return {{{x0, y0, 0}, {x0, y0, 1}, {x1, y1, 1}, {x1, y1, 0}}, {0, 1, 2, 0, 2, 3}};
 }
 
-void appendVertex(std::vector<std::byte>& page, Float3 position, uint32_t attributes)
+/// u = x / 4, v = z, counted from 0.
+void appendVertex(std::vector<std::byte>& page, Float3 position, const ClusterRecord& cluster,
+                  uint32_t layout)
 {
-    appendValue(page, position);
-    if (attributes & kVertexNormal)
-        appendValue(page, encodeNormal({0, 1, 0}));
-    if (attributes & kVertexTangent)
-        appendValue(page, encodeTangent({1, 0, 0, -1}));
-    if (attributes & kVertexUv0)
-        appendValue(page, Float2{position.x / 4, position.z});
-    if (attributes & kVertexColor)
-        appendValue(page, encodeColor({1, 0.5f, 0.25f, 1}));
+    const auto offset = [&](int axis)
+    { return static_cast<uint32_t>(static_cast<int32_t>(position[axis] / kGridStep) - cluster.base[axis]); };
+    const Float3 up{0, 1, 0};
+    const uint32_t normal = (layout & kVertexNormal) ? encodeNormal(layout, up) : 0;
+    appendValue(page, offset(0) | offset(1) << 16);
+    appendValue(page, offset(2) | normal << 16);
+    if (layout & kVertexTangent)
+        appendValue(page, encodeTangent(layout, {1, 0, 0, -1}, up));
+    if (layout & kVertexUv0)
+        appendValue(page, static_cast<uint32_t>(position.x * 4096) | static_cast<uint32_t>(position.z * 16384)
+                                                                         << 16);
+    if (layout & kVertexColor)
+        appendValue(page, encodeColor(layout, {1, 0.5f, 0.25f, 1})[0]);
 }
 
-/// Bounds of the shape: box, sphere about the box, and a cone that all its normals fit.
-ClusterRecord boundsOf(const Shape& shape, float cone_cutoff)
+/// Bounds of the shape: its box, and a cone that all its normals fit.
+ClusterRecord boundsOf(const Shape& shape, uint16_t cone_cutoff)
 {
     Box3 box;
     for (const Float3 p : shape.positions)
         box.add(p);
     ClusterRecord cluster{};
-    cluster.box_min = box.min;
-    cluster.box_max = box.max;
-    cluster.sphere_center = box.center();
-    cluster.sphere_radius = length(box.max - box.center()) * 1.00001f;
-    cluster.cone_axis = {0, 1, 0};
+    for (int axis = 0; axis < 3; ++axis)
+    {
+        cluster.base[axis] = static_cast<int32_t>(box.min[axis] / kGridStep);
+        cluster.extent[axis] = static_cast<uint16_t>((box.max[axis] - box.min[axis]) / kGridStep);
+    }
+    cluster.cone_axis = static_cast<uint16_t>(NormalCode<8>::encode({0, 1, 0}));
     cluster.cone_cutoff = cone_cutoff;
-    cluster.cone_apex = box.center() - Float3{0, 2, 0};
+    cluster.cone_back = static_cast<uint16_t>(2 / kGridStep / kConeBackSteps);
     return cluster;
 }
 
@@ -90,21 +100,22 @@ void addCluster(PackModel& pack, const Shape& shape, uint32_t refined_group)
     const uint32_t mesh = static_cast<uint32_t>(pack.meshes.size() - 1);
     std::vector<std::byte>& page = pack.decoded_pages.back();
 
-    ClusterRecord cluster = boundsOf(shape, pack.meshes.back().attributes == 0 ? 1.0f : 0.2f);
+    const uint32_t layout = pack.meshes.back().attributes;
+    ClusterRecord cluster = boundsOf(shape, layout == 0 ? kNoCone : uint16_t{65536 / 5});
     cluster.material = mesh == 0 ? 0 : kNone;
     cluster.page = static_cast<uint32_t>(pack.decoded_pages.size() - 1);
-    cluster.page_offset = static_cast<uint32_t>(page.size());
+    cluster.page_word = static_cast<uint16_t>(page.size() / 4);
     cluster.group = group;
     cluster.refined_group = refined_group;
-    cluster.vertex_count = static_cast<uint32_t>(shape.positions.size());
-    cluster.triangle_count = static_cast<uint32_t>(shape.indices.size() / 3);
-    cluster.error = refined_group == kNone ? 0 : kFold;
-    cluster.level = pack.groups.back().level;
-    cluster.mesh = mesh;
+    cluster.vertex_count = static_cast<uint16_t>(shape.positions.size());
+    cluster.triangle_count = static_cast<uint8_t>(shape.indices.size() / 3);
+    cluster.level = static_cast<uint8_t>(pack.groups.back().level);
     pack.clusters.push_back(cluster);
 
+    for (uint32_t word = 0; word < uvBaseWords(layout); ++word)
+        appendValue(page, uint32_t{0});
     for (const Float3 position : shape.positions)
-        appendVertex(page, position, pack.meshes.back().attributes);
+        appendVertex(page, position, cluster, layout);
     for (const uint8_t index : shape.indices)
         page.push_back(std::byte{index});
     padTo(page, 4);
@@ -159,7 +170,8 @@ void endMesh(PackModel& pack, uint32_t source_triangles)
     mesh.lod_count = mesh.levels.count;
     Box3 box;
     for (uint32_t i = mesh.clusters.first; i < pack.clusters.size(); ++i)
-        box.add(Box3{pack.clusters[i].box_min, pack.clusters[i].box_max});
+        box.add(boxOf(pack.clusters[i], kGridStep));
+    mesh.grid_step = box.empty() ? 0 : kGridStep;
     mesh.box_min = box.empty() ? Float3{} : box.min;
     mesh.box_max = box.empty() ? Float3{} : box.max;
 }
@@ -172,14 +184,14 @@ void addStrip(PackModel& pack)
     addCluster(pack, quad(2, 0, 4, 0), 2);
     for (const float x : {0.0f, 2.0f})
     {
-        beginGroup(pack, 0, {x + 1, 0, 0.5f}, 1.5f, kFold);
+        beginGroup(pack, 0, {x + 1, 0, 0.5f}, 1.5f, kFoldError);
         pack.page_parents.push_back(0);
         pack.pages.back().parents.count = 1;
         addCluster(pack, quad(x, 0, x + 1, kFold), kNone);
         addCluster(pack, quad(x + 1, kFold, x + 2, 0), kNone);
     }
     pack.levels.push_back({{2, 4}, 8, 0});
-    pack.levels.push_back({{0, 2}, 4, kFold});
+    pack.levels.push_back({{0, 2}, 4, kFoldError});
     endMesh(pack, 8);
 }
 

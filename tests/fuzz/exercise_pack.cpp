@@ -32,7 +32,7 @@ void usePage(const pack::Pack& pack, uint32_t page_index)
     for (uint32_t i = record.clusters.first; i < record.clusters.first + record.clusters.count; ++i)
     {
         const ClusterRecord& cluster = pack->clusters()[i];
-        const auto geometry = ClusterGeometry::at(*page, cluster, pack->meshes()[cluster.mesh].attributes);
+        const auto geometry = ClusterGeometry::at(*page, cluster, pack->meshes()[record.mesh]);
         HEARTH_ASSERT(geometry.has_value());
         for (uint32_t t = 0; t < geometry->triangleCount(); ++t)
             for (const uint32_t corner : geometry->triangle(t))

@@ -110,7 +110,7 @@ TEST_F(AuthoredFiles, areCookedIntoAPackThatIsValid)
     std::vector<bool> drawn(3, false);
     for (const ClusterRecord& cluster : pack->clusters())
     {
-        EXPECT_EQ(cluster.mesh, 0u);
+        EXPECT_EQ(pack->pages()[cluster.page].mesh, 0u);
         drawn[cluster.material] = true;
     }
     EXPECT_EQ(drawn, std::vector<bool>(3, true)) << "each level has its own material";

@@ -126,27 +126,33 @@ Answer both(Answer a, Answer b)
     return a == Answer::yes && b == Answer::yes ? Answer::yes : Answer::either;
 }
 
-Answer coneAway(const OracleCamera& camera, const DoubleAffine& transform, const ClusterRecord& cluster)
+Answer coneAway(const OracleCamera& camera, const DoubleAffine& transform, const ClusterRecord& cluster,
+                float grid_step)
 {
-    if (cluster.cone_cutoff >= 1)
+    if (cluster.cone_cutoff == kNoCone)
         return Answer::no;
     const double stretch2 = dot(transform.row[0], transform.row[0]) +
                             dot(transform.row[1], transform.row[1]) + dot(transform.row[2], transform.row[2]);
     if (std::abs(transform.determinant()) < 1e-30 * stretch2 * std::sqrt(stretch2))
         return Answer::either; // whether floats can invert such a matrix is not the point here
     const Double3 eye = transform.solve(camera.eye - transform.translation);
-    const Double3 apex(cluster.cone_apex);
+    const Box3 box = boxOf(cluster, grid_step);
+    const Double3 middle = (Double3(box.min) + Double3(box.max)) * 0.5;
+    const Double3 axis = normalize(Double3(coneAxis(cluster)));
+    const double back = coneBack(cluster, grid_step);
+    const Double3 apex = middle - axis * back;
     const Double3 to_apex = apex - eye;
-    const double along = dot(to_apex, Double3(cluster.cone_axis));
+    const double along = dot(to_apex, axis);
     const double distance = length(to_apex);
-    const double reach = double{cluster.sphere_radius} + length(apex - Double3(cluster.sphere_center));
+    const double reach = length(Double3(box.max) - middle) + back;
+    const double cutoff = double{coneCutoff(cluster)};
     // the eye in object space inherits the roundings of the inverse matrix
     const Double3 offset = abs(camera.eye - transform.translation);
     const double conditioning = std::pow(stretch2, 1.5) / std::abs(transform.determinant());
     const double eye_rounding = 1e-5 * conditioning * (length(offset) / std::sqrt(stretch2) + length(eye));
-    const double certain = (double{cluster.cone_cutoff} + kConeBand) * distance + kApexBand * reach +
-                           1e-5 * length(apex) + eye_rounding;
-    if (along < double{cluster.cone_cutoff} * distance)
+    const double certain =
+        (cutoff + kConeBand) * distance + kApexBand * reach + 1e-5 * length(apex) + eye_rounding;
+    if (along < cutoff * distance)
         return Answer::no;
     return along > certain ? Answer::yes : Answer::either;
 }
@@ -161,7 +167,7 @@ Answer meshOutside(const OracleCamera& camera, const PackView& view, const Insta
     Box3 box;
     const Range clusters = view.meshes()[instance.mesh].clusters;
     for (const ClusterRecord& cluster : recordsOf(view.clusters(), clusters))
-        box.add({cluster.box_min, cluster.box_max});
+        box.add(boxOf(cluster, view.meshes()[instance.mesh].grid_step));
     return boxOutside(camera, DoubleAffine(instance.world_from_object), box.min, box.max);
 }
 
@@ -178,6 +184,7 @@ Judgement judgeCluster(const PackView& view, const OracleView& oracle, DrawnClus
     const InstanceRecord& instance = view.instances()[which.instance];
     const ClusterRecord& cluster = view.clusters()[which.cluster];
     const DoubleAffine transform(instance.world_from_object);
+    const float grid_step = view.meshes()[instance.mesh].grid_step;
 
     Judgement judgement;
     judgement.in_cut = exceeds(camera, oracle, instance, view.groups()[cluster.group]);
@@ -188,13 +195,16 @@ Judgement judgeCluster(const PackView& view, const OracleView& oracle, DrawnClus
 
     judgement.outside_frustum = Answer::no;
     if (oracle.flags & shared::kCullFrustum)
-        judgement.outside_frustum = boxOutside(camera, transform, cluster.box_min, cluster.box_max);
+    {
+        const Box3 box = boxOf(cluster, grid_step);
+        judgement.outside_frustum = boxOutside(camera, transform, box.min, box.max);
+    }
     else if (oracle.flags & shared::kCullInstances)
         judgement.outside_frustum = meshOutside(camera, view, instance);
 
     const bool cone =
         (oracle.flags & shared::kCullCone) && !isDoubleSided(view.materials(), cluster.material);
-    judgement.faces_away = cone ? coneAway(camera, transform, cluster) : Answer::no;
+    judgement.faces_away = cone ? coneAway(camera, transform, cluster, grid_step) : Answer::no;
     return judgement;
 }
 

@@ -17,6 +17,8 @@ namespace
 
 using namespace formats;
 
+constexpr float kGridStep = 1.0f / 4096;
+
 class Random
 {
 public:
@@ -72,13 +74,16 @@ Tables randomTables(uint32_t seed)
 
         ClusterRecord cluster{};
         const Float3 half{random.in(0, 0.5f), random.in(0, 0.5f), random.in(0, 0.5f)};
-        cluster.sphere_center = fine.sphere_center;
-        cluster.sphere_radius = length(half);
-        cluster.box_min = fine.sphere_center - half;
-        cluster.box_max = fine.sphere_center + half;
-        cluster.cone_axis = random.direction();
-        cluster.cone_cutoff = random.chance(0.3f) ? 1 : random.in(0.02f, 0.9f);
-        cluster.cone_apex = cluster.sphere_center - cluster.cone_axis * random.in(0, 1);
+        cluster.extent_shift = random.chance(0.2f) ? 1 : 0;
+        for (int axis = 0; axis < 3; ++axis)
+        {
+            cluster.base[axis] = static_cast<int32_t>((fine.sphere_center[axis] - half[axis]) / kGridStep);
+            cluster.extent[axis] = static_cast<uint16_t>(2 * half[axis] / kGridStep);
+        }
+        cluster.cone_axis = static_cast<uint16_t>(NormalCode<8>::encode(random.direction()));
+        cluster.cone_cutoff =
+            random.chance(0.3f) ? kNoCone : static_cast<uint16_t>(random.in(0.02f, 0.9f) * 65536);
+        cluster.cone_back = static_cast<uint16_t>(random.in(0, 1) / kGridStep / kConeBackSteps);
         cluster.group = 2 * c;
         cluster.refined_group = random.chance(0.5f) ? 2 * c + 1 : kNone;
         cluster.material = random.chance(0.2f) ? 1 : random.chance(0.5f) ? 0 : kNone;
@@ -86,6 +91,7 @@ Tables randomTables(uint32_t seed)
     }
     MeshRecord mesh{};
     mesh.clusters = {0, 64};
+    mesh.grid_step = kGridStep;
     tables.meshes.push_back(mesh);
     for (int i = 0; i < 40; ++i)
     {

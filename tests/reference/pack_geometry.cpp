@@ -31,7 +31,7 @@ ClusterGeometry PackGeometry::cluster(uint32_t index) const
 {
     const ClusterRecord& record = view_->clusters()[index];
     const auto geometry =
-        ClusterGeometry::at(pages_[record.page], record, view_->meshes()[record.mesh].attributes);
+        ClusterGeometry::at(pages_[record.page], record, view_->meshes()[view_->pages()[record.page].mesh]);
     HEARTH_ASSERT(geometry.has_value());
     return *geometry;
 }

@@ -165,17 +165,17 @@ TEST(EmbreeScene, findsTheTrianglesOfTheFinestLevel)
     const HeldPack pack(test::smallPack());
     const PackGeometry geometry = PackGeometry::decode(pack.view).value();
     const EmbreeScene all(geometry, [](const SurfaceHit&) { return true; });
-    // The strip's first quad rises from y = 0 at x = 0 to y = 0.1 at x = 1.
+    // The strip's first quad rises from y = 0 at x = 0 to y = 3/32 at x = 1.
     const auto hit = all.nearest({{0.25, 2, 0.5}, {0, -1, 0}});
     ASSERT_TRUE(hit.has_value());
     EXPECT_EQ(hit->instance, 0u);
     EXPECT_EQ(pack.view.clusters()[hit->cluster].level, 0u);
-    EXPECT_NEAR(hit->distance, 2 - 0.025, 1e-6);
+    EXPECT_NEAR(hit->distance, 2 - 0.0234375, 1e-6);
     EXPECT_TRUE(hit->front);
     const SurfacePoint point = surfaceAt(geometry, *hit, 0);
     EXPECT_NEAR(point.position.x, 0.25, 1e-6);
-    EXPECT_NEAR(point.position.y, 0.025, 1e-6);
-    EXPECT_NEAR(point.geometric_normal.x, -0.1 / std::sqrt(1.01), 1e-6);
+    EXPECT_NEAR(point.position.y, 0.0234375, 1e-6);
+    EXPECT_NEAR(point.geometric_normal.x, -0.09375 / std::sqrt(1 + 0.09375 * 0.09375), 1e-6);
     EXPECT_NEAR(double{point.uv[0].x}, 0.25 / 4, 1e-6);
     EXPECT_NEAR(double{point.uv[0].y}, 0.5, 1e-6);
 

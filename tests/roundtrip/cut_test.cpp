@@ -44,7 +44,7 @@ double errorOf(const formats::PackView& pack, std::span<const uint32_t> cut)
 {
     double error = 0;
     for (const uint32_t cluster : cut)
-        error = std::max(error, double{pack.clusters()[cluster].error});
+        error = std::max(error, double{formats::errorOf(pack.clusters()[cluster], pack.groups())});
     return error;
 }
 
@@ -107,8 +107,8 @@ TEST(Cut, hasNoCrackFromAnyCamera)
             for (const reference::DrawnCluster& drawn : reference::cullExhaustively(sample.pack(), frame))
             {
                 cut.push_back(drawn.cluster);
-                least = std::min(least, sample.pack().clusters()[drawn.cluster].level);
-                greatest = std::max(greatest, sample.pack().clusters()[drawn.cluster].level);
+                least = std::min<uint32_t>(least, sample.pack().clusters()[drawn.cluster].level);
+                greatest = std::max<uint32_t>(greatest, sample.pack().clusters()[drawn.cluster].level);
             }
             mixed_levels += greatest > least;
             checkCut(sample, 0, cut, source, open_edges);

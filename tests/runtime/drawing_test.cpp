@@ -195,24 +195,16 @@ TEST_F(DrawingTest, geometryInEverySliceOfThePoolIsDrawn)
     for (uint32_t i = 0; i < kPages; ++i)
     {
         std::vector<std::byte> bytes = *page;
-        // a row of quads, one behind the other to the right
-        for (uint32_t vertex = 0; vertex < 4; ++vertex)
-        {
-            float x;
-            std::byte* at = bytes.data() + vertex * 4 * formats::vertexWords(model.meshes[0].attributes);
-            std::memcpy(&x, at, 4);
-            x += static_cast<float>(i);
-            std::memcpy(at, &x, 4);
-        }
         bytes.resize(formats::kPageMaxBytes);
         model.decoded_pages.push_back(std::move(bytes));
         model.pages.push_back(page_record);
         model.pages.back().clusters = {i, 1};
         model.clusters.push_back(cluster);
         model.clusters.back().page = i;
-        model.clusters.back().box_max.x += static_cast<float>(i);
-        model.clusters.back().sphere_center.x += static_cast<float>(i);
-        model.clusters.back().cone_cutoff = 1;
+        // a row of quads, one behind the other to the right
+        model.clusters.back().base[0] +=
+            static_cast<int32_t>(static_cast<float>(i) / model.meshes[0].grid_step);
+        model.clusters.back().cone_cutoff = formats::kNoCone;
     }
     model.meshes[0].clusters.count = kPages;
     model.meshes[0].pages.count = kPages;

@@ -117,9 +117,10 @@ TEST(SceneLayout, pagesLieApartAndInsideTheirSlices)
     for (size_t c = 0; c < pack.clusters().size(); ++c)
     {
         const ClusterRecord& cluster = pack.clusters()[c];
-        EXPECT_EQ(layout->draws[c].address, layout->page_addresses[cluster.page] + cluster.page_offset / 4);
+        EXPECT_EQ(layout->draws[c].address, layout->page_addresses[cluster.page] + cluster.page_word +
+                                                uvBaseWords(pack.meshes()[0].attributes));
         EXPECT_EQ(layout->draws[c].counts,
-                  cluster.vertex_count | cluster.triangle_count << 9 | cluster.level << 17);
+                  cluster.vertex_count | cluster.triangle_count << 9u | cluster.level << 17u);
     }
 }
 

@@ -63,7 +63,6 @@ void appendHierarchy(PackModel& pack, const clusters::Hierarchy& h)
                r.page += b.page;
                r.group += b.group;
                r.refined_group += r.refined_group == kNone ? 0 : b.group;
-               r.mesh += b.mesh;
            });
     append(pack.pages, h.pages,
            [&](PageRecord& r)

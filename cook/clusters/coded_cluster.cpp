@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/clusters/coded_cluster.h"
+
+#include "cook/clusters/bounds.h"
+#include "formats/assert.h"
+#include "formats/cluster_bounds.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+namespace hearth::clusters
+{
+
+namespace
+{
+
+using namespace formats;
+
+constexpr uint32_t kUvSets = 4;
+
+/// Least and greatest of values, in steps of a grid.
+struct StepRange
+{
+    double low = std::numeric_limits<double>::infinity();
+    double high = -std::numeric_limits<double>::infinity();
+
+    void add(double value)
+    {
+        low = std::min(low, value);
+        high = std::max(high, value);
+    }
+};
+
+/// The nearest point of the grid of steps 2^-n. Exact: a float times a power of two.
+int32_t uvPoint(float coordinate, uint32_t fraction_bits)
+{
+    return static_cast<int32_t>(std::nearbyint(std::ldexp(coordinate, static_cast<int>(fraction_bits))));
+}
+
+/// Whether the grid reaches all UVs of the set.
+bool fitsGrid(const std::vector<Float2>& uvs, uint32_t fraction_bits)
+{
+    const double most = std::ldexp(static_cast<double>(kGridMost), -static_cast<int>(fraction_bits));
+    return std::all_of(uvs.begin(), uvs.end(),
+                       [&](Float2 uv) { return std::abs(uv.x) < most && std::abs(uv.y) < most; });
+}
+
+/// Whether 8 bits hold every colour of the source to a sixteenth of their step, as they do those that came from 8 bits.
+bool needsFineColors(const PreparedMesh& mesh)
+{
+    const auto coarse = [](float part)
+    {
+        const float code = std::clamp(part, 0.0f, 1.0f) * 255;
+        return std::abs(code - std::round(code)) < 1.0f / 16;
+    };
+    const auto& colors = mesh.vertices.colors;
+    return std::any_of(mesh.corners.begin(), mesh.corners.end(),
+                       [&](uint32_t corner)
+                       {
+                           const Float4 c = colors[corner];
+                           return !(coarse(c.x) && coarse(c.y) && coarse(c.z) && coarse(c.w));
+                       });
+}
+
+/// Vertices of a cluster on their way to words, and the words of those that are different.
+class ClusterCoder
+{
+public:
+    ClusterCoder(const PreparedMesh& mesh, std::span<const uint32_t> vertices, uint32_t mesh_layout)
+        : source_(mesh.vertices), step_(mesh.grid.step), vertices_(vertices), layout_(mesh_layout)
+    {
+    }
+
+    /// True where the UVs of the cluster lie farther apart than 16 bits count.
+    bool spreadsUvs()
+    {
+        for (uint32_t set = 0; set < kUvSets; ++set)
+        {
+            const uint32_t bits = uvFractionBits(layout_, set);
+            if (bits == 0)
+                continue;
+            StepRange u, v;
+            for (const uint32_t vertex : vertices_)
+            {
+                u.add(uvPoint(source_.uvs[set][vertex].x, bits));
+                v.add(uvPoint(source_.uvs[set][vertex].y, bits));
+            }
+            uv_base_[set] = {static_cast<int32_t>(u.low), static_cast<int32_t>(v.low)};
+            spread_ = spread_ || std::max(u.high - u.low, v.high - v.low) > static_cast<double>(kNarrowMost);
+        }
+        return spread_;
+    }
+
+    CodedCluster code(const ClusterRecord& record, std::span<const uint8_t> indices)
+    {
+        layout_ = layoutOf(record, layout_);
+        CodedCluster cluster;
+        for (uint32_t set = 0; set < kUvSets; ++set)
+            if (uvFractionBits(layout_, set) != 0)
+                for (const int32_t base : uv_base_[set])
+                    cluster.words.push_back(static_cast<uint32_t>(base));
+        std::array<uint8_t, kClusterMaxVertices> new_of_old;
+        for (size_t i = 0; i < vertices_.size(); ++i)
+            new_of_old[i] = static_cast<uint8_t>(findOrAppend(record, vertices_[i], cluster.words));
+        cluster.indices.reserve(indices.size());
+        for (const uint8_t index : indices)
+            cluster.indices.push_back(new_of_old[index]);
+        return cluster;
+    }
+
+private:
+    /// Number of the vertex among those of `words`, where it is put unless an equal one is there.
+    size_t findOrAppend(const ClusterRecord& record, uint32_t vertex, std::vector<uint32_t>& words)
+    {
+        const size_t first = words.size();
+        appendVertex(record, vertex, words);
+        const size_t size = words.size() - first;
+        uint64_t hash = 0;
+        for (size_t i = first; i < words.size(); ++i)
+            hash = (hash ^ words[i]) * 0x9E3779B97F4A7C15u;
+        for (size_t slot = hash >> 55;; slot = (slot + 1) % slots_.size())
+        {
+            if (slots_[slot] == 0)
+            {
+                slots_[slot] = static_cast<uint16_t>(++count_);
+                return count_ - 1;
+            }
+            const auto other =
+                words.begin() + static_cast<ptrdiff_t>(uvBaseWords(layout_) + (slots_[slot] - 1) * size);
+            if (std::equal(other, other + static_cast<ptrdiff_t>(size),
+                           words.end() - static_cast<ptrdiff_t>(size)))
+            {
+                words.resize(first);
+                return slots_[slot] - size_t{1};
+            }
+        }
+    }
+
+    void appendVertex(const ClusterRecord& record, uint32_t vertex, std::vector<uint32_t>& words) const
+    {
+        uint32_t offset[3];
+        for (int axis = 0; axis < 3; ++axis)
+            offset[axis] = static_cast<uint32_t>(
+                static_cast<int32_t>(source_.positions[vertex][axis] / step_) - record.base[axis]);
+        const uint32_t normal =
+            (layout_ & kVertexNormal) ? encodeNormal(layout_, source_.normals[vertex]) : 0;
+        const bool shared_word = attributeWord(layout_, kVertexNormal) == 1;
+        if (layout_ & kVertexWide)
+            words.insert(words.end(), {offset[0], offset[1], offset[2]});
+        else
+            words.insert(words.end(),
+                         {offset[0] | offset[1] << 16, offset[2] | (shared_word ? normal << 16 : 0)});
+        if ((layout_ & kVertexNormal) && !shared_word)
+            words.push_back(normal);
+        if (layout_ & kVertexTangent)
+            words.push_back(encodeTangent(layout_, source_.tangents[vertex], decodeNormal(layout_, normal)));
+        for (uint32_t set = 0; set < kUvSets; ++set)
+            if (layout_ & kVertexUv0 << set)
+                appendUv(set, source_.uvs[set][vertex], words);
+        if (layout_ & kVertexColor)
+        {
+            const std::array<uint32_t, 2> color = encodeColor(layout_, source_.colors[vertex]);
+            words.insert(words.end(), color.begin(), color.begin() + ((layout_ & kVertexFineColor) ? 2 : 1));
+        }
+    }
+
+    void appendUv(uint32_t set, Float2 uv, std::vector<uint32_t>& words) const
+    {
+        const uint32_t bits = uvFractionBits(layout_, set);
+        if (bits == 0)
+        {
+            words.insert(words.end(), {std::bit_cast<uint32_t>(uv.x), std::bit_cast<uint32_t>(uv.y)});
+            return;
+        }
+        const auto u = static_cast<uint32_t>(uvPoint(uv.x, bits) - uv_base_[set][0]);
+        const auto v = static_cast<uint32_t>(uvPoint(uv.y, bits) - uv_base_[set][1]);
+        if (layout_ & kVertexWide)
+            words.insert(words.end(), {u, v});
+        else
+            words.push_back(u | v << 16);
+    }
+
+    const mesh::SourceMesh& source_;
+    double step_;
+    std::span<const uint32_t> vertices_;
+    uint32_t layout_;
+    std::array<std::array<int32_t, 2>, kUvSets> uv_base_{};
+    bool spread_ = false;
+    std::array<uint16_t, 512> slots_{}; ///< 1 + number of a vertex, found by its hash; 0: free
+    size_t count_ = 0;
+};
+
+} // namespace
+
+uint32_t chooseLayout(const PreparedMesh& mesh, const Config& config)
+{
+    uint32_t layout = mesh.attributes;
+    if ((layout & kVertexNormal) == 0)
+        layout &= ~uint32_t{kVertexTangent};
+    else if (config.normal_bits == 16)
+        layout |= kVertexFineNormal;
+    for (uint32_t set = 0; set < kUvSets; ++set)
+        if (layout & kVertexUv0 << set)
+            layout |= fitsGrid(mesh.vertices.uvs[set], config.uv_fraction_bits)
+                          ? config.uv_fraction_bits << (kVertexUvStepShift + 4 * set)
+                          : uint32_t{kVertexFloatUv0} << set;
+    if ((layout & kVertexColor) && needsFineColors(mesh))
+        layout |= kVertexFineColor;
+    return layout;
+}
+
+CodedCluster codeCluster(const PreparedMesh& mesh, const ClusterStore& store, const ClusterShape& shape,
+                         uint32_t layout, ClusterRecord& record)
+{
+    std::vector<Float3> points;
+    for (const uint32_t vertex : store.verticesOf(shape))
+        points.push_back(mesh.vertices.positions[vertex]);
+    std::vector<Float3> places;
+    for (const uint8_t index : store.indicesOf(shape))
+        places.push_back(points[index]);
+    ClusterCoder coder(mesh, store.verticesOf(shape), layout);
+    setBounds(record, mesh.grid.step, points, places, coder.spreadsUvs());
+    CodedCluster cluster = coder.code(record, store.indicesOf(shape));
+    const size_t vertex_words = cluster.words.size() - uvBaseWords(layout);
+    record.vertex_count = static_cast<uint16_t>(vertex_words / vertexWords(layoutOf(record, layout)));
+    record.triangle_count = static_cast<uint8_t>(shape.triangle_count);
+    return cluster;
+}
+
+} // namespace hearth::clusters
