@@ -1,0 +1,445 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/clusters/page_encode.h"
+
+#include "cook/clusters/entropy_blocks.h"
+#include "cook/clusters/triangle_walk.h"
+#include "formats/assert.h"
+#include "formats/cluster_bounds.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+
+namespace hearth::clusters
+{
+
+namespace
+{
+
+using namespace formats;
+
+/// The lanes of a vertex; those of grids count from the origin, modulo 2^16.
+using Lanes = std::array<uint16_t, kMaxLanes>;
+
+constexpr size_t kDictionarySize = 1 << 15;
+constexpr size_t kLanesOfBlock = 8; ///< in which the decoder works
+
+/// The vertices of the page's narrow clusters so far, by number from 1 on.
+class Slots
+{
+public:
+    void clear()
+    {
+        lanes_.assign(1, Lanes{});
+        table_.assign(kDictionarySize, 0);
+    }
+
+    size_t count() const { return lanes_.size(); }
+    const Lanes& operator[](size_t slot) const { return lanes_[slot]; }
+
+    /// Number of the first equal vertex, or 0.
+    size_t find(const Lanes& lanes) const
+    {
+        const size_t slot = table_[place(lanes)];
+        return slot;
+    }
+
+    void append(const Lanes& lanes)
+    {
+        uint16_t& slot = table_[place(lanes)];
+        if (slot == 0)
+            slot = static_cast<uint16_t>(lanes_.size());
+        lanes_.push_back(lanes);
+    }
+
+private:
+    /// Where in the table an equal vertex is, or would be.
+    size_t place(const Lanes& lanes) const
+    {
+        std::array<uint64_t, sizeof(Lanes) / 8> words;
+        std::memcpy(words.data(), lanes.data(), sizeof(Lanes));
+        uint64_t hash = 0;
+        for (const uint64_t word : words)
+            hash = (hash ^ word) * 0x9E3779B97F4A7C15u;
+        size_t at = hash >> (64 - std::bit_width(kDictionarySize - 1));
+        while (table_[at] != 0 && lanes_[table_[at]] != lanes)
+            at = (at + 1) % kDictionarySize;
+        return at;
+    }
+
+    std::vector<Lanes> lanes_;
+    std::vector<uint16_t> table_;
+};
+
+struct Edge
+{
+    size_t first, second, opposite; ///< slots
+};
+
+uint8_t mean(uint8_t a, uint8_t b)
+{
+    return static_cast<uint8_t>((static_cast<int8_t>(a) + static_cast<int8_t>(b)) >> 1);
+}
+
+/// Apply `combine` to the low and the high bytes of two halves.
+template <typename Combine>
+uint16_t bytewise(uint16_t a, uint16_t b, Combine combine)
+{
+    const uint32_t low = combine(static_cast<uint8_t>(a), static_cast<uint8_t>(b));
+    const uint32_t high = combine(static_cast<uint8_t>(a >> 8), static_cast<uint8_t>(b >> 8));
+    return static_cast<uint16_t>(low | high << 8);
+}
+
+uint16_t predict(LaneKind kind, uint16_t first, uint16_t second, uint16_t opposite)
+{
+    switch (kind)
+    {
+    case LaneKind::grid:
+        return static_cast<uint16_t>(first + second - opposite);
+    case LaneKind::mean:
+        return bytewise(first, second, mean);
+    case LaneKind::word:
+    case LaneKind::code:
+        break;
+    }
+    return second;
+}
+
+/// What is left of a lane, as a small number.
+uint16_t residual(LaneKind kind, uint16_t value, uint16_t prediction)
+{
+    if (kind == LaneKind::grid || kind == LaneKind::word)
+        return zigzag16(static_cast<uint16_t>(value - prediction));
+    return bytewise(value, prediction,
+                    [](uint8_t a, uint8_t b) { return zigzag8(static_cast<uint8_t>(a - b)); });
+}
+
+struct Streams
+{
+    PageHeader header;
+    std::vector<uint8_t> codes, restarts, reuses, references_low, references_high, uv_bases, wide, escapes;
+    std::array<std::vector<uint16_t>, kMaxLanes> residuals;
+    std::vector<size_t> cluster_ends; ///< new vertices up to the end of each cluster
+
+    void clear()
+    {
+        cluster_ends.clear();
+        header = {};
+        for (auto* stream : {&codes, &restarts, &reuses, &references_low, &references_high, &uv_bases, &wide, &escapes})
+            stream->clear();
+        for (auto& lane : residuals)
+            lane.clear();
+    }
+};
+
+void appendWords(std::vector<uint8_t>& to, std::span<const uint32_t> words)
+{
+    const auto* bytes = reinterpret_cast<const uint8_t*>(words.data());
+    to.insert(to.end(), bytes, bytes + words.size_bytes());
+}
+
+} // namespace
+
+class PageEncoder::State
+{
+public:
+    std::vector<std::byte> encode(std::span<const ClusterRecord> records, uint32_t mesh_layout,
+                                  std::span<CodedCluster> clusters)
+    {
+        lane_kinds_ = vertexLanes(mesh_layout);
+        slots_.clear();
+        streams_.clear();
+        last_reference_ = 0;
+        for (size_t c = 0; c < clusters.size(); ++c)
+            addCluster(records[c], layoutOf(records[c], mesh_layout), clusters[c]);
+        return compress();
+    }
+
+private:
+    /// A cluster on its way through.
+    struct Current
+    {
+        bool wide;
+        uint32_t words;          ///< of a vertex
+        uint32_t base_words;     ///< in front of the vertices
+        size_t first_slot;
+        std::vector<Lanes> lanes; ///< of its vertices, if it is narrow
+        std::vector<uint8_t> known;
+        std::array<int, kClusterMaxVertices> new_of_old;
+        std::vector<uint8_t> old_of_new;
+        uint32_t last_reuse;
+    };
+
+    void addCluster(const ClusterRecord& record, uint32_t layout, CodedCluster& cluster)
+    {
+        current_.wide = (layout & kVertexWide) != 0;
+        current_.words = vertexWords(layout);
+        current_.base_words = uvBaseWords(layout);
+        current_.first_slot = slots_.count();
+        current_.new_of_old.fill(-1);
+        current_.old_of_new.clear();
+        current_.last_reuse = 0;
+        current_.known.assign(record.vertex_count, 0);
+        if (!current_.wide)
+            readLanes(record, cluster);
+        const auto steps = walk_.walk(cluster.indices, current_.known);
+        std::vector<uint8_t> codes;
+        for (const WalkStep& step : steps)
+            codes.push_back(addTriangle(step));
+        for (size_t i = 0; i < codes.size(); i += 2)
+            streams_.codes.push_back(
+                static_cast<uint8_t>(codes[i] | (i + 1 < codes.size() ? codes[i + 1] << 4 : 0)));
+        streams_.cluster_ends.push_back(streams_.residuals[0].size());
+        reorder(steps, cluster);
+        const auto words = std::span<const uint32_t>(cluster.words);
+        appendWords(streams_.uv_bases, words.first(current_.base_words));
+        if (current_.wide)
+            appendWords(streams_.wide, words.subspan(current_.base_words));
+    }
+
+    void readLanes(const ClusterRecord& record, const CodedCluster& cluster)
+    {
+        Lanes base{};
+        for (size_t axis = 0; axis < 3; ++axis)
+            base[axis] = static_cast<uint16_t>(record.base[axis]);
+        size_t word = 0;
+        for (size_t lane = 3; lane < lane_kinds_.count; ++lane)
+            if (lane_kinds_.kinds[lane] == LaneKind::grid)
+                base[lane] = static_cast<uint16_t>(cluster.words[word++]);
+        current_.lanes.assign(record.vertex_count, Lanes{});
+        for (size_t v = 0; v < record.vertex_count; ++v)
+        {
+            Lanes& lanes = current_.lanes[v];
+            std::memcpy(lanes.data(), &cluster.words[current_.base_words + v * current_.words],
+                        size_t{current_.words} * 4);
+            for (size_t lane = 0; lane < lane_kinds_.count; ++lane)
+                lanes[lane] = static_cast<uint16_t>(lanes[lane] + base[lane]);
+            current_.known[v] = slots_.find(lanes) != 0 ? 1 : 0;
+        }
+    }
+
+    /// Returns the triangle's code.
+    uint8_t addTriangle(const WalkStep& step)
+    {
+        const auto slotOf = [&](uint8_t corner)
+        { return current_.first_slot + static_cast<size_t>(current_.new_of_old[corner]); };
+        const auto [a, b, c] = step.corners;
+        if (step.edge == kEdgeNone)
+        {
+            const size_t before = slots_.count() - 1;
+            uint32_t kinds = addCorner(a, {before, before, before});
+            kinds |= addCorner(b, {slotOf(a), slotOf(a), slotOf(a)}) << 2;
+            kinds |= addCorner(c, {slotOf(b), slotOf(b), slotOf(b)}) << 4;
+            streams_.restarts.push_back(static_cast<uint8_t>(kinds));
+            remember(step);
+            return kCodeRestart;
+        }
+        size_t opposite = opposite_right_;
+        if (step.edge == kEdgeLeft)
+            opposite = opposite_left_;
+        else if (step.edge == kEdgeKept)
+        {
+            opposite = kept_.back();
+            kept_.pop_back();
+        }
+        else if (step.edge == kEdgeRightKeepLeft)
+            kept_.push_back(opposite_left_);
+        const uint32_t kind = addCorner(c, {slotOf(a), slotOf(b), opposite});
+        remember(step);
+        return static_cast<uint8_t>(3 * step.edge + kind);
+    }
+
+    void remember(const WalkStep& step)
+    {
+        opposite_right_ = current_.first_slot + static_cast<size_t>(current_.new_of_old[step.corners[0]]);
+        opposite_left_ = current_.first_slot + static_cast<size_t>(current_.new_of_old[step.corners[1]]);
+    }
+
+    /// Returns formats::kCorner*.
+    uint32_t addCorner(uint8_t vertex, const Edge& edge)
+    {
+        int& number = current_.new_of_old[vertex];
+        if (number >= 0)
+        {
+            const auto reused = static_cast<uint32_t>(number);
+            streams_.reuses.push_back(zigzag8(static_cast<uint8_t>(reused - current_.last_reuse)));
+            current_.last_reuse = reused;
+            return kCornerReuse;
+        }
+        number = static_cast<int>(current_.old_of_new.size());
+        current_.old_of_new.push_back(vertex);
+        if (current_.wide)
+            return kCornerNew;
+        const Lanes& lanes = current_.lanes[vertex];
+        const size_t known = slots_.find(lanes);
+        slots_.append(lanes);
+        if (known != 0 && known < current_.first_slot)
+        {
+            addReference(known);
+            return kCornerReference;
+        }
+        for (size_t lane = 0; lane < lane_kinds_.count; ++lane)
+        {
+            const LaneKind kind = lane_kinds_.kinds[lane];
+            const uint16_t prediction = predict(kind, slots_[edge.first][lane], slots_[edge.second][lane],
+                                                slots_[edge.opposite][lane]);
+            streams_.residuals[lane].push_back(residual(kind, lanes[lane], prediction));
+        }
+        return kCornerNew;
+    }
+
+    void addReference(size_t slot)
+    {
+        const uint16_t code = zigzag16(static_cast<uint16_t>(slot - last_reference_));
+        streams_.references_low.push_back(static_cast<uint8_t>(code));
+        streams_.references_high.push_back(static_cast<uint8_t>(code >> 8));
+        last_reference_ = slot;
+    }
+
+    void reorder(std::span<const WalkStep> steps, CodedCluster& cluster) const
+    {
+        CodedCluster ordered;
+        const auto words = cluster.words.begin();
+        ordered.words.assign(words, words + current_.base_words);
+        for (const uint8_t old : current_.old_of_new)
+        {
+            const auto vertex = words + static_cast<ptrdiff_t>(current_.base_words + old * current_.words);
+            ordered.words.insert(ordered.words.end(), vertex, vertex + current_.words);
+        }
+        for (const WalkStep& step : steps)
+            for (const uint8_t corner : step.corners)
+                ordered.indices.push_back(static_cast<uint8_t>(current_.new_of_old[corner]));
+        HEARTH_ASSERT(ordered.words.size() == cluster.words.size());
+        cluster = std::move(ordered);
+    }
+
+    std::vector<std::byte> compress()
+    {
+        EntropyBlocks blocks;
+        PageHeader& header = streams_.header;
+        header.restarts = static_cast<uint16_t>(streams_.restarts.size());
+        header.reuses = static_cast<uint16_t>(streams_.reuses.size());
+        header.references = static_cast<uint16_t>(streams_.references_low.size());
+        header.new_vertices = static_cast<uint16_t>(streams_.residuals[0].size());
+        for (size_t lane = 0; lane < lane_kinds_.count; ++lane)
+            setPlanes(lane);
+        collectEscapes();
+        header.escapes = static_cast<uint32_t>(streams_.escapes.size() / 2);
+        const auto* bytes = reinterpret_cast<const uint8_t*>(&header);
+        blocks.add({bytes, sizeof(header)});
+        for (const auto* stream : {&streams_.codes, &streams_.restarts, &streams_.reuses,
+                                   &streams_.references_low, &streams_.references_high, &streams_.uv_bases,
+                                   &streams_.wide, &streams_.escapes})
+            blocks.add(*stream);
+        for (const uint32_t part : {0u, 1u})
+            for (size_t lane = 0; lane < lane_kinds_.count; ++lane)
+                if (header.planes[lane] >> part & 1)
+                    blocks.add(plane(lane, part));
+        return blocks.compress();
+    }
+
+    bool hasBytes(size_t lane) const
+    {
+        return lane_kinds_.kinds[lane] == LaneKind::mean || lane_kinds_.kinds[lane] == LaneKind::code;
+    }
+
+    bool escapes(size_t lane, uint32_t value) const
+    {
+        return !hasBytes(lane) && value >> streams_.header.low_bits[lane] >= kEscape;
+    }
+
+    void collectEscapes()
+    {
+        size_t first = 0;
+        for (const size_t end : streams_.cluster_ends)
+        {
+            for (size_t block = 0; block < lane_kinds_.count; block += kLanesOfBlock)
+                for (size_t v = first; v < end; ++v)
+                    for (size_t lane = block; lane < std::min<size_t>(block + kLanesOfBlock, lane_kinds_.count);
+                         ++lane)
+                        if (const uint16_t value = streams_.residuals[lane][v]; escapes(lane, value))
+                        {
+                            streams_.escapes.push_back(static_cast<uint8_t>(value));
+                            streams_.escapes.push_back(static_cast<uint8_t>(value >> 8));
+                        }
+            first = end;
+        }
+    }
+
+    /// Bits that cost least as the rest: what is above them has a code, they themselves take what they are.
+    uint32_t bestLowBits(std::span<const uint16_t> residuals) const
+    {
+        uint32_t best = 0;
+        double best_bits = 0;
+        for (uint32_t low_bits = 0; low_bits <= 8; ++low_bits)
+        {
+            Histogram mains{};
+            for (const uint32_t value : residuals)
+                ++mains[std::min<uint32_t>(value >> low_bits, kEscape)];
+            const double bits =
+                bitsOf(mains) + 16.0 * mains[kEscape] + low_bits * static_cast<double>(residuals.size());
+            if (low_bits == 0 || bits < best_bits)
+            {
+                best = low_bits;
+                best_bits = bits;
+            }
+        }
+        return best;
+    }
+
+    void setPlanes(size_t lane)
+    {
+        PageHeader& header = streams_.header;
+        if (!hasBytes(lane))
+            header.low_bits[lane] = static_cast<uint8_t>(bestLowBits(streams_.residuals[lane]));
+        for (const uint32_t part : {0u, 1u})
+        {
+            const auto bytes = plane(lane, part);
+            if (std::any_of(bytes.begin(), bytes.end(), [](uint8_t byte) { return byte != 0; }))
+                header.planes[lane] |= static_cast<uint8_t>(1u << part);
+        }
+    }
+
+    /// Main bytes (part 0) or the rest of a lane.
+    std::vector<uint8_t> plane(size_t lane, uint32_t part) const
+    {
+        const bool bytes = hasBytes(lane);
+        const uint32_t low_bits = streams_.header.low_bits[lane];
+        std::vector<uint8_t> plane;
+        plane.reserve(streams_.residuals[lane].size());
+        for (const uint32_t value : streams_.residuals[lane])
+        {
+            if (bytes)
+                plane.push_back(static_cast<uint8_t>(value >> (8 * part)));
+            else if (escapes(lane, value))
+                plane.push_back(part == 0 ? kEscape : uint8_t{0});
+            else
+                plane.push_back(static_cast<uint8_t>(part == 0 ? value >> low_bits
+                                                               : value & ((1u << low_bits) - 1)));
+        }
+        return plane;
+    }
+
+    VertexLanes lane_kinds_;
+    Slots slots_;
+    TriangleWalk walk_;
+    Streams streams_;
+    Current current_;
+    size_t last_reference_ = 0;
+    size_t opposite_right_ = 0;
+    size_t opposite_left_ = 0;
+    std::vector<size_t> kept_;
+};
+
+PageEncoder::PageEncoder() : state_(std::make_unique<State>()) {}
+PageEncoder::PageEncoder(PageEncoder&&) noexcept = default;
+PageEncoder& PageEncoder::operator=(PageEncoder&&) noexcept = default;
+PageEncoder::~PageEncoder() = default;
+
+std::vector<std::byte> PageEncoder::encode(std::span<const ClusterRecord> records, uint32_t mesh_layout,
+                                           std::span<CodedCluster> clusters)
+{
+    return state_->encode(records, mesh_layout, clusters);
+}
+
+} // namespace hearth::clusters
