@@ -15,10 +15,9 @@ namespace hearth::formats
 /// A vertex of a narrow cluster in halves of words, and how each is told from vertices before it.
 enum class LaneKind : uint8_t
 {
-    grid, ///< 16 bits, of the point that completes the edge and the third corner to a parallelogram
-    word, ///< 16 bits, of the edge's second vertex
-    mean, ///< two bytes, of the mean of the edge's vertices
-    code, ///< two bytes, of the edge's second vertex
+    grid,  ///< 16 bits, from the point that completes the edge and the third corner to a parallelogram
+    word,  ///< 16 bits, from the edge's second vertex
+    bytes, ///< two numbers of 8 bits, from the edge's second vertex
 };
 
 inline constexpr uint32_t kMaxLanes = 28;
@@ -39,16 +38,16 @@ constexpr VertexLanes vertexLanes(uint32_t layout)
             lanes.kinds[lanes.count++] = kind;
     };
     add(LaneKind::grid, 3);
-    add(LaneKind::mean, 1);
+    add(LaneKind::bytes, 1);
     if ((layout & kVertexNormal) && (layout & kVertexFineNormal))
         add(LaneKind::word, 2);
     if (layout & kVertexTangent)
-        add((layout & kVertexFineNormal) ? LaneKind::word : LaneKind::code, 2);
+        add((layout & kVertexFineNormal) ? LaneKind::word : LaneKind::bytes, 2);
     for (uint32_t set = 0; set < 4; ++set)
         if (layout & kVertexUv0 << set)
             (layout & kVertexFloatUv0 << set) ? add(LaneKind::word, 4) : add(LaneKind::grid, 2);
     if (layout & kVertexColor)
-        (layout & kVertexFineColor) ? add(LaneKind::word, 4) : add(LaneKind::mean, 2);
+        (layout & kVertexFineColor) ? add(LaneKind::word, 4) : add(LaneKind::bytes, 2);
     return lanes;
 }
 
@@ -61,7 +60,11 @@ constexpr VertexLanes vertexLanes(uint32_t layout)
 ///     wide         the vertices of wide clusters, as they are
 ///     escapes      two bytes for each 16-bit lane of a new vertex whose main byte is kEscape: its number. By cluster,
 ///                  in it by block of eight lanes, in it by vertex
-///     planes       of the new vertices: the main bytes of each lane that has any, then the rest of each
+///     planes       of the new vertices, a byte each: the main bytes of each lane that has any, then the second bytes of
+///                  each, then for each block of eight lanes the bytes of its low bits
+/// A lane of two bytes is its main byte and its second byte. One of 16 bits is a number (zigzag16): its bits above
+/// low_bits are the main byte, the others the second byte if they are 8, else a field of the low bits of the block: the
+/// fields of the block's lanes, one above the other, together at most 16 bits.
 struct PageHeader
 {
     uint16_t restarts;
@@ -77,7 +80,31 @@ struct PageHeader
 inline constexpr uint8_t kEscape = 255;
 
 inline constexpr uint8_t kPlaneMain = 1; ///< of PageHeader::planes: else all are 0
-inline constexpr uint8_t kPlaneRest = 2;
+inline constexpr uint8_t kPlaneSecond = 2;
+inline constexpr uint32_t kLanesOfBlock = 8;
+inline constexpr uint32_t kMaxFieldBits = 16;
+
+/// Where the low bits of a block's lanes lie.
+struct LowBitFields
+{
+    std::array<uint32_t, kLanesOfBlock> first{};
+    std::array<uint32_t, kLanesOfBlock> mask{}; ///< 0 where a lane has none there
+    uint32_t bits = 0;                          ///< of all; more than kMaxFieldBits is not legal
+    uint32_t planes() const { return (bits + 7) / 8; }
+};
+
+constexpr LowBitFields lowBitFields(const PageHeader& header, size_t block)
+{
+    LowBitFields fields;
+    for (size_t i = 0; i < kLanesOfBlock && block * kLanesOfBlock + i < kMaxLanes; ++i)
+        if (const uint32_t bits = header.low_bits[block * kLanesOfBlock + i]; bits < 8)
+        {
+            fields.first[i] = fields.bits;
+            fields.mask[i] = (1u << bits) - 1;
+            fields.bits += bits;
+        }
+    return fields;
+}
 
 // Triangles follow each other along shared edges. A triangle (a, b, c) has the edge (c, b) to its right and (a, c) to
 // its left; the next triangle starts with one of these two, or with one that was put aside, and adds a corner.
@@ -100,15 +127,6 @@ constexpr uint16_t unzigzag16(uint16_t value)
 {
     return static_cast<uint16_t>(value >> 1 ^ (value & 1 ? 0xFFFF : 0));
 }
-constexpr uint8_t zigzag8(uint8_t value)
-{
-    return static_cast<uint8_t>(value << 1 ^ (value & 0x80 ? 0xFF : 0));
-}
-constexpr uint8_t unzigzag8(uint8_t value)
-{
-    return static_cast<uint8_t>(value >> 1 ^ (value & 1 ? 0xFF : 0));
-}
-
 } // namespace hearth::formats
 
 HEARTH_RECORD(hearth::formats::PageHeader, 72,
@@ -118,7 +136,7 @@ HEARTH_RECORD(hearth::formats::PageHeader, 72,
               HEARTH_FIELD(hearth::formats::PageHeader, new_vertices, "bytes of each plane"),
               HEARTH_FIELD(hearth::formats::PageHeader, escapes, "numbers in stream escapes"),
               HEARTH_FIELD(hearth::formats::PageHeader, planes,
-                           "of each lane: 1 main bytes, 2 the rest; 0 where all are 0"),
+                           "of each lane: bit 0 main bytes, bit 1 second bytes; 0 where all are 0"),
               HEARTH_FIELD(hearth::formats::PageHeader, low_bits,
-                           "of each lane of 16 bits: how many the rest holds, 0 to 8"),
+                           "of each lane of 16 bits: how many are below the main byte, 0 to 8"),
               HEARTH_FIELD(hearth::formats::PageHeader, reserved, "0"));

@@ -56,7 +56,8 @@ struct Streams
     PageHeader header;
     Stream codes, restarts, reuses, uv_bases, wide, escapes;
     const uint8_t* references = nullptr; ///< low bytes; the high ones header.references behind them
-    std::array<const uint8_t*, 2 * kMostBlocks * kHalves> planes{};
+    std::array<const uint8_t*, 2 * kMostBlocks * kHalves> planes{}; ///< main and second byte of each lane
+    std::array<std::array<const uint8_t*, 2>, kMostBlocks> low_bits{};
 };
 
 /// What the page's clusters need; false where they do not fill it one behind the other.
@@ -87,19 +88,28 @@ struct PageShape
 /// Which lanes are coded how, as masks.
 struct LaneMasks
 {
-    std::array<Halves, kMostBlocks> grid{}, mean{}, bytes{}, rest_scale{};
-    size_t blocks = 0;
+    std::array<Halves, kMostBlocks> grid{}, bytes{}, main_scale{};
+    std::array<Halves, kMostBlocks> lowest_field{}, field{}, field_power{}; ///< the lowest has no power to be shifted by
 
-    LaneMasks(const VertexLanes& lanes, const PageHeader& header) : blocks((lanes.count + kHalves - 1) / kHalves)
+    LaneMasks(const VertexLanes& lanes, const PageHeader& header)
     {
+        for (size_t block = 0; block < kMostBlocks; ++block)
+        {
+            const LowBitFields fields = lowBitFields(header, block);
+            for (size_t lane = 0; lane < kHalves; ++lane)
+            {
+                const bool lowest = fields.first[lane] == 0;
+                (lowest ? lowest_field : field)[block][lane] = static_cast<uint16_t>(fields.mask[lane]);
+                field_power[block][lane] = static_cast<uint16_t>(1u << (16 - fields.first[lane]));
+            }
+        }
         for (size_t i = 0; i < lanes.count; ++i)
         {
             const LaneKind kind = lanes.kinds[i];
             const size_t block = i / kHalves, lane = i % kHalves;
             grid[block][lane] = kind == LaneKind::grid ? 0xFFFF : 0;
-            mean[block][lane] = kind == LaneKind::mean ? 0xFFFF : 0;
-            bytes[block][lane] = kind == LaneKind::mean || kind == LaneKind::code ? 0xFFFF : 0;
-            rest_scale[block][lane] = static_cast<uint16_t>(1u << header.low_bits[i]);
+            bytes[block][lane] = kind == LaneKind::bytes ? 0xFFFF : 0;
+            main_scale[block][lane] = static_cast<uint16_t>(1u << header.low_bits[i]);
         }
     }
 };
@@ -110,104 +120,125 @@ struct Connectivity
     std::array<uint8_t, kClusterCorners + 1> indices; ///< room for a word at the last triangle
     std::array<uint32_t, kClusterCorners + 1> edges;
     uint32_t vertex_count = 0;
-    uint32_t reference_count = 0;
+
+    uint32_t countReferences() const
+    {
+        uint32_t count = 0;
+        for (uint32_t v = 0; v < vertex_count; ++v)
+            count += (edges[v] & kReferenceBit) / kReferenceBit;
+        return count;
+    }
 };
+
+/// What a code means, as masks: the next code cannot be foretold, and a wrong guess costs more than a triangle.
+struct Way
+{
+    uint32_t left;  ///< all bits, or none
+    uint32_t kept;  ///< the same
+    uint32_t reuse; ///< the same
+    uint32_t keep;  ///< 1 or 0
+    uint32_t reference_bit;
+    uint32_t bad; ///< the highest bit
+};
+
+constexpr std::array<Way, 16> kWays = []
+{
+    std::array<Way, 16> ways{};
+    for (uint32_t code = 0; code < ways.size(); ++code)
+    {
+        const uint32_t start = code / 3;
+        const uint32_t corner = code % 3;
+        ways[code] = {start == kEdgeLeft ? ~0u : 0u,          start == kEdgeKept ? ~0u : 0u,
+                      corner == kCornerReuse ? ~0u : 0u,      start == kEdgeRightKeepLeft ? 1u : 0u,
+                      corner == kCornerReference ? kReferenceBit : 0u, start > kEdgeKept ? 1u << 31 : 0u};
+    }
+    return ways;
+}();
+
+constexpr uint32_t choose(uint32_t mask, uint32_t yes, uint32_t no)
+{
+    return no ^ ((no ^ yes) & mask);
+}
 
 class TriangleDecoder
 {
 public:
-    TriangleDecoder(Streams& streams, Connectivity& out)
-        : reuses_(streams.reuses.at), restarts_(streams.restarts.at), out_(out)
+    /// False where a corner names a vertex that is not there yet, or there is no such code. Moves the streams on.
+    bool decode(Streams& streams, uint32_t triangle_count, Connectivity& out)
     {
-    }
-
-    /// False where a corner names a vertex that is not there yet, or there is no such code.
-    bool decode(const uint8_t* codes, uint32_t triangle_count)
-    {
+        State s{streams.reuses.at, out.edges.data()};
+        const uint8_t* restarts = streams.restarts.at;
+        const uint8_t* const codes = streams.codes.at;
         for (uint32_t t = 0; t < triangle_count; ++t)
         {
             const uint32_t code = codes[t / 2] >> (t % 2 * 4) & 15u;
-            if (code >= 3 * kEdgeKept) [[unlikely]]
+            if (code == kCodeRestart) [[unlikely]]
             {
-                if (code == kCodeRestart)
-                {
-                    restart(t);
-                    continue;
-                }
-                bad_ |= code > 3 * kEdgeKept + kCornerReuse || kept_count_ == 0 ? 1u : 0u;
-                --kept_count_;
-                addTriangle(t, kept_[kept_count_], code - 3 * kEdgeKept);
+                restart(s, *restarts++);
+                write(out, t, s.triangle);
                 continue;
             }
-            const uint32_t right = edge(c_, b_, a_);
-            const uint32_t left = edge(a_, c_, b_);
-            kept_[kept_count_] = left;
-            const uint32_t way = kWays[code];
-            kept_count_ = static_cast<uint8_t>(kept_count_ + (way >> 3));
-            addTriangle(t, (way & 4u) ? left : right, way & 3u);
+            // a triangle is its corners in the bytes of a word
+            const Way& way = kWays[code];
+            const uint32_t right = __builtin_bswap32(s.triangle) >> 8;
+            const uint32_t left =
+                (s.triangle & 0xFFu) | (s.triangle >> 8 & 0xFF00u) | (s.triangle << 8 & 0xFF0000u);
+            kept_[s.kept_count % kept_.size()] = left;
+            s.kept_count += way.keep + way.kept;
+            const uint32_t kept = kept_[s.kept_count % kept_.size()];
+            const uint32_t from = choose(way.kept, kept, choose(way.left, left, right));
+            s.bad |= s.kept_count | way.bad;
+            s.triangle = (from & 0xFFFFu) | corner(s, way, from) << 16;
+            write(out, t, s.triangle);
         }
-        out_.vertex_count = next_;
-        out_.reference_count = references_;
-        return bad_ == 0;
-    }
-
-    void advance(Streams& streams) const
-    {
-        streams.reuses.at = reuses_;
-        streams.restarts.at = restarts_;
+        out.vertex_count = s.next;
+        streams.reuses.at = s.reuses;
+        streams.restarts.at = restarts;
+        streams.codes.at += (size_t{triangle_count} + 1) / 2;
+        return (s.bad & kBad) == 0;
     }
 
 private:
-    /// corner | 4 if left | 8 if the left edge is kept; of the codes below 3 * kEdgeKept
-    static constexpr std::array<uint8_t, 9> kWays{0, 1, 2, 8, 9, 10, 4, 5, 6};
+    static constexpr uint32_t kBad = 1u << 31;
 
-    uint32_t corner(uint32_t kind, uint32_t new_edge)
+    struct State
     {
-        const bool reuse = kind == kCornerReuse;
-        const uint32_t reused = (last_reuse_ + unzigzag8(*reuses_)) & 255u;
-        out_.edges[next_] = new_edge | (kind == kCornerReference ? kReferenceBit : 0u);
-        const uint32_t vertex = reuse ? reused : next_;
-        last_reuse_ = reuse ? reused : last_reuse_;
-        reuses_ += reuse ? 1 : 0;
-        next_ += reuse ? 0 : 1;
-        references_ += kind == kCornerReference ? 1 : 0;
-        bad_ |= vertex >= next_ ? 1u : 0u;
+        const uint8_t* reuses;
+        uint32_t* edges;
+        uint32_t triangle = 0;
+        uint32_t next = 0;
+        uint32_t last_reuse = 0;
+        uint32_t bad = 0;        ///< only its highest bit says something
+        uint32_t kept_count = 0; ///< below 0 once a code was bad
+    };
+
+    static uint32_t corner(State& s, const Way& way, uint32_t from)
+    {
+        const uint32_t reused = (s.last_reuse + *s.reuses) & 255u;
+        s.edges[s.next] = from | way.reference_bit;
+        const uint32_t vertex = choose(way.reuse, reused, s.next);
+        s.last_reuse = choose(way.reuse, reused, s.last_reuse);
+        s.reuses += way.reuse & 1u;
+        s.next += 1 - (way.reuse & 1u);
+        s.bad |= s.next - 1 - vertex;
         return vertex;
     }
 
-    void addTriangle(uint32_t t, uint32_t from, uint32_t kind)
+    static void restart(State& s, uint32_t kinds)
     {
-        a_ = from & 255u;
-        b_ = from >> 8 & 255u;
-        c_ = corner(kind, from);
-        write(t);
+        s.bad |= (kinds & kinds >> 1 & 0x15u) != 0 || kinds > 63 ? kBad : 0;
+        const auto next = [&](uint32_t shift, uint32_t from)
+        { return corner(s, kWays[(kinds >> shift & 3u) % 3], from); };
+        const uint32_t a = next(0, kLooseBit);
+        const uint32_t b = next(2, edge(a, a, a));
+        s.triangle = edge(a, b, next(4, edge(b, b, b)));
     }
 
-    void restart(uint32_t t)
+    static void write(Connectivity& out, uint32_t t, uint32_t triangle)
     {
-        const uint32_t kinds = *restarts_++;
-        bad_ |= (kinds & kinds >> 1 & 0x15u) != 0 || kinds > 63 ? 1u : 0u;
-        a_ = corner(kinds & 3u, kLooseBit);
-        b_ = corner(kinds >> 2 & 3u, edge(a_, a_, a_));
-        c_ = corner(kinds >> 4 & 3u, edge(b_, b_, b_));
-        write(t);
+        std::memcpy(out.indices.data() + size_t{t} * 3, &triangle, sizeof(triangle));
     }
 
-    void write(uint32_t t)
-    {
-        const uint32_t word = edge(a_, b_, c_);
-        std::memcpy(out_.indices.data() + size_t{t} * 3, &word, sizeof(word));
-    }
-
-    const uint8_t* reuses_;
-    const uint8_t* restarts_;
-    Connectivity& out_;
-    uint32_t a_ = 0, b_ = 0, c_ = 0;
-    uint32_t next_ = 0;
-    uint32_t references_ = 0;
-    uint32_t last_reuse_ = 0;
-    uint8_t kept_count_ = 0; ///< wraps around like kept_, once a code was bad
-    uint32_t bad_ = 0;
     std::array<uint32_t, 256> kept_{};
 };
 
@@ -230,9 +261,10 @@ public:
     bool decode(const Connectivity& connectivity, const Slot& base, std::byte* out, size_t vertex_bytes,
                 const std::byte* end)
     {
-        const uint32_t fresh = connectivity.vertex_count - connectivity.reference_count;
+        const uint32_t references = connectivity.countReferences();
+        const uint32_t fresh = connectivity.vertex_count - references;
         if (fresh > streams_.header.new_vertices - new_used_ ||
-            connectivity.reference_count > streams_.header.references - references_used_)
+            references > streams_.header.references - references_used_)
             return false;
         readResiduals(fresh);
         const Slot* const first = slots_ + slot_count_;
@@ -244,16 +276,15 @@ public:
             Slot& slot = slots_[slot_count_];
             if (how & kReferenceBit)
             {
-                const size_t from = nextReference();
+                const uint32_t from = nextReference();
                 good = good && from < slot_count_;
                 slot = slots_[good ? from : 0];
             }
-            else if (how & kLooseBit)
-                slot = sum(predict(slots_[slot_count_ - 1], slots_[slot_count_ - 1], slots_[slot_count_ - 1]),
+            else if (how & kLooseBit) [[unlikely]]
+                slot = sum(slots_[slot_count_ - 1], slots_[slot_count_ - 1], slots_[slot_count_ - 1],
                            *residual++);
             else
-                slot = sum(predict(first[how & 255u], first[how >> 8 & 255u], first[how >> 16 & 255u]),
-                           *residual++);
+                slot = sum(first[how & 255u], first[how >> 8 & 255u], first[how >> 16 & 255u], *residual++);
             ++slot_count_;
             Slot offset;
             for (size_t i = 0; i < Blocks; ++i)
@@ -274,7 +305,7 @@ public:
     }
 
 private:
-    size_t nextReference()
+    uint32_t nextReference()
     {
         const uint8_t* const low = streams_.references + references_used_;
         const uint32_t code = uint32_t{low[0]} | uint32_t{low[streams_.header.references]} << 8;
@@ -283,24 +314,18 @@ private:
         return last_reference_;
     }
 
-    Slot predict(const Slot& a, const Slot& b, const Slot& opposite) const
-    {
-        Slot prediction;
-        for (size_t i = 0; i < Blocks; ++i)
-        {
-            const Halves grid = a[i] + b[i] - opposite[i];
-            const Halves mean = meanOfBytes(a[i], b[i]);
-            prediction[i] = (grid & masks_.grid[i]) | (mean & masks_.mean[i]) |
-                            (b[i] & ~(masks_.grid[i] | masks_.mean[i]));
-        }
-        return prediction;
-    }
-
-    Slot sum(const Slot& prediction, const Slot& residual) const
+    /// What the edge (a, b) and the corner opposite to it tell, and what is left. In an order in which the vertex before,
+    /// which a or b mostly is, is waited for last.
+    Slot sum(const Slot& a, const Slot& b, const Slot& opposite, const Slot& residual) const
     {
         Slot sums;
         for (size_t i = 0; i < Blocks; ++i)
-            sums[i] = select(masks_.bytes[i], addBytes(prediction[i], residual[i]), prediction[i] + residual[i]);
+        {
+            const Halves halves = residual[i] & ~masks_.bytes[i];
+            const Halves bytes = residual[i] & masks_.bytes[i];
+            const Halves ahead = ((a[i] - opposite[i]) & masks_.grid[i]) + halves;
+            sums[i] = addBytes(b[i] + ahead, bytes);
+        }
         return sums;
     }
 
@@ -309,28 +334,40 @@ private:
     {
         for (size_t i = 0; i < Blocks; ++i)
         {
-            const uint8_t** const planes = streams_.planes.data() + i * 2 * kHalves;
+            const auto planes = std::span(streams_.planes).subspan(i * 2 * kHalves, 2 * kHalves);
+            auto& low_bits = streams_.low_bits[i];
             for (uint32_t v = 0; v < count; v += 16)
             {
                 std::array<Bytes, 16> rows;
                 for (size_t p = 0; p < 16; ++p)
                     rows[p] = planes[p] != nullptr ? loadBytes(planes[p] + v) : Bytes{};
                 transpose(rows);
+                const std::array<uint16_t, 16> fields = readFields(low_bits, v);
                 Halves escapes{};
                 for (size_t k = 0; k < 16; ++k)
                 {
                     const Halves code = asHalves(rows[k]);
-                    residuals_[v + k][i] = residual(code, i);
+                    residuals_[v + k][i] = residual(code, allHalves(fields[k]), i);
                     escapes |= escapesIn(code, i);
                 }
                 if (anyBit(escapes)) [[unlikely]]
                     readEscapes(rows, v, std::min(count - v, 16u), i);
             }
-            for (size_t p = 0; p < 16; ++p)
-                if (planes[p] != nullptr)
-                    planes[p] += count;
+            for (const uint8_t*& plane : planes)
+                plane += plane != nullptr ? count : 0;
+            for (const uint8_t*& plane : low_bits)
+                plane += plane != nullptr ? count : 0;
         }
         new_used_ += count;
+    }
+
+    /// The low bits of sixteen vertices.
+    static std::array<uint16_t, 16> readFields(const std::array<const uint8_t*, 2>& low_bits, uint32_t first)
+    {
+        const Bytes low = low_bits[0] != nullptr ? loadBytes(low_bits[0] + first) : Bytes{};
+        const Bytes high = low_bits[1] != nullptr ? loadBytes(low_bits[1] + first) : Bytes{};
+        const std::array<Bytes, 2> fields{interleaveLow(low, high), interleaveHigh(low, high)};
+        return std::bit_cast<std::array<uint16_t, 16>>(fields);
     }
 
     Halves escapesIn(Halves code, size_t block) const
@@ -356,10 +393,12 @@ private:
         }
     }
 
-    Halves residual(Halves code, size_t block) const
+    Halves residual(Halves code, Halves fields, size_t block) const
     {
-        const Halves whole = (code & 0xFF) * masks_.rest_scale[block] + (code >> 8);
-        return select(masks_.bytes[block], unzigzagBytes(code), (whole >> 1) ^ -(whole & 1));
+        const Halves low = (shiftRight(fields, masks_.field_power[block]) & masks_.field[block]) |
+                           (fields & masks_.lowest_field[block]);
+        const Halves whole = (code & 0xFF) * masks_.main_scale[block] + (code >> 8) + low;
+        return select(masks_.bytes[block], code, (whole >> 1) ^ -(whole & 1));
     }
 
     Streams& streams_;
@@ -368,7 +407,7 @@ private:
     size_t slot_count_ = 1;
     uint32_t new_used_ = 0;
     uint32_t references_used_ = 0;
-    size_t last_reference_ = 0;
+    uint32_t last_reference_ = 0;
     std::array<Slot, kClusterCorners + 16> residuals_;
 };
 
@@ -399,13 +438,20 @@ std::optional<Streams> splitContent(std::span<const std::byte> content, const Pa
     streams.escapes = take(size_t{header->escapes} * 2);
     for (size_t lane = 0; lane < kMaxLanes; ++lane)
     {
-        good = good && header->planes[lane] <= (kPlaneMain | kPlaneRest) && header->low_bits[lane] <= 8 &&
+        good = good && header->planes[lane] <= (kPlaneMain | kPlaneSecond) && header->low_bits[lane] <= 8 &&
                (lane < lanes.count || header->planes[lane] == 0);
     }
     for (const size_t part : {size_t{0}, size_t{1}})
         for (size_t lane = 0; lane < lanes.count; ++lane)
             if (header->planes[lane] >> part & 1)
                 streams.planes[2 * lane + part] = take(header->new_vertices).at;
+    for (size_t block = 0; block < kMostBlocks; ++block)
+    {
+        const LowBitFields fields = lowBitFields(*header, block);
+        good = good && fields.bits <= kMaxFieldBits;
+        for (size_t plane = 0; good && plane < fields.planes(); ++plane)
+            streams.low_bits[block][plane] = take(header->new_vertices).at;
+    }
     if (!good || reader.remaining() != 0)
         return std::nullopt;
     return streams;
@@ -436,17 +482,14 @@ bool decodeClusters(Streams& streams, std::span<const ClusterRecord> clusters, u
     const LaneMasks masks(lanes, streams.header);
     VertexDecoder<Blocks> vertices(streams, masks, slots);
     Connectivity connectivity;
+    TriangleDecoder triangles;
     std::byte* at = out.data();
     for (const ClusterRecord& cluster : clusters)
     {
         const uint32_t layout = layoutOf(cluster, mesh_layout);
-        TriangleDecoder triangles(streams, connectivity);
-        if (!triangles.decode(streams.codes.at, cluster.triangle_count) ||
-            connectivity.vertex_count != cluster.vertex_count)
-            return false;
-        triangles.advance(streams);
-        streams.codes.at += (size_t{cluster.triangle_count} + 1) / 2;
-        if (streams.reuses.overrun() || streams.restarts.overrun())
+        if (!triangles.decode(streams, cluster.triangle_count, connectivity) ||
+            connectivity.vertex_count != cluster.vertex_count || streams.reuses.overrun() ||
+            streams.restarts.overrun())
             return false;
 
         const size_t base_bytes = size_t{uvBaseWords(layout)} * 4;
@@ -459,7 +502,7 @@ bool decodeClusters(Streams& streams, std::span<const ClusterRecord> clusters, u
         at += base_bytes;
         if (layout & kVertexWide)
         {
-            if (connectivity.reference_count != 0)
+            if (connectivity.countReferences() != 0)
                 return false;
             std::memcpy(at, streams.wide.at, cluster.vertex_count * vertex_bytes);
             streams.wide.at += cluster.vertex_count * vertex_bytes;

@@ -8,6 +8,10 @@
 #include <cstdint>
 #include <cstring>
 
+#if defined(__SSE2__)
+#include <emmintrin.h>
+#endif
+
 namespace hearth::formats
 {
 
@@ -37,6 +41,24 @@ inline Halves select(Halves mask, Halves yes, Halves no)
     return (yes & mask) | (no & ~mask);
 }
 
+inline Halves allHalves(uint16_t half)
+{
+    return Halves{half, half, half, half, half, half, half, half};
+}
+
+/// Shifts each half to the right by a number of its own, 1 to 16, given as 2 to the power of 16 less that.
+inline Halves shiftRight(Halves halves, Halves power)
+{
+#if defined(__SSE2__)
+    // shifts by different numbers came later; the upper half of a product is as old as MMX
+    return std::bit_cast<Halves>(_mm_mulhi_epu16(std::bit_cast<__m128i>(halves), std::bit_cast<__m128i>(power)));
+#else
+    using Words = uint32_t __attribute__((vector_size(32)));
+    return __builtin_convertvector(
+        (__builtin_convertvector(halves, Words) * __builtin_convertvector(power, Words)) >> 16, Halves);
+#endif
+}
+
 inline bool anyBit(Halves halves)
 {
     const auto words = std::bit_cast<std::array<uint64_t, 2>>(halves);
@@ -46,24 +68,6 @@ inline bool anyBit(Halves halves)
 inline Halves addBytes(Halves a, Halves b)
 {
     return asHalves(asBytes(a) + asBytes(b));
-}
-
-/// Mean of the bytes as signed numbers, rounded down.
-inline Halves meanOfBytes(Halves a, Halves b)
-{
-    // shifted by 128 they are unsigned; a byte's half stays in it once the bit from above is gone
-    constexpr uint16_t kSigns = 0x8080, kLow7 = 0x7F7F;
-    const Halves x = a ^ kSigns, y = b ^ kSigns;
-    return addBytes(x & y, ((x ^ y) >> 1) & kLow7) ^ kSigns;
-}
-
-/// unzigzag8 of each byte.
-inline Halves unzigzagBytes(Halves code)
-{
-    constexpr uint16_t kLow7 = 0x7F7F, kLowest = 0x0101;
-    // 0 or 255 in each byte
-    const Halves sign = (code & kLowest) * uint16_t{255};
-    return ((code >> 1) & kLow7) ^ sign;
 }
 
 /// Bytes of a and b in turns: the first halves of both, or the second.

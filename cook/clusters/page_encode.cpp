@@ -22,7 +22,6 @@ using namespace formats;
 using Lanes = std::array<uint16_t, kMaxLanes>;
 
 constexpr size_t kDictionarySize = 1 << 15;
-constexpr size_t kLanesOfBlock = 8; ///< in which the decoder works
 
 /// The vertices of the page's narrow clusters so far, by number from 1 on.
 class Slots
@@ -76,42 +75,17 @@ struct Edge
     size_t first, second, opposite; ///< slots
 };
 
-uint8_t mean(uint8_t a, uint8_t b)
-{
-    return static_cast<uint8_t>((static_cast<int8_t>(a) + static_cast<int8_t>(b)) >> 1);
-}
-
-/// Apply `combine` to the low and the high bytes of two halves.
-template <typename Combine>
-uint16_t bytewise(uint16_t a, uint16_t b, Combine combine)
-{
-    const uint32_t low = combine(static_cast<uint8_t>(a), static_cast<uint8_t>(b));
-    const uint32_t high = combine(static_cast<uint8_t>(a >> 8), static_cast<uint8_t>(b >> 8));
-    return static_cast<uint16_t>(low | high << 8);
-}
-
 uint16_t predict(LaneKind kind, uint16_t first, uint16_t second, uint16_t opposite)
 {
-    switch (kind)
-    {
-    case LaneKind::grid:
-        return static_cast<uint16_t>(first + second - opposite);
-    case LaneKind::mean:
-        return bytewise(first, second, mean);
-    case LaneKind::word:
-    case LaneKind::code:
-        break;
-    }
-    return second;
+    return kind == LaneKind::grid ? static_cast<uint16_t>(first + second - opposite) : second;
 }
 
 /// What is left of a lane, as a small number.
 uint16_t residual(LaneKind kind, uint16_t value, uint16_t prediction)
 {
-    if (kind == LaneKind::grid || kind == LaneKind::word)
-        return zigzag16(static_cast<uint16_t>(value - prediction));
-    return bytewise(value, prediction,
-                    [](uint8_t a, uint8_t b) { return zigzag8(static_cast<uint8_t>(a - b)); });
+    if (kind == LaneKind::bytes)
+        return static_cast<uint16_t>(((value - prediction) & 0xFF) | ((value & 0xFF00) - (prediction & 0xFF00)));
+    return zigzag16(static_cast<uint16_t>(value - prediction));
 }
 
 struct Streams
@@ -262,7 +236,7 @@ private:
         if (number >= 0)
         {
             const auto reused = static_cast<uint32_t>(number);
-            streams_.reuses.push_back(zigzag8(static_cast<uint8_t>(reused - current_.last_reuse)));
+            streams_.reuses.push_back(static_cast<uint8_t>(reused - current_.last_reuse));
             current_.last_reuse = reused;
             return kCornerReuse;
         }
@@ -315,32 +289,38 @@ private:
 
     std::vector<std::byte> compress()
     {
-        EntropyBlocks blocks;
+        EntropyBlocks content;
         PageHeader& header = streams_.header;
         header.restarts = static_cast<uint16_t>(streams_.restarts.size());
         header.reuses = static_cast<uint16_t>(streams_.reuses.size());
         header.references = static_cast<uint16_t>(streams_.references_low.size());
         header.new_vertices = static_cast<uint16_t>(streams_.residuals[0].size());
+        const size_t blocks = (lane_kinds_.count + kLanesOfBlock - 1) / kLanesOfBlock;
+        for (size_t block = 0; block < blocks; ++block)
+            setLowBits(block);
         for (size_t lane = 0; lane < lane_kinds_.count; ++lane)
             setPlanes(lane);
         collectEscapes();
         header.escapes = static_cast<uint32_t>(streams_.escapes.size() / 2);
         const auto* bytes = reinterpret_cast<const uint8_t*>(&header);
-        blocks.add({bytes, sizeof(header)});
+        content.add({bytes, sizeof(header)});
         for (const auto* stream : {&streams_.codes, &streams_.restarts, &streams_.reuses,
                                    &streams_.references_low, &streams_.references_high, &streams_.uv_bases,
                                    &streams_.wide, &streams_.escapes})
-            blocks.add(*stream);
+            content.add(*stream);
         for (const uint32_t part : {0u, 1u})
             for (size_t lane = 0; lane < lane_kinds_.count; ++lane)
                 if (header.planes[lane] >> part & 1)
-                    blocks.add(plane(lane, part));
-        return blocks.compress();
+                    content.add(plane(lane, part));
+        for (size_t block = 0; block < blocks; ++block)
+            for (uint32_t part = 0; part < lowBitFields(header, block).planes(); ++part)
+                content.add(lowBitsPlane(block, part));
+        return content.compress();
     }
 
     bool hasBytes(size_t lane) const
     {
-        return lane_kinds_.kinds[lane] == LaneKind::mean || lane_kinds_.kinds[lane] == LaneKind::code;
+        return lane_kinds_.kinds[lane] == LaneKind::bytes;
     }
 
     bool escapes(size_t lane, uint32_t value) const
@@ -366,41 +346,71 @@ private:
         }
     }
 
-    /// Bits that cost least as the rest: what is above them has a code, they themselves take what they are.
-    uint32_t bestLowBits(std::span<const uint16_t> residuals) const
+    /// What a lane costs with each number of bits below the main byte: they take what they are, those above have a
+    /// code.
+    std::array<double, 9> costsOfLowBits(std::span<const uint16_t> residuals) const
     {
-        uint32_t best = 0;
-        double best_bits = 0;
+        std::array<double, 9> costs;
         for (uint32_t low_bits = 0; low_bits <= 8; ++low_bits)
         {
             Histogram mains{};
             for (const uint32_t value : residuals)
                 ++mains[std::min<uint32_t>(value >> low_bits, kEscape)];
-            const double bits =
+            costs[low_bits] =
                 bitsOf(mains) + 16.0 * mains[kEscape] + low_bits * static_cast<double>(residuals.size());
-            if (low_bits == 0 || bits < best_bits)
-            {
-                best = low_bits;
-                best_bits = bits;
-            }
         }
-        return best;
+        return costs;
+    }
+
+    /// Of the lanes of a block: the cheapest, as long as they fit into its low bits; then as many as fill their bytes,
+    /// for bytes that are full of low bits are stored as they are.
+    void setLowBits(size_t block)
+    {
+        std::array<std::array<double, 9>, kLanesOfBlock> costs{};
+        auto* const low_bits = streams_.header.low_bits + block * kLanesOfBlock;
+        uint32_t sum = 0;
+        std::vector<size_t> lanes;
+        for (size_t i = 0; i < kLanesOfBlock && block * kLanesOfBlock + i < lane_kinds_.count; ++i)
+        {
+            const size_t lane = block * kLanesOfBlock + i;
+            if (hasBytes(lane))
+                continue;
+            costs[i] = costsOfLowBits(streams_.residuals[lane]);
+            const auto best = std::min_element(costs[i].begin(), costs[i].end());
+            low_bits[i] = static_cast<uint8_t>(best - costs[i].begin());
+            if (low_bits[i] == 8)
+                continue;
+            lanes.push_back(i);
+            sum += low_bits[i];
+        }
+        const auto step = [&](int by)
+        {
+            const auto cost = [&](size_t i) { return costs[i][low_bits[i] + static_cast<size_t>(by)] - costs[i][low_bits[i]]; };
+            size_t best = kLanesOfBlock;
+            for (const size_t i : lanes)
+                if (low_bits[i] + by >= 0 && low_bits[i] + by < 8 &&
+                    (best == kLanesOfBlock || cost(i) < cost(best)))
+                    best = i;
+            low_bits[best] = static_cast<uint8_t>(low_bits[best] + by);
+            sum += static_cast<uint32_t>(by);
+        };
+        while (sum > kMaxFieldBits)
+            step(-1);
+        while (sum % 8 != 0 && lanes.size() * 7 > sum)
+            step(1);
     }
 
     void setPlanes(size_t lane)
     {
-        PageHeader& header = streams_.header;
-        if (!hasBytes(lane))
-            header.low_bits[lane] = static_cast<uint8_t>(bestLowBits(streams_.residuals[lane]));
         for (const uint32_t part : {0u, 1u})
         {
             const auto bytes = plane(lane, part);
             if (std::any_of(bytes.begin(), bytes.end(), [](uint8_t byte) { return byte != 0; }))
-                header.planes[lane] |= static_cast<uint8_t>(1u << part);
+                streams_.header.planes[lane] |= static_cast<uint8_t>(1u << part);
         }
     }
 
-    /// Main bytes (part 0) or the rest of a lane.
+    /// Main bytes (part 0) or second bytes of a lane.
     std::vector<uint8_t> plane(size_t lane, uint32_t part) const
     {
         const bool bytes = hasBytes(lane);
@@ -413,9 +423,29 @@ private:
                 plane.push_back(static_cast<uint8_t>(value >> (8 * part)));
             else if (escapes(lane, value))
                 plane.push_back(part == 0 ? kEscape : uint8_t{0});
+            else if (part == 0)
+                plane.push_back(static_cast<uint8_t>(value >> low_bits));
             else
-                plane.push_back(static_cast<uint8_t>(part == 0 ? value >> low_bits
-                                                               : value & ((1u << low_bits) - 1)));
+                plane.push_back(low_bits == 8 ? static_cast<uint8_t>(value) : uint8_t{0});
+        }
+        return plane;
+    }
+
+    /// The low bits of a block's lanes: their byte number `part`.
+    std::vector<uint8_t> lowBitsPlane(size_t block, uint32_t part) const
+    {
+        const LowBitFields fields = lowBitFields(streams_.header, block);
+        std::vector<uint8_t> plane(streams_.header.new_vertices);
+        for (size_t v = 0; v < plane.size(); ++v)
+        {
+            uint32_t bits = 0;
+            for (size_t i = 0; i < kLanesOfBlock; ++i)
+                if (fields.mask[i] != 0)
+                {
+                    const uint32_t value = streams_.residuals[block * kLanesOfBlock + i][v];
+                    bits |= (value & fields.mask[i]) << fields.first[i];
+                }
+            plane[v] = static_cast<uint8_t>(bits >> (8 * part));
         }
         return plane;
     }

@@ -103,6 +103,9 @@ void addKinds(const PageRecord& page, std::span<const ClusterRecord> clusters, u
         for (size_t lane = 0; lane < lanes.count; ++lane)
             if (header.planes[lane] >> part & 1)
                 take(kindOfLane(lane, lanes, mesh_layout), header.new_vertices);
+    for (size_t block = 0; block * kLanesOfBlock < lanes.count; ++block)
+        for (uint32_t plane = 0; plane < lowBitFields(header, block).planes(); ++plane)
+            take("low bits", header.new_vertices);
     double sum = 0;
     for (const auto& [kind, bytes] : kinds)
         sum += bytes;
