@@ -112,11 +112,12 @@ constexpr LowBitFields lowBitFields(const PageHeader& header, size_t block)
 inline constexpr uint32_t kEdgeRight = 0;
 inline constexpr uint32_t kEdgeRightKeepLeft = 1; ///< and put the left one aside
 inline constexpr uint32_t kEdgeLeft = 2;
-inline constexpr uint32_t kEdgeKept = 3;    ///< the last one put aside
+inline constexpr uint32_t kEdgeKept = 3; ///< the last one put aside
 inline constexpr uint32_t kCornerNew = 0;
 inline constexpr uint32_t kCornerReference = 1; ///< new here, but equal to a vertex of an earlier cluster
 inline constexpr uint32_t kCornerReuse = 2;
-inline constexpr uint32_t kCodeRestart = 15; ///< three corners: bits 0..1, 2..3 and 4..5 of a byte of restarts
+inline constexpr uint32_t kCodeRestart =
+    15; ///< three corners: bits 0..1, 2..3 and 4..5 of a byte of restarts
 
 /// Small numbers of either sign as small numbers.
 constexpr uint16_t zigzag16(uint16_t value)

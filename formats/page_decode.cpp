@@ -89,7 +89,8 @@ struct PageShape
 struct LaneMasks
 {
     std::array<Halves, kMostBlocks> grid{}, bytes{}, main_scale{};
-    std::array<Halves, kMostBlocks> lowest_field{}, field{}, field_power{}; ///< the lowest has no power to be shifted by
+    std::array<Halves, kMostBlocks> lowest_field{}, field{},
+        field_power{}; ///< the lowest has no power to be shifted by
 
     LaneMasks(const VertexLanes& lanes, const PageHeader& header)
     {
@@ -148,9 +149,12 @@ constexpr std::array<Way, 16> kWays = []
     {
         const uint32_t start = code / 3;
         const uint32_t corner = code % 3;
-        ways[code] = {start == kEdgeLeft ? ~0u : 0u,          start == kEdgeKept ? ~0u : 0u,
-                      corner == kCornerReuse ? ~0u : 0u,      start == kEdgeRightKeepLeft ? 1u : 0u,
-                      corner == kCornerReference ? kReferenceBit : 0u, start > kEdgeKept ? 1u << 31 : 0u};
+        ways[code] = {start == kEdgeLeft ? ~0u : 0u,
+                      start == kEdgeKept ? ~0u : 0u,
+                      corner == kCornerReuse ? ~0u : 0u,
+                      start == kEdgeRightKeepLeft ? 1u : 0u,
+                      corner == kCornerReference ? kReferenceBit : 0u,
+                      start > kEdgeKept ? 1u << 31 : 0u};
     }
     return ways;
 }();
@@ -507,8 +511,8 @@ bool decodeClusters(Streams& streams, std::span<const ClusterRecord> clusters, u
             std::memcpy(at, streams.wide.at, cluster.vertex_count * vertex_bytes);
             streams.wide.at += cluster.vertex_count * vertex_bytes;
         }
-        else if (!vertices.decode(connectivity, baseOf<Blocks>(cluster, lanes, uv_bases), at,
-                                  vertex_bytes, end))
+        else if (!vertices.decode(connectivity, baseOf<Blocks>(cluster, lanes, uv_bases), at, vertex_bytes,
+                                  end))
             return false;
         at += cluster.vertex_count * vertex_bytes;
         std::memcpy(at, connectivity.indices.data(), index_bytes);
@@ -516,8 +520,7 @@ bool decodeClusters(Streams& streams, std::span<const ClusterRecord> clusters, u
         at = end;
     }
     return vertices.allRead() && streams.escapes.at == streams.escapes.end &&
-           streams.reuses.at == streams.reuses.end &&
-           streams.restarts.at == streams.restarts.end;
+           streams.reuses.at == streams.reuses.end && streams.restarts.at == streams.restarts.end;
 }
 
 } // namespace
@@ -526,7 +529,7 @@ struct PageDecoder::Scratch
 {
     struct FreeContext
     {
-        void operator()(ZSTD_DCtx* context) const { ZSTD_freeDCtx(context); }
+        void operator()(ZSTD_DCtx* freed) const { ZSTD_freeDCtx(freed); }
     };
     std::unique_ptr<ZSTD_DCtx, FreeContext> context{ZSTD_createDCtx()};
     std::vector<std::byte> content;
@@ -563,7 +566,7 @@ bool PageDecoder::decode(std::span<const std::byte> stored, std::span<const Clus
     for (const ClusterRecord& cluster : clusters)
         if (!shape.add(cluster, mesh_layout, end))
             return false;
-    if (end != out.size() || out.size() > kPageMaxBytes)
+    if (out.empty() || end != out.size() || out.size() > kPageMaxBytes)
         return false;
     const std::span<const std::byte> content = scratch_->decompress(stored);
     const VertexLanes lanes = vertexLanes(mesh_layout);

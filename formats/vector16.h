@@ -51,7 +51,8 @@ inline Halves shiftRight(Halves halves, Halves power)
 {
 #if defined(__SSE2__)
     // shifts by different numbers came later; the upper half of a product is as old as MMX
-    return std::bit_cast<Halves>(_mm_mulhi_epu16(std::bit_cast<__m128i>(halves), std::bit_cast<__m128i>(power)));
+    return std::bit_cast<Halves>(
+        _mm_mulhi_epu16(std::bit_cast<__m128i>(halves), std::bit_cast<__m128i>(power)));
 #else
     using Words = uint32_t __attribute__((vector_size(32)));
     return __builtin_convertvector(

@@ -81,10 +81,9 @@ std::vector<std::byte> EntropyBlocks::compress() const
     {
         in.size = end;
         const bool last = end == content_.size();
-        const size_t rest =
-            ZSTD_compressStream2(context.get(), &out, &in, last ? ZSTD_e_end : ZSTD_e_flush);
+        const size_t rest = ZSTD_compressStream2(context.get(), &out, &in, last ? ZSTD_e_end : ZSTD_e_flush);
         HEARTH_ASSERT(rest == 0 && in.pos == end);
-        }
+    }
     packed.resize(out.pos);
     return packed;
 }

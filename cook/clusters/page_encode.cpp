@@ -84,7 +84,8 @@ uint16_t predict(LaneKind kind, uint16_t first, uint16_t second, uint16_t opposi
 uint16_t residual(LaneKind kind, uint16_t value, uint16_t prediction)
 {
     if (kind == LaneKind::bytes)
-        return static_cast<uint16_t>(((value - prediction) & 0xFF) | ((value & 0xFF00) - (prediction & 0xFF00)));
+        return static_cast<uint16_t>(((value - prediction) & 0xFF) |
+                                     ((value & 0xFF00) - (prediction & 0xFF00)));
     return zigzag16(static_cast<uint16_t>(value - prediction));
 }
 
@@ -99,7 +100,8 @@ struct Streams
     {
         cluster_ends.clear();
         header = {};
-        for (auto* stream : {&codes, &restarts, &reuses, &references_low, &references_high, &uv_bases, &wide, &escapes})
+        for (auto* stream :
+             {&codes, &restarts, &reuses, &references_low, &references_high, &uv_bases, &wide, &escapes})
             stream->clear();
         for (auto& lane : residuals)
             lane.clear();
@@ -134,8 +136,8 @@ private:
     struct Current
     {
         bool wide;
-        uint32_t words;          ///< of a vertex
-        uint32_t base_words;     ///< in front of the vertices
+        uint32_t words;      ///< of a vertex
+        uint32_t base_words; ///< in front of the vertices
         size_t first_slot;
         std::vector<Lanes> lanes; ///< of its vertices, if it is narrow
         std::vector<uint8_t> known;
@@ -304,9 +306,9 @@ private:
         header.escapes = static_cast<uint32_t>(streams_.escapes.size() / 2);
         const auto* bytes = reinterpret_cast<const uint8_t*>(&header);
         content.add({bytes, sizeof(header)});
-        for (const auto* stream : {&streams_.codes, &streams_.restarts, &streams_.reuses,
-                                   &streams_.references_low, &streams_.references_high, &streams_.uv_bases,
-                                   &streams_.wide, &streams_.escapes})
+        for (const auto* stream :
+             {&streams_.codes, &streams_.restarts, &streams_.reuses, &streams_.references_low,
+              &streams_.references_high, &streams_.uv_bases, &streams_.wide, &streams_.escapes})
             content.add(*stream);
         for (const uint32_t part : {0u, 1u})
             for (size_t lane = 0; lane < lane_kinds_.count; ++lane)
@@ -318,10 +320,7 @@ private:
         return content.compress();
     }
 
-    bool hasBytes(size_t lane) const
-    {
-        return lane_kinds_.kinds[lane] == LaneKind::bytes;
-    }
+    bool hasBytes(size_t lane) const { return lane_kinds_.kinds[lane] == LaneKind::bytes; }
 
     bool escapes(size_t lane, uint32_t value) const
     {
@@ -335,8 +334,8 @@ private:
         {
             for (size_t block = 0; block < lane_kinds_.count; block += kLanesOfBlock)
                 for (size_t v = first; v < end; ++v)
-                    for (size_t lane = block; lane < std::min<size_t>(block + kLanesOfBlock, lane_kinds_.count);
-                         ++lane)
+                    for (size_t lane = block;
+                         lane < std::min<size_t>(block + kLanesOfBlock, lane_kinds_.count); ++lane)
                         if (const uint16_t value = streams_.residuals[lane][v]; escapes(lane, value))
                         {
                             streams_.escapes.push_back(static_cast<uint8_t>(value));
@@ -385,7 +384,8 @@ private:
         }
         const auto step = [&](int by)
         {
-            const auto cost = [&](size_t i) { return costs[i][low_bits[i] + static_cast<size_t>(by)] - costs[i][low_bits[i]]; };
+            const auto cost = [&](size_t i)
+            { return costs[i][low_bits[i] + static_cast<size_t>(by)] - costs[i][low_bits[i]]; };
             size_t best = kLanesOfBlock;
             for (const size_t i : lanes)
                 if (low_bits[i] + by >= 0 && low_bits[i] + by < 8 &&

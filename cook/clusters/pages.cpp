@@ -97,8 +97,8 @@ void buildPages(const PreparedMesh& mesh, const ClusterStore& store, std::span<c
                           PageRecord& page = hierarchy.pages[i];
                           const auto [first, count] = page.clusters;
                           stored[i] = encoders.local().encode(
-                              std::span(hierarchy.clusters).subspan(first, count),
-                              hierarchy.mesh.attributes, std::span(coded).subspan(first, count));
+                              std::span(hierarchy.clusters).subspan(first, count), hierarchy.mesh.attributes,
+                              std::span(coded).subspan(first, count));
                           page.codec = static_cast<uint32_t>(PageCodec::clusters);
                           page.stored_size = static_cast<uint32_t>(stored[i].size());
                           page.hash = hashBytes(stored[i]);

@@ -238,7 +238,8 @@ int program(int argc, char** argv)
     std::vector<std::string> parts;
     size_t samples = 200000;
     app.add_option("PART", parts, "import parts; their file names name the meshes")->required();
-    app.add_option("--samples", samples, "points on each of two surfaces that are compared; 0: quality is not measured");
+    app.add_option("--samples", samples,
+                   "points on each of two surfaces that are compared; 0: quality is not measured");
     CLI11_PARSE(app, argc, argv);
     for (const std::string& path : parts)
     {

@@ -127,9 +127,11 @@ PageFigures pageFiguresOf(const clusters::Hierarchy& hierarchy)
     std::vector<std::byte> content(size_t{1} << 20);
     for (const PageRecord& page : hierarchy.pages)
     {
-        const size_t size = ZSTD_decompress(content.data(), content.size(), stored(page).data(), page.stored_size);
+        const size_t size =
+            ZSTD_decompress(content.data(), content.size(), stored(page).data(), page.stored_size);
         HEARTH_ASSERT(!ZSTD_isError(size));
-        addKinds(page, clusters(page), hierarchy.mesh.attributes, std::span(content).first(size), bytes_of_kind);
+        addKinds(page, clusters(page), hierarchy.mesh.attributes, std::span(content).first(size),
+                 bytes_of_kind);
         figures.decoded_bytes += page.size;
     }
     bytes_of_kind["padding"] = static_cast<double>(hierarchy.page_bytes.size());
@@ -148,13 +150,13 @@ PageFigures pageFiguresOf(const clusters::Hierarchy& hierarchy)
                                              std::span(out).first(page.size)));
         });
     ZSTD_DCtx* const context = ZSTD_createDCtx();
-    figures.zstd_seconds =
-        leastSeconds([&]
-                     {
-                         for (const PageRecord& page : hierarchy.pages)
-                             ZSTD_decompressDCtx(context, content.data(), content.size(), stored(page).data(),
-                                                 page.stored_size);
-                     });
+    figures.zstd_seconds = leastSeconds(
+        [&]
+        {
+            for (const PageRecord& page : hierarchy.pages)
+                ZSTD_decompressDCtx(context, content.data(), content.size(), stored(page).data(),
+                                    page.stored_size);
+        });
     ZSTD_freeDCtx(context);
     return figures;
 }
