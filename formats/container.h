@@ -23,7 +23,7 @@ constexpr uint32_t fourCC(const char (&text)[5])
 /// The control characters catch a transfer in text mode, as in PNG and KTX2.
 inline constexpr uint8_t kMagic[16] = {'H', 'R',  'T',  'H',  0xAB, 'P',  'A', 'C',
                                        'K', 0xBB, '\r', '\n', 0x1A, '\n', 0,   0};
-inline constexpr uint32_t kVersionMajor = 1;
+inline constexpr uint32_t kVersionMajor = 2;
 inline constexpr uint32_t kVersionMinor = 0;
 inline constexpr uint32_t kEndianMark = 0x01020304;
 inline constexpr uint64_t kChunkAlignment = 64;

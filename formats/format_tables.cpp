@@ -4,6 +4,7 @@
 #include "formats/chunk_list.h"
 #include "formats/issues.h"
 #include "formats/pack_check.h"
+#include "formats/page_codec.h"
 
 #include <array>
 #include <cstdio>
@@ -49,6 +50,7 @@ constexpr RecordTable kRecords[] = {
     HEARTH_RECORD_TABLE(ClusterRecord),
     HEARTH_RECORD_TABLE(PageRecord),
     HEARTH_RECORD_TABLE(AuthoredLodRecord),
+    HEARTH_RECORD_TABLE(PageHeader),
     HEARTH_RECORD_TABLE(SourceMeshHeader),
     HEARTH_RECORD_TABLE(SourceArray),
 };
@@ -112,11 +114,22 @@ std::vector<ValueTable> valueTables()
           value("linear", Interpolation::linear, "rotations: along the arc"),
           value("cubic spline", Interpolation::cubic_spline, "in-tangent, value, out-tangent for each key")}},
         {"VertexAttributes",
-         {value("normal", kVertexNormal, "1 word, octahedral"),
-          value("tangent", kVertexTangent, "1 word, octahedral with the flip of the bitangent"),
-          value("UV 0", kVertexUv0, "2 words, f32[2]"), value("UV 1", kVertexUv1, "2 words, f32[2]"),
-          value("UV 2", kVertexUv2, "2 words, f32[2]"), value("UV 3", kVertexUv3, "2 words, f32[2]"),
-          value("colour", kVertexColor, "2 words, 4 x unorm16, linear RGBA")}},
+         {value("normal", kVertexNormal, "octahedral, 2 x snorm8"),
+          value("tangent", kVertexTangent, "angle about the normal, 7 bits, and the flip of the bitangent"),
+          value("UV 0", kVertexUv0, "on a grid"), value("UV 1", kVertexUv1, "on a grid"),
+          value("UV 2", kVertexUv2, "on a grid"), value("UV 3", kVertexUv3, "on a grid"),
+          value("colour", kVertexColor, "4 x unorm8, linear RGBA"),
+          value("fine normal", kVertexFineNormal, "the normal is 2 x snorm16, the tangent's angle 15 bits"),
+          value("fine colour", kVertexFineColor, "the colour is 4 x unorm16"),
+          value("float UV 0", kVertexFloatUv0, "the set is 2 x f32"),
+          value("float UV 1", kVertexFloatUv1, "the set is 2 x f32"),
+          value("float UV 2", kVertexFloatUv2, "the set is 2 x f32"),
+          value("float UV 3", kVertexFloatUv3, "the set is 2 x f32"),
+          value("wide", kVertexWide, "of a cluster only: offsets on grids are u32")}},
+        {"PageCodec",
+         {value("none", PageCodec::none, "the decoded bytes"),
+          value("zstd", PageCodec::zstd, "one zstd frame of them"),
+          value("clusters", PageCodec::clusters, "one zstd frame of a PageHeader and streams")}},
         {"SourceSemantic",
          {value("position", SourceSemantic::position, "f32[3]"),
           value("normal", SourceSemantic::normal, "f32[3], unit"),

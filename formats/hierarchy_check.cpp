@@ -235,8 +235,8 @@ Status checkPage(const PackView& view, uint32_t mesh_index, uint32_t i)
     const PageRecord& page = view.pages()[i];
     if (page.mesh != mesh_index)
         return fail(view, Issue::meaning_reference, "page", i, "it names mesh " + std::to_string(page.mesh));
-    if (page.size > kPageMaxBytes || page.codec > static_cast<uint32_t>(Codec::zstd) ||
-        (page.codec == static_cast<uint32_t>(Codec::none) && page.stored_size != page.size))
+    if (page.size > kPageMaxBytes || page.codec > static_cast<uint32_t>(PageCodec::clusters) ||
+        (page.codec == static_cast<uint32_t>(PageCodec::none) && page.stored_size != page.size))
         return fail(view, Issue::meaning_value, "page", i,
                     std::to_string(page.size) + " bytes, stored " + std::to_string(page.stored_size) +
                         ", codec " + std::to_string(page.codec));

@@ -144,6 +144,14 @@ struct ClusterRecord
 /// cone_cutoff of a cone that never culls.
 inline constexpr uint16_t kNoCone = 65535;
 
+/// How a page is stored.
+enum class PageCodec : uint32_t
+{
+    none = 0,     ///< as it is decoded
+    zstd = 1,     ///< the same, as one zstd frame
+    clusters = 2, ///< one zstd frame of what tells triangles and vertices from those before (page_codec.h)
+};
+
 /// One page: clusters of whole groups, in the order of the cluster table. Each cluster's data starts at its
 /// page_word: uvBaseWords words, vertex_count vertices, then 3 u8 vertex indices for each triangle, padded to 4 bytes
 /// with zeros.
@@ -277,7 +285,7 @@ HEARTH_RECORD(hearth::formats::PageRecord, 56,
                            "from the start of chunk PAGE; a multiple of 64"),
               HEARTH_FIELD(hearth::formats::PageRecord, stored_size, "bytes in the file"),
               HEARTH_FIELD(hearth::formats::PageRecord, size, "bytes after decompression, at most 65536"),
-              HEARTH_FIELD(hearth::formats::PageRecord, codec, "0 none, 1 zstd"),
+              HEARTH_FIELD(hearth::formats::PageRecord, codec, "how the page is stored"),
               HEARTH_FIELD(hearth::formats::PageRecord, mesh, "mesh"),
               HEARTH_FIELD(hearth::formats::PageRecord, clusters, "chunk CLUS"),
               HEARTH_FIELD(hearth::formats::PageRecord, parents,

@@ -3,6 +3,7 @@
 
 #include "formats/byte_reader.h"
 #include "formats/chunk_list.h"
+#include "formats/page_decode.h"
 
 #include <algorithm>
 
@@ -122,6 +123,29 @@ Result<ChunkData> PackView::imageData(uint32_t image) const
     return reader_.read(kChunkImageData, image);
 }
 
+bool PackView::decodeStored(std::span<const std::byte> stored, const PageRecord& page,
+                            std::span<std::byte> out) const
+{
+    switch (static_cast<PageCodec>(page.codec))
+    {
+    case PageCodec::none:
+        if (stored.size() != out.size())
+            return false;
+        std::copy(stored.begin(), stored.end(), out.begin());
+        return true;
+    case PageCodec::zstd:
+        return decompress(stored, out);
+    case PageCodec::clusters:
+        break;
+    default:
+        return false;
+    }
+    if (page.mesh >= meshes().size() || !legalLayout(meshes()[page.mesh].attributes))
+        return false;
+    thread_local PageDecoder decoder;
+    return decoder.decode(stored, recordsOf(clusters(), page.clusters), meshes()[page.mesh].attributes, out);
+}
+
 Status PackView::decodePage(uint32_t page, std::span<std::byte> out) const
 {
     const std::string where = "page " + std::to_string(page);
@@ -136,11 +160,8 @@ Status PackView::decodePage(uint32_t page, std::span<std::byte> out) const
         return Error{Issue::meaning_range, name(), where, "the page lies outside chunk PAGE"};
     if (hashBytes(*stored) != record.hash)
         return Error{Issue::page_hash, name(), where, ""};
-    if (record.codec == static_cast<uint32_t>(Codec::zstd))
-        return decompress(*stored, out) ? success() : Error{Issue::chunk_codec, name(), where, ""};
-    if (record.codec != static_cast<uint32_t>(Codec::none) || stored->size() != out.size())
-        return Error{Issue::chunk_codec, name(), where, "sizes and codec do not agree"};
-    std::copy(stored->begin(), stored->end(), out.begin());
+    if (!decodeStored(*stored, record, out))
+        return Error{Issue::chunk_codec, name(), where, ""};
     return success();
 }
 

@@ -236,6 +236,8 @@ public:
 private:
     explicit PackView(ContainerReader reader) : reader_(std::move(reader)) {}
     Status readTables();
+    bool decodeStored(std::span<const std::byte> stored, const PageRecord& page,
+                      std::span<std::byte> out) const;
     static std::string_view textOf(const ChunkData& data)
     {
         return {reinterpret_cast<const char*>(data.bytes().data()), data.bytes().size()};

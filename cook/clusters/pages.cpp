@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/clusters/pages.h"
 
-#include "cook/clusters/coded_cluster.h"
+#include "cook/clusters/page_encode.h"
 #include "formats/assert.h"
 #include "formats/container_reader.h"
-
-#include <zstd.h>
 
 #include <algorithm>
 #include <cstring>
 
+#include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
 namespace hearth::clusters
@@ -19,10 +18,6 @@ namespace
 {
 
 using namespace formats;
-
-// Level 9 packs 45 MB a second: for two million triangles that alone would take a quarter of the time that all else
-// does. Level 1 packs 868.
-constexpr int kZstdLevel = 1;
 
 uint32_t bytesOf(const CodedCluster& cluster)
 {
@@ -57,34 +52,6 @@ void assignPages(std::span<const CodedCluster> coded, Hierarchy& hierarchy)
         }
         page.size = used;
     }
-}
-
-std::vector<std::byte> pageContent(std::span<const CodedCluster> coded, const Hierarchy& hierarchy,
-                                   const PageRecord& page)
-{
-    std::vector<std::byte> bytes(page.size);
-    for (uint32_t c = page.clusters.first; c < page.clusters.first + page.clusters.count; ++c)
-    {
-        std::byte* at = bytes.data() + size_t{hierarchy.clusters[c].page_word} * 4;
-        std::memcpy(at, coded[c].words.data(), coded[c].words.size() * 4);
-        std::memcpy(at + coded[c].words.size() * 4, coded[c].indices.data(), coded[c].indices.size());
-    }
-    return bytes;
-}
-
-/// Compress the page if that gains more than 5 %; returns the bytes to store.
-std::vector<std::byte> compressPage(std::vector<std::byte> content, PageRecord& page)
-{
-    std::vector<std::byte> packed(ZSTD_compressBound(content.size()));
-    const size_t size =
-        ZSTD_compress(packed.data(), packed.size(), content.data(), content.size(), kZstdLevel);
-    HEARTH_ASSERT(!ZSTD_isError(size));
-    const bool gains = size * 20 < content.size() * 19;
-    page.codec = static_cast<uint32_t>(gains ? Codec::zstd : Codec::none);
-    if (!gains)
-        return content;
-    packed.resize(size);
-    return packed;
 }
 
 /// The pages that must be there before each page: those of the clusters that were made from its groups.
@@ -123,11 +90,16 @@ void buildPages(const PreparedMesh& mesh, const ClusterStore& store, std::span<c
                       });
     assignPages(coded, hierarchy);
     std::vector<std::vector<std::byte>> stored(hierarchy.pages.size());
+    tbb::enumerable_thread_specific<PageEncoder> encoders;
     tbb::parallel_for(size_t{0}, stored.size(),
                       [&](size_t i)
                       {
                           PageRecord& page = hierarchy.pages[i];
-                          stored[i] = compressPage(pageContent(coded, hierarchy, page), page);
+                          const auto [first, count] = page.clusters;
+                          stored[i] = encoders.local().encode(
+                              std::span(hierarchy.clusters).subspan(first, count), hierarchy.mesh.attributes,
+                              std::span(coded).subspan(first, count));
+                          page.codec = static_cast<uint32_t>(PageCodec::clusters);
                           page.stored_size = static_cast<uint32_t>(stored[i].size());
                           page.hash = hashBytes(stored[i]);
                       });

@@ -5,6 +5,7 @@
 #include "cook/mesh/triangles.h"
 #include "cook/mesh/weld.h"
 #include "formats/pack_view.h"
+#include "formats/page_decode.h"
 
 #include <algorithm>
 #include <array>
@@ -391,21 +392,18 @@ Status checkFinestLevel(const mesh::SourceMesh& source, std::span<const mesh::So
 Result<DecodedHierarchy> decodeHierarchy(const Hierarchy& h)
 {
     DecodedHierarchy decoded;
+    PageDecoder decoder;
     for (size_t p = 0; p < h.pages.size(); ++p)
     {
         const PageRecord& page = h.pages[p];
         const auto stored = std::span(h.page_bytes).subspan(page.offset, page.stored_size);
         if (hashBytes(stored) != page.hash)
             return wrong(Issue::page_hash, "page", p, "");
-        std::vector<std::byte> bytes(stored.begin(), stored.end());
-        if (page.codec == static_cast<uint32_t>(Codec::zstd))
-        {
-            bytes.resize(page.size);
-            if (!decompress(stored, bytes))
-                return wrong(Issue::chunk_codec, "page", p, "");
-        }
-        if (bytes.size() != page.size)
-            return wrong(Issue::meaning_value, "page", p, "has another size");
+        std::vector<std::byte> bytes(page.size);
+        if (page.codec != static_cast<uint32_t>(PageCodec::clusters) ||
+            !decoder.decode(stored, recordsOf<ClusterRecord>(h.clusters, page.clusters), h.mesh.attributes,
+                            bytes))
+            return wrong(Issue::chunk_codec, "page", p, "");
         decoded.pages.push_back(std::move(bytes));
     }
     std::vector<Float3> places;

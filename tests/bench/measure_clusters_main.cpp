@@ -4,6 +4,7 @@
 #include "formats/pack_view.h"
 #include "formats/program.h"
 #include "tests/bench/cut_quality.h"
+#include "tests/bench/page_figures.h"
 #include "tests/bench/peer_figures.h"
 
 #include <meshoptimizer.h>
@@ -177,9 +178,7 @@ void printShape(const clusters::Hierarchy& hierarchy)
     for (const auto& level : hierarchy.levels)
         all += level.triangle_count;
     const auto source = static_cast<double>(hierarchy.levels.front().triangle_count);
-    const auto records = static_cast<double>(hierarchy.clusters.size() * sizeof(formats::ClusterRecord) +
-                                             hierarchy.groups.size() * sizeof(formats::GroupRecord) +
-                                             hierarchy.pages.size() * sizeof(formats::PageRecord));
+    const double records = bench::storedTableBytes(hierarchy);
     const auto& root = hierarchy.levels.back();
     std::printf("  %zu levels, fill %.1f %%, triangles over all levels / source %.3f, coarsest level %u "
                 "clusters of %u "
@@ -187,9 +186,14 @@ void printShape(const clusters::Hierarchy& hierarchy)
                 hierarchy.levels.size(), 100 * all / (128.0 * static_cast<double>(hierarchy.clusters.size())),
                 all / source, root.clusters.count, root.triangle_count,
                 static_cast<unsigned long long>(hierarchy.counts.stuck_groups));
-    std::printf("  %.2f bytes a source triangle: pages %.2f, records %.2f\n",
-                (static_cast<double>(hierarchy.page_bytes.size()) + records) / source,
-                static_cast<double>(hierarchy.page_bytes.size()) / source, records / source);
+    const bench::PageFigures pages = bench::pageFiguresOf(hierarchy);
+    std::printf("  %.2f bytes a source triangle: tables %.2f",
+                (static_cast<double>(hierarchy.page_bytes.size()) + records) / source, records / source);
+    for (const auto& kind : pages.kinds)
+        std::printf(", %s %.2f", kind.name.c_str(), kind.bytes / source);
+    std::printf("; decoded %.1f\n", pages.decoded_bytes / source);
+    std::printf("  pages decode at %.2f GB/s of what comes out; the zstd in it alone at %.2f\n",
+                pages.decoded_bytes / pages.seconds * 1e-9, pages.decoded_bytes / pages.zstd_seconds * 1e-9);
 }
 
 void measureMesh(const std::string& name, const mesh::SourceMesh& mesh, size_t samples)
@@ -221,6 +225,8 @@ void measureMesh(const std::string& name, const mesh::SourceMesh& mesh, size_t s
     if (hierarchy.clusters.empty())
         return;
     printShape(hierarchy);
+    if (samples == 0)
+        return;
     const double diagonal = double{length(hierarchy.mesh.box_max - hierarchy.mesh.box_min)};
     printQuality(peer, measureCuts(hierarchy, samples), diagonal, hierarchy.levels.front().triangle_count);
     std::fflush(stdout);
@@ -232,7 +238,8 @@ int program(int argc, char** argv)
     std::vector<std::string> parts;
     size_t samples = 200000;
     app.add_option("PART", parts, "import parts; their file names name the meshes")->required();
-    app.add_option("--samples", samples, "points on each of two surfaces that are compared");
+    app.add_option("--samples", samples,
+                   "points on each of two surfaces that are compared; 0: quality is not measured");
     CLI11_PARSE(app, argc, argv);
     for (const std::string& path : parts)
     {

@@ -89,7 +89,8 @@ TEST_F(Validate, findsTrianglesThatAreMissing)
                       --h.clusters.back().triangle_count;
                       --h.levels[0].triangle_count;
                   }),
-              Issue::meaning_geometry);
+              Issue::chunk_codec)
+        << "the page tells";
     EXPECT_EQ(after([&](Hierarchy& h) { h.clusters.back().material = 7; }), Issue::meaning_geometry);
 }
 

@@ -1,0 +1,61 @@
+// Puts the triangles of a cluster in an order in which most share an edge with the one before.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "formats/page_codec.h"
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace hearth::clusters
+{
+
+/// Where a triangle starts: formats::kEdge*, or from nothing.
+inline constexpr uint8_t kEdgeNone = 4;
+
+struct WalkStep
+{
+    uint8_t edge = kEdgeNone;
+    std::array<uint8_t, 3> corners; ///< the edge, then the corner that is added
+};
+
+/// Walks the triangles of one cluster after the other.
+class TriangleWalk
+{
+public:
+    TriangleWalk() : across_(size_t{1} << 16, 0) {}
+
+    /// Each triangle once, turned so that it begins with its edge.
+    /// known  of each vertex: not 0 where an earlier cluster has it; the walk begins there
+    std::span<const WalkStep> walk(std::span<const uint8_t> indices, std::span<const uint8_t> known);
+
+private:
+    void linkEdges();
+    void follow(uint32_t triangle);
+    uint32_t bestStart(std::span<const uint8_t> known) const;
+    bool free(uint32_t triangle) const { return triangle != 0 && visited_[triangle - 1] == 0; }
+    uint32_t across(uint8_t from, uint8_t to) const { return across_[size_t{from} << 8 | to]; }
+    std::array<uint8_t, 3> cornersOf(uint32_t triangle) const
+    {
+        return {indices_[triangle * 3], indices_[triangle * 3 + 1], indices_[triangle * 3 + 2]};
+    }
+    std::array<uint8_t, 3> turned(uint32_t triangle, uint8_t first, uint8_t second) const;
+    void visit(uint32_t triangle, const WalkStep& step);
+
+    struct Kept
+    {
+        uint8_t from, to;
+        uint32_t step; ///< that could keep it
+    };
+
+    std::span<const uint8_t> indices_;
+    std::vector<uint8_t> across_; ///< 1 + triangle that has the edge from << 8 | to
+    std::array<uint8_t, formats::kClusterMaxTriangles> visited_{};
+    std::array<uint8_t, formats::kClusterMaxVertices> placed_{};
+    std::vector<Kept> kept_;
+    std::vector<WalkStep> steps_;
+};
+
+} // namespace hearth::clusters

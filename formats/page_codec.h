@@ -1,0 +1,143 @@
+// The stored form of a geometry page (PageCodec::clusters): what writer and reader of it agree on. See FORMAT.md,
+// "Pages".
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "formats/fields.h"
+#include "formats/vertex_codec.h"
+
+#include <array>
+#include <cstdint>
+
+namespace hearth::formats
+{
+
+/// A vertex of a narrow cluster in halves of words, and how each is told from vertices before it.
+enum class LaneKind : uint8_t
+{
+    grid,  ///< 16 bits, from the point that completes the edge and the third corner to a parallelogram
+    word,  ///< 16 bits, from the edge's second vertex
+    bytes, ///< two numbers of 8 bits, from the edge's second vertex
+};
+
+inline constexpr uint32_t kMaxLanes = 28;
+
+struct VertexLanes
+{
+    std::array<LaneKind, kMaxLanes> kinds{};
+    uint32_t count = 0;
+};
+
+/// The lanes of a narrow cluster's vertices, in the order in which they lie in memory.
+constexpr VertexLanes vertexLanes(uint32_t layout)
+{
+    VertexLanes lanes;
+    const auto add = [&](LaneKind kind, uint32_t count)
+    {
+        for (uint32_t i = 0; i < count; ++i)
+            lanes.kinds[lanes.count++] = kind;
+    };
+    add(LaneKind::grid, 3);
+    add(LaneKind::bytes, 1);
+    if ((layout & kVertexNormal) && (layout & kVertexFineNormal))
+        add(LaneKind::word, 2);
+    if (layout & kVertexTangent)
+        add((layout & kVertexFineNormal) ? LaneKind::word : LaneKind::bytes, 2);
+    for (uint32_t set = 0; set < 4; ++set)
+        if (layout & kVertexUv0 << set)
+            (layout & kVertexFloatUv0 << set) ? add(LaneKind::word, 4) : add(LaneKind::grid, 2);
+    if (layout & kVertexColor)
+        (layout & kVertexFineColor) ? add(LaneKind::word, 4) : add(LaneKind::bytes, 2);
+    return lanes;
+}
+
+/// At the start of the content of a page's frame; behind it the streams, in this order:
+///     codes        for each cluster, 4 bits a triangle, the first in the low ones, padded to a byte
+///     restarts     a byte for each triangle with code kCodeRestart
+///     reuses       a byte for each corner that is a vertex of the same cluster
+///     references   two planes (low bytes, high bytes) of numbers: vertices that are one of an earlier cluster
+///     uv_bases     the words in front of the clusters' vertices
+///     wide         the vertices of wide clusters, as they are
+///     escapes      two bytes for each 16-bit lane of a new vertex whose main byte is kEscape: its number. By cluster,
+///                  in it by block of eight lanes, in it by vertex
+///     planes       of the new vertices, a byte each: the main bytes of each lane that has any, then the second bytes of
+///                  each, then for each block of eight lanes the bytes of its low bits
+/// A lane of two bytes is its main byte and its second byte. One of 16 bits is a number (zigzag16): its bits above
+/// low_bits are the main byte, the others the second byte if they are 8, else a field of the low bits of the block: the
+/// fields of the block's lanes, one above the other, together at most 16 bits.
+struct PageHeader
+{
+    uint16_t restarts;
+    uint16_t reuses;
+    uint16_t references;
+    uint16_t new_vertices;
+    uint32_t escapes;
+    uint8_t planes[kMaxLanes];
+    uint8_t low_bits[kMaxLanes];
+    uint8_t reserved[4];
+};
+
+inline constexpr uint8_t kEscape = 255;
+
+inline constexpr uint8_t kPlaneMain = 1; ///< of PageHeader::planes: else all are 0
+inline constexpr uint8_t kPlaneSecond = 2;
+inline constexpr uint32_t kLanesOfBlock = 8;
+inline constexpr uint32_t kMaxFieldBits = 16;
+
+/// Where the low bits of a block's lanes lie.
+struct LowBitFields
+{
+    std::array<uint32_t, kLanesOfBlock> first{};
+    std::array<uint32_t, kLanesOfBlock> mask{}; ///< 0 where a lane has none there
+    uint32_t bits = 0;                          ///< of all; more than kMaxFieldBits is not legal
+    uint32_t planes() const { return (bits + 7) / 8; }
+};
+
+constexpr LowBitFields lowBitFields(const PageHeader& header, size_t block)
+{
+    LowBitFields fields;
+    for (size_t i = 0; i < kLanesOfBlock && block * kLanesOfBlock + i < kMaxLanes; ++i)
+        if (const uint32_t bits = header.low_bits[block * kLanesOfBlock + i]; bits < 8)
+        {
+            fields.first[i] = fields.bits;
+            fields.mask[i] = (1u << bits) - 1;
+            fields.bits += bits;
+        }
+    return fields;
+}
+
+// Triangles follow each other along shared edges. A triangle (a, b, c) has the edge (c, b) to its right and (a, c) to
+// its left; the next triangle starts with one of these two, or with one that was put aside, and adds a corner.
+// code = 3 * edge + corner
+inline constexpr uint32_t kEdgeRight = 0;
+inline constexpr uint32_t kEdgeRightKeepLeft = 1; ///< and put the left one aside
+inline constexpr uint32_t kEdgeLeft = 2;
+inline constexpr uint32_t kEdgeKept = 3; ///< the last one put aside
+inline constexpr uint32_t kCornerNew = 0;
+inline constexpr uint32_t kCornerReference = 1; ///< new here, but equal to a vertex of an earlier cluster
+inline constexpr uint32_t kCornerReuse = 2;
+inline constexpr uint32_t kCodeRestart =
+    15; ///< three corners: bits 0..1, 2..3 and 4..5 of a byte of restarts
+
+/// Small numbers of either sign as small numbers.
+constexpr uint16_t zigzag16(uint16_t value)
+{
+    return static_cast<uint16_t>(value << 1 ^ (value & 0x8000 ? 0xFFFF : 0));
+}
+constexpr uint16_t unzigzag16(uint16_t value)
+{
+    return static_cast<uint16_t>(value >> 1 ^ (value & 1 ? 0xFFFF : 0));
+}
+} // namespace hearth::formats
+
+HEARTH_RECORD(hearth::formats::PageHeader, 72,
+              HEARTH_FIELD(hearth::formats::PageHeader, restarts, "bytes of stream restarts"),
+              HEARTH_FIELD(hearth::formats::PageHeader, reuses, "bytes of stream reuses"),
+              HEARTH_FIELD(hearth::formats::PageHeader, references, "numbers in stream references"),
+              HEARTH_FIELD(hearth::formats::PageHeader, new_vertices, "bytes of each plane"),
+              HEARTH_FIELD(hearth::formats::PageHeader, escapes, "numbers in stream escapes"),
+              HEARTH_FIELD(hearth::formats::PageHeader, planes,
+                           "of each lane: bit 0 main bytes, bit 1 second bytes; 0 where all are 0"),
+              HEARTH_FIELD(hearth::formats::PageHeader, low_bits,
+                           "of each lane of 16 bits: how many are below the main byte, 0 to 8"),
+              HEARTH_FIELD(hearth::formats::PageHeader, reserved, "0"));

@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "tests/bench/page_figures.h"
+
+#include "formats/assert.h"
+#include "formats/cluster_bounds.h"
+#include "formats/page_codec.h"
+#include "formats/page_decode.h"
+
+#include <zstd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <functional>
+#include <map>
+
+#include <time.h>
+
+namespace hearth::bench
+{
+
+namespace
+{
+
+using namespace formats;
+
+constexpr int kRounds = 7;
+
+double threadSeconds()
+{
+    timespec time{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+    return static_cast<double>(time.tv_sec) + static_cast<double>(time.tv_nsec) * 1e-9;
+}
+
+double leastSeconds(const std::function<void()>& work)
+{
+    double least = 1e9;
+    for (int round = 0; round < kRounds; ++round)
+    {
+        const double begin = threadSeconds();
+        work();
+        least = std::min(least, threadSeconds() - begin);
+    }
+    return least;
+}
+
+double entropyBytes(std::span<const std::byte> stream)
+{
+    std::array<uint32_t, 256> histogram{};
+    for (const std::byte byte : stream)
+        ++histogram[std::to_integer<size_t>(byte)];
+    double bits = 0;
+    for (const uint32_t count : histogram)
+        if (count > 0)
+            bits += count * std::log2(static_cast<double>(stream.size()) / count);
+    return bits / 8;
+}
+
+const char* kindOfLane(size_t lane, const VertexLanes& lanes, uint32_t layout)
+{
+    if (lane < 3)
+        return "positions";
+    if (lane == 3 || (lane < 6 && (layout & kVertexFineNormal)))
+        return "normals";
+    if (lanes.kinds[lane] == LaneKind::grid)
+        return "UVs";
+    return "other attributes";
+}
+
+/// Adds the entropies of a page's streams, scaled to what the page takes.
+void addKinds(const PageRecord& page, std::span<const ClusterRecord> clusters, uint32_t mesh_layout,
+              std::span<const std::byte> content, std::map<std::string, double>& bytes_of_kind)
+{
+    size_t codes = 0, uv_bases = 0, wide = 0;
+    for (const ClusterRecord& cluster : clusters)
+    {
+        const uint32_t layout = layoutOf(cluster, mesh_layout);
+        codes += (cluster.triangle_count + 1u) / 2;
+        uv_bases += uvBaseWords(layout) * 4;
+        wide += (layout & kVertexWide) ? cluster.vertex_count * vertexWords(layout) * 4 : 0;
+    }
+    PageHeader header;
+    std::memcpy(&header, content.data(), sizeof(header));
+    size_t at = 0;
+    std::map<std::string, double> kinds;
+    const auto take = [&](const char* kind, size_t size)
+    {
+        kinds[kind] += entropyBytes(content.subspan(at, size));
+        at += size;
+    };
+    take("headers", sizeof(header));
+    take("triangles", codes);
+    take("triangles", header.restarts);
+    take("reuses", header.reuses);
+    take("references", header.references);
+    take("references", header.references);
+    take("UV bases", uv_bases);
+    take("wide", wide);
+    take("escapes", header.escapes * 2);
+    const VertexLanes lanes = vertexLanes(mesh_layout);
+    for (const uint32_t part : {0u, 1u})
+        for (size_t lane = 0; lane < lanes.count; ++lane)
+            if (header.planes[lane] >> part & 1)
+                take(kindOfLane(lane, lanes, mesh_layout), header.new_vertices);
+    for (size_t block = 0; block * kLanesOfBlock < lanes.count; ++block)
+        for (uint32_t plane = 0; plane < lowBitFields(header, block).planes(); ++plane)
+            take("low bits", header.new_vertices);
+    double sum = 0;
+    for (const auto& [kind, bytes] : kinds)
+        sum += bytes;
+    for (const auto& [kind, bytes] : kinds)
+        bytes_of_kind[kind] += bytes;
+    bytes_of_kind["coding loss"] += page.stored_size - sum;
+}
+
+} // namespace
+
+PageFigures pageFiguresOf(const clusters::Hierarchy& hierarchy)
+{
+    PageFigures figures;
+    std::map<std::string, double> bytes_of_kind;
+    const auto stored = [&](const PageRecord& page)
+    { return std::span(hierarchy.page_bytes).subspan(page.offset, page.stored_size); };
+    const auto clusters = [&](const PageRecord& page)
+    { return std::span(hierarchy.clusters).subspan(page.clusters.first, page.clusters.count); };
+    std::vector<std::byte> content(size_t{1} << 20);
+    for (const PageRecord& page : hierarchy.pages)
+    {
+        const size_t size =
+            ZSTD_decompress(content.data(), content.size(), stored(page).data(), page.stored_size);
+        HEARTH_ASSERT(!ZSTD_isError(size));
+        addKinds(page, clusters(page), hierarchy.mesh.attributes, std::span(content).first(size),
+                 bytes_of_kind);
+        figures.decoded_bytes += page.size;
+    }
+    bytes_of_kind["padding"] = static_cast<double>(hierarchy.page_bytes.size());
+    for (const PageRecord& page : hierarchy.pages)
+        bytes_of_kind["padding"] -= page.stored_size;
+    for (const auto& [kind, bytes] : bytes_of_kind)
+        figures.kinds.push_back({kind, bytes});
+
+    PageDecoder decoder;
+    std::vector<std::byte> out(kPageMaxBytes);
+    figures.seconds = leastSeconds(
+        [&]
+        {
+            for (const PageRecord& page : hierarchy.pages)
+                HEARTH_ASSERT(decoder.decode(stored(page), clusters(page), hierarchy.mesh.attributes,
+                                             std::span(out).first(page.size)));
+        });
+    ZSTD_DCtx* const context = ZSTD_createDCtx();
+    figures.zstd_seconds = leastSeconds(
+        [&]
+        {
+            for (const PageRecord& page : hierarchy.pages)
+                ZSTD_decompressDCtx(context, content.data(), content.size(), stored(page).data(),
+                                    page.stored_size);
+        });
+    ZSTD_freeDCtx(context);
+    return figures;
+}
+
+double storedTableBytes(const clusters::Hierarchy& hierarchy)
+{
+    double bytes = 0;
+    const auto add = [&](const auto& table)
+    {
+        const auto raw = std::as_bytes(std::span(table));
+        std::vector<std::byte> packed(ZSTD_compressBound(raw.size()));
+        bytes += static_cast<double>(
+            ZSTD_compress(packed.data(), packed.size(), raw.data(), raw.size(), ZSTD_CLEVEL_DEFAULT));
+    };
+    add(hierarchy.levels);
+    add(hierarchy.groups);
+    add(hierarchy.clusters);
+    add(hierarchy.pages);
+    add(hierarchy.page_parents);
+    return bytes;
+}
+
+} // namespace hearth::bench

@@ -1,0 +1,238 @@
+// Pages come back bit for bit, and a decoder that is given anything else says so and touches nothing that is not its.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "formats/cluster_bounds.h"
+#include "formats/page_codec.h"
+#include "formats/page_decode.h"
+#include "tests/cook/random_pages.h"
+
+#include <gtest/gtest.h>
+#include <zstd.h>
+
+#include <algorithm>
+#include <cstring>
+#include <set>
+
+namespace hearth::test
+{
+
+using namespace formats;
+
+namespace
+{
+
+std::vector<std::byte> encode(RandomPage& page)
+{
+    clusters::PageEncoder encoder;
+    return encoder.encode(page.records, page.layout, page.clusters);
+}
+
+/// Decodes into memory of exactly the page's size, so that a sanitizer sees every byte beside it.
+bool decodes(std::span<const std::byte> stored, const RandomPage& page, std::vector<std::byte>& out)
+{
+    static PageDecoder decoder;
+    // a copy, so that reads behind the stored bytes are seen as well
+    const std::vector<std::byte> bytes(stored.begin(), stored.end());
+    return decoder.decode(bytes, page.records, page.layout, out);
+}
+
+/// The corners of a cluster's triangles, each a vertex as its words, in the least of its three turns.
+std::multiset<std::vector<uint32_t>> trianglesOf(const RandomPage& page, size_t cluster)
+{
+    const clusters::CodedCluster& coded = page.clusters[cluster];
+    const uint32_t layout = layoutOf(page.records[cluster], page.layout);
+    const uint32_t words = vertexWords(layout);
+    std::multiset<std::vector<uint32_t>> triangles;
+    for (size_t t = 0; t < coded.indices.size(); t += 3)
+    {
+        std::array<std::vector<uint32_t>, 3> corners;
+        for (size_t i = 0; i < 3; ++i)
+        {
+            const auto at = coded.words.begin() +
+                            static_cast<ptrdiff_t>(uvBaseWords(layout) + coded.indices[t + i] * words);
+            corners[i].assign(at, at + words);
+        }
+        std::array<std::vector<uint32_t>, 3> least = corners;
+        for (int turn = 0; turn < 2; ++turn)
+        {
+            std::rotate(corners.begin(), corners.begin() + 1, corners.end());
+            least = std::min(least, corners);
+        }
+        std::vector<uint32_t> all;
+        for (const auto& corner : least)
+            all.insert(all.end(), corner.begin(), corner.end());
+        triangles.insert(all);
+    }
+    return triangles;
+}
+
+void expectRoundTrip(RandomPage page)
+{
+    const RandomPage original = page;
+    const std::vector<std::byte> stored = encode(page);
+    for (size_t c = 0; c < page.clusters.size(); ++c)
+        ASSERT_TRUE(trianglesOf(page, c) == trianglesOf(original, c)) << "cluster " << c;
+    const std::vector<std::byte> content = page.content();
+    std::vector<std::byte> out(content.size(), std::byte{0xCD});
+    ASSERT_TRUE(decodes(stored, page, out));
+    ASSERT_TRUE(out == content);
+}
+
+std::vector<std::byte> packed(std::span<const std::byte> content)
+{
+    std::vector<std::byte> frame(ZSTD_compressBound(content.size()));
+    frame.resize(ZSTD_compress(frame.data(), frame.size(), content.data(), content.size(), 1));
+    return frame;
+}
+
+std::vector<std::byte> unpacked(std::span<const std::byte> stored)
+{
+    std::vector<std::byte> content(ZSTD_getFrameContentSize(stored.data(), stored.size()));
+    EXPECT_EQ(ZSTD_decompress(content.data(), content.size(), stored.data(), stored.size()), content.size());
+    return content;
+}
+
+class PageCodecOfLayout : public ::testing::TestWithParam<uint32_t>
+{
+};
+
+INSTANTIATE_TEST_SUITE_P(Samples, PageCodecOfLayout, ::testing::ValuesIn(sampleLayouts()));
+
+} // namespace
+
+TEST_P(PageCodecOfLayout, isLegal)
+{
+    EXPECT_TRUE(legalLayout(GetParam()));
+    EXPECT_EQ(vertexLanes(GetParam()).count, 2 * vertexWords(GetParam()));
+}
+
+TEST_P(PageCodecOfLayout, bringsRandomPagesBack)
+{
+    for (uint32_t seed = 0; seed < 20; ++seed)
+    {
+        SCOPED_TRACE(seed);
+        expectRoundTrip(randomPage(GetParam(), seed));
+    }
+}
+
+TEST_P(PageCodecOfLayout, bringsTheSmallestAndLargestClustersBack)
+{
+    std::mt19937 random(1);
+    for (const auto& [vertices, triangles] :
+         {std::pair{1u, 1u}, std::pair{2u, 1u}, std::pair{3u, 1u}, std::pair{3u, 128u}, std::pair{128u, 128u},
+          std::pair{256u, 128u}, std::pair{256u, 86u}})
+    {
+        RandomPage page;
+        page.layout = GetParam();
+        addWildCluster(page, vertices, triangles, random);
+        expectRoundTrip(page);
+    }
+    for (const bool wide : {false, true})
+        for (const uint32_t side : {1u, 8u})
+        {
+            RandomPage page;
+            page.layout = GetParam();
+            addGridCluster(page, side, wide, random);
+            addGridCluster(page, side, false, random);
+            expectRoundTrip(page);
+        }
+}
+
+TEST_P(PageCodecOfLayout, refusesEveryTruncation)
+{
+    RandomPage page = randomPage(GetParam(), 3);
+    const std::vector<std::byte> stored = encode(page);
+    std::vector<std::byte> out(page.content().size());
+    for (size_t size = 0; size < stored.size(); size += 1 + size / 64)
+        ASSERT_FALSE(decodes(std::span(stored).first(size), page, out)) << size;
+    // and of what is inside the frame
+    const std::vector<std::byte> content = unpacked(stored);
+    for (size_t size = 0; size < content.size(); size += 1 + size / 64)
+        ASSERT_FALSE(decodes(packed(std::span(content).first(size)), page, out)) << size;
+}
+
+TEST_P(PageCodecOfLayout, survivesEveryFlippedByte)
+{
+    RandomPage page = randomPage(GetParam(), 4);
+    const std::vector<std::byte> stored = encode(page);
+    std::vector<std::byte> out(page.content().size());
+    for (size_t i = 0; i < stored.size(); i += 1 + i / 256)
+    {
+        std::vector<std::byte> damaged = stored;
+        damaged[i] ^= std::byte{0x41};
+        static_cast<void>(decodes(damaged, page, out));
+    }
+    const std::vector<std::byte> content = unpacked(stored);
+    std::mt19937 random(5);
+    size_t accepted = 0;
+    size_t refused = 0;
+    for (size_t i = 0; i < content.size(); i += 1 + i / 128)
+    {
+        std::vector<std::byte> damaged = content;
+        damaged[i] = static_cast<std::byte>(random());
+        damaged[random() % damaged.size()] ^= std::byte{0x80};
+        ++(decodes(packed(damaged), page, out) ? accepted : refused);
+    }
+    // differences may be anything, triangles and counts may not
+    EXPECT_GT(accepted, 10u);
+    EXPECT_GT(refused, 10u);
+}
+
+TEST_P(PageCodecOfLayout, refusesRecordsOfAnotherPage)
+{
+    RandomPage page = randomPage(GetParam(), 6);
+    const std::vector<std::byte> stored = encode(page);
+    const auto refuses = [&](auto change)
+    {
+        RandomPage changed = page;
+        change(changed);
+        std::vector<std::byte> out(page.content().size());
+        return !decodes(stored, changed, out);
+    };
+    EXPECT_FALSE(refuses([](RandomPage&) {}));
+    EXPECT_TRUE(refuses([](RandomPage& p) { p.records.pop_back(); }));
+    EXPECT_TRUE(refuses([](RandomPage& p) { ++p.records[1].page_word; }));
+    EXPECT_TRUE(
+        refuses([](RandomPage& p) { std::swap(p.records[0].vertex_count, p.records[1].vertex_count); }));
+    EXPECT_TRUE(refuses([](RandomPage& p) { p.records[0].vertex_count = 257; }));
+    EXPECT_TRUE(refuses([](RandomPage& p) { p.records[0].triangle_count = 255; }));
+    EXPECT_TRUE(refuses([](RandomPage& p) { p.records[0].extent_shift ^= 1; }));
+}
+
+TEST(PageCodec, isDeterministicWhateverWasEncodedBefore)
+{
+    const uint32_t layout = sampleLayouts()[2];
+    clusters::PageEncoder encoder;
+    RandomPage first = randomPage(layout, 1);
+    const auto once = encoder.encode(first.records, layout, first.clusters);
+    for (const uint32_t seed : {2u, 3u})
+    {
+        RandomPage other = randomPage(sampleLayouts()[seed], seed);
+        static_cast<void>(encoder.encode(other.records, other.layout, other.clusters));
+    }
+    RandomPage again = randomPage(layout, 1);
+    EXPECT_EQ(encoder.encode(again.records, layout, again.clusters), once);
+}
+
+TEST(PageCodec, storesSharedVerticesOnce)
+{
+    const uint32_t layout = sampleLayouts()[2];
+    std::mt19937 random(9);
+    RandomPage page;
+    page.layout = layout;
+    addGridCluster(page, 8, false, random);
+    const size_t one = encode(page).size();
+    page.clusters.push_back(page.clusters[0]);
+    page.records.push_back(page.records[0]);
+    page.records[1].page_word = static_cast<uint16_t>(page.content().size() / 8);
+    EXPECT_LT(encode(page).size(), one * 3 / 2);
+}
+
+TEST(PageCodec, foldsSignsBothWays)
+{
+    for (uint32_t value = 0; value < 0x10000; ++value)
+        ASSERT_EQ(unzigzag16(zigzag16(static_cast<uint16_t>(value))), value);
+    EXPECT_EQ(zigzag16(0xFFFF), 1);
+    EXPECT_EQ(zigzag16(1), 2);
+}
+
+} // namespace hearth::test
