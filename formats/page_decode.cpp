@@ -425,7 +425,8 @@ std::optional<Streams> splitContent(std::span<const std::byte> content, const Pa
         return std::nullopt;
     Streams streams;
     streams.header = *header;
-    bool good = true;
+    bool good = std::all_of(std::begin(header->reserved), std::end(header->reserved),
+                            [](uint8_t byte) { return byte == 0; });
     const auto take = [&](size_t size)
     {
         const auto bytes = reader.readBytes(size);

@@ -8,10 +8,6 @@
 #include <cstdint>
 #include <cstring>
 
-#if defined(__SSE2__)
-#include <emmintrin.h>
-#endif
-
 namespace hearth::formats
 {
 
@@ -51,8 +47,9 @@ inline Halves shiftRight(Halves halves, Halves power)
 {
 #if defined(__SSE2__)
     // shifts by different numbers came later; the upper half of a product is as old as MMX
+    using Signed = int16_t __attribute__((vector_size(16)));
     return std::bit_cast<Halves>(
-        _mm_mulhi_epu16(std::bit_cast<__m128i>(halves), std::bit_cast<__m128i>(power)));
+        __builtin_ia32_pmulhuw128(std::bit_cast<Signed>(halves), std::bit_cast<Signed>(power)));
 #else
     using Words = uint32_t __attribute__((vector_size(32)));
     return __builtin_convertvector(

@@ -11,10 +11,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <ctime>
 #include <functional>
 #include <map>
-
-#include <time.h>
 
 namespace hearth::bench
 {

@@ -185,7 +185,7 @@ std::vector<MalformedPack> malformedPages()
         {"pageMesh", Issue::meaning_reference, "page 3", [](PackModel& p) { p.pages[3].mesh = 0; }},
         {"pageTooLarge", Issue::meaning_value, "page 0",
          [](PackModel& p) { p.pages[0].size = kPageMaxBytes + 1; }},
-        {"pageCodec", Issue::meaning_value, "page 0", [](PackModel& p) { p.pages[0].codec = 2; }},
+        {"pageCodec", Issue::meaning_value, "page 0", [](PackModel& p) { p.pages[0].codec = 3; }},
         {"pageStoredSize", Issue::meaning_value, "page 1", [](PackModel& p) { ++p.pages[1].size; }},
         {"pageReserved", Issue::meaning_padding, "page 2", [](PackModel& p) { p.pages[2].reserved[1] = 1; }},
         {"pageParentsOutside", Issue::meaning_range, "page 2",
