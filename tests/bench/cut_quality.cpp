@@ -75,6 +75,11 @@ Sums oneWay(const CutSurface& from, std::span<const SurfacePoint> points, const 
 
 } // namespace
 
+CutSurface surfaceOfMesh(const mesh::SourceMesh& mesh)
+{
+    return {mesh.positions, mesh.normals, mesh.indices, 0};
+}
+
 CutSurface surfaceOfCut(const clusters::Hierarchy& hierarchy, const clusters::DecodedHierarchy& decoded,
                         double error)
 {

@@ -18,6 +18,9 @@ struct CutSurface
     size_t triangleCount() const { return triangles.size() / 3; }
 };
 
+/// The source itself, before anything was moved to a grid.
+CutSurface surfaceOfMesh(const mesh::SourceMesh& mesh);
+
 /// What is drawn where every group up to this error is replaced.
 CutSurface surfaceOfCut(const clusters::Hierarchy& hierarchy, const clusters::DecodedHierarchy& decoded,
                         double error);

@@ -4,6 +4,7 @@
 #include "formats/pack_view.h"
 #include "formats/program.h"
 #include "tests/bench/cut_quality.h"
+#include "tests/bench/error_plot.h"
 #include "tests/bench/page_figures.h"
 #include "tests/bench/peer_figures.h"
 
@@ -14,6 +15,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <fstream>
 #include <functional>
 #include <optional>
 
@@ -91,7 +93,8 @@ double errorFor(const clusters::Hierarchy& hierarchy, std::span<const float> err
                                  [&](float e) { return trianglesAt(hierarchy, double{e}) > triangles; });
 }
 
-std::vector<bench::CutQuality> measureCuts(const clusters::Hierarchy& hierarchy, size_t samples)
+std::vector<bench::CutQuality> measureCuts(const mesh::SourceMesh& mesh, const clusters::Hierarchy& hierarchy,
+                                           size_t samples)
 {
     const auto decoded = clusters::decodeHierarchy(hierarchy);
     HEARTH_ASSERT(decoded.ok());
@@ -100,7 +103,7 @@ std::vector<bench::CutQuality> measureCuts(const clusters::Hierarchy& hierarchy,
         if (std::isfinite(group.error))
             errors.push_back(group.error);
     std::sort(errors.begin(), errors.end());
-    const bench::CutSurface source = bench::surfaceOfCut(hierarchy, *decoded, -1);
+    const bench::CutSurface source = bench::surfaceOfMesh(mesh);
     const bench::CutMeter meter(source, samples);
     std::vector<bench::CutQuality> cuts;
     for (const double share : kShares)
@@ -196,7 +199,7 @@ void printShape(const clusters::Hierarchy& hierarchy)
                 pages.decoded_bytes / pages.seconds * 1e-9, pages.decoded_bytes / pages.zstd_seconds * 1e-9);
 }
 
-void measureMesh(const std::string& name, const mesh::SourceMesh& mesh, size_t samples)
+bench::MeshCurve measureMesh(const std::string& name, const mesh::SourceMesh& mesh, size_t samples)
 {
     const auto* peer = std::find_if(bench::kPeerFigures.begin(), bench::kPeerFigures.end(),
                                     [&](const auto& p) { return p.mesh == name; });
@@ -223,13 +226,16 @@ void measureMesh(const std::string& name, const mesh::SourceMesh& mesh, size_t s
                 "times as fast\n",
                 one.user / calibration, one.wall / two.wall);
     if (hierarchy.clusters.empty())
-        return;
+        return {};
     printShape(hierarchy);
     if (samples == 0)
-        return;
+        return {};
     const double diagonal = double{length(hierarchy.mesh.box_max - hierarchy.mesh.box_min)};
-    printQuality(peer, measureCuts(hierarchy, samples), diagonal, hierarchy.levels.front().triangle_count);
+    bench::MeshCurve curve{name, static_cast<double>(mesh.triangleCount()), diagonal,
+                           measureCuts(mesh, hierarchy, samples), peer};
+    printQuality(peer, curve.cuts, diagonal, mesh.triangleCount());
     std::fflush(stdout);
+    return curve;
 }
 
 int program(int argc, char** argv)
@@ -240,7 +246,10 @@ int program(int argc, char** argv)
     app.add_option("PART", parts, "import parts; their file names name the meshes")->required();
     app.add_option("--samples", samples,
                    "points on each of two surfaces that are compared; 0: quality is not measured");
+    std::string plot;
+    app.add_option("--plot", plot, "write the error of all cuts as an SVG picture");
     CLI11_PARSE(app, argc, argv);
+    std::vector<bench::MeshCurve> curves;
     for (const std::string& path : parts)
     {
         const auto reader = formats::ContainerReader::open(path);
@@ -252,8 +261,10 @@ int program(int argc, char** argv)
             return exitCode(mesh.error());
         }
         const std::string file = path.substr(path.find_last_of('/') + 1);
-        measureMesh(file.substr(0, file.find('.')), *mesh, samples);
+        curves.push_back(measureMesh(file.substr(0, file.find('.')), *mesh, samples));
     }
+    if (!plot.empty())
+        std::ofstream(plot) << bench::errorPlot(curves);
     return 0;
 }
 

@@ -23,19 +23,17 @@ struct Measured
     double distance = 0;
 };
 
-Measured measure(const Hierarchy& hierarchy, const DecodedHierarchy& decoded,
+Measured measure(const mesh::SourceMesh& mesh, const Hierarchy& hierarchy, const DecodedHierarchy& decoded,
                  const std::vector<uint8_t>& replaced)
 {
     Measured measured;
     for (const uint32_t c : clusters::clustersOfCut(hierarchy, replaced))
         measured.bound =
             std::max(measured.bound, double{formats::errorOf(hierarchy.clusters[c], hierarchy.groups)});
-    const std::vector<uint8_t> nothing(hierarchy.groups.size(), 0);
-    const auto source = cuts::trianglesOfCut(hierarchy, decoded, nothing);
     const auto cut = cuts::trianglesOfCut(hierarchy, decoded, replaced);
-    const SurfaceDistance to_source(decoded.positions, source);
+    const SurfaceDistance to_source(mesh.positions, mesh.indices);
     const SurfaceDistance to_cut(decoded.positions, cut);
-    measured.distance = std::max(largestDistance(decoded.positions, source, kSamples, to_cut),
+    measured.distance = std::max(largestDistance(mesh.positions, mesh.indices, kSamples, to_cut),
                                  largestDistance(decoded.positions, cut, kSamples, to_source));
     return measured;
 }
@@ -51,7 +49,7 @@ double expectBounded(const mesh::SourceMesh& mesh)
     for (size_t l = 1; l < hierarchy.levels.size(); ++l)
     {
         const Measured measured =
-            measure(hierarchy, *decoded, cuts::cutAtError(hierarchy, hierarchy.levels[l].max_error));
+            measure(mesh, hierarchy, *decoded, cuts::cutAtError(hierarchy, hierarchy.levels[l].max_error));
         EXPECT_LE(measured.distance, measured.bound + rounding) << "level " << l;
         if (measured.bound > 0)
             least = std::min(least, measured.distance / measured.bound);
@@ -59,7 +57,7 @@ double expectBounded(const mesh::SourceMesh& mesh)
     std::mt19937 random(3);
     for (int i = 0; i < 3; ++i)
     {
-        const Measured measured = measure(hierarchy, *decoded, cuts::randomCut(hierarchy, 0.8, random));
+        const Measured measured = measure(mesh, hierarchy, *decoded, cuts::randomCut(hierarchy, 0.8, random));
         EXPECT_LE(measured.distance, measured.bound + rounding) << "mixed cut " << i;
     }
     return least;
