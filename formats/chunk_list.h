@@ -45,6 +45,8 @@ inline constexpr std::array kChunkList{
     ChunkInfo{kChunkPages, 1, "pages", false, "geometry; stored without a codec, each page has its own"},
     ChunkInfo{kChunkSourceMesh, 1, "SourceMeshHeader, SourceArray[], data", true,
               "parts only: a mesh as imported"},
+    ChunkInfo{kChunkAuthoredLods, 1, "AuthoredLodRecord[]", false,
+              "parts only: which meshes are levels of detail of others"},
     ChunkInfo{kChunkDeformation, 1, "SourceMeshHeader, SourceArray[], data", true,
               "joints, weights and morph targets of a mesh"},
 };

@@ -50,6 +50,7 @@ constexpr RecordTable kRecords[] = {
     HEARTH_RECORD_TABLE(ClusterRecord),
     HEARTH_RECORD_TABLE(PageRecord),
     HEARTH_RECORD_TABLE(PageHeader),
+    HEARTH_RECORD_TABLE(AuthoredLodRecord),
     HEARTH_RECORD_TABLE(SourceMeshHeader),
     HEARTH_RECORD_TABLE(SourceArray),
 };

@@ -127,6 +127,26 @@ Status checkGroup(const PackView& view, uint32_t mesh_index, uint32_t i)
     return success();
 }
 
+/// A group behind the first of its set: the cut replaces all of a set at once only if they are alike.
+Status checkSet(const PackView& view, const MeshRecord& mesh, uint32_t i)
+{
+    const GroupRecord& group = view.groups()[i];
+    if (group.set_offset == 0)
+        return success();
+    if (group.set_offset > i - mesh.groups.first)
+        return fail(view, Issue::meaning_reference, "group", i,
+                    "the first group of its set is not of its mesh");
+    const GroupRecord& before = view.groups()[i - 1];
+    if (before.set_offset != group.set_offset - 1)
+        return fail(view, Issue::meaning_order, "group", i,
+                    "it does not follow the group before it in its set");
+    if (!(group.sphere_center == before.sphere_center) || group.sphere_radius != before.sphere_radius ||
+        group.error != before.error || group.level != before.level)
+        return fail(view, Issue::meaning_value, "group", i,
+                    "its sphere, error or level is not that of the group before it in its set");
+    return success();
+}
+
 Status checkClusterValues(const PackView& view, const MeshRecord& mesh, size_t i)
 {
     const ClusterRecord& cluster = view.clusters()[i];
@@ -161,6 +181,9 @@ Status checkRefinement(const PackView& view, const MeshRecord& mesh, size_t i)
         return fail(view, Issue::meaning_reference, "cluster", i,
                     "refined group " + std::to_string(cluster.refined_group) + " is not of its mesh");
     const GroupRecord& finer = view.groups()[cluster.refined_group];
+    if (finer.set_offset != 0)
+        return fail(view, Issue::meaning_reference, "cluster", i,
+                    "its refined group is not the first of its set");
     const GroupRecord& own = view.groups()[cluster.group];
     if (finer.level >= cluster.level)
         return fail(view, Issue::meaning_tree, "cluster", i, "its refined group is not of a finer level");
@@ -189,7 +212,7 @@ Status checkLevelErrors(const PackView& view, const MeshRecord& mesh)
     return success();
 }
 
-/// A group has a finite error if and only if something replaces it.
+/// A group has a finite error if and only if something replaces it, or its set.
 Status checkRoots(const PackView& view)
 {
     std::vector<bool> replaced(view.groups().size(), false);
@@ -197,10 +220,13 @@ Status checkRoots(const PackView& view)
         if (cluster.refined_group != kNone)
             replaced[cluster.refined_group] = true;
     for (size_t i = 0; i < replaced.size(); ++i)
+    {
+        replaced[i] = replaced[i - view.groups()[i].set_offset];
         if (replaced[i] != std::isfinite(view.groups()[i].error))
             return fail(view, Issue::meaning_tree, "group", i,
                         replaced[i] ? "a root, yet clusters were made from it"
                                     : "no cluster was made from it, yet it is not a root");
+    }
     return success();
 }
 
@@ -251,19 +277,36 @@ Status checkPageBytes(const PackView& view)
     return success();
 }
 
-/// The parents of a page are the pages of the clusters that were made from its groups: each once, ascending.
+/// The pages of each set of groups, by the number of its first.
+std::vector<std::vector<uint32_t>> pagesOfSets(const PackView& view)
+{
+    std::vector<std::vector<uint32_t>> pages_of_set(view.groups().size());
+    for (size_t i = 0; i < pages_of_set.size(); ++i)
+    {
+        std::vector<uint32_t>& pages = pages_of_set[i - view.groups()[i].set_offset];
+        if (pages.empty() || pages.back() != view.groups()[i].page)
+            pages.push_back(view.groups()[i].page);
+    }
+    return pages_of_set;
+}
+
+/// The parents of a page are the pages of the clusters that were made from its groups, or their sets: each once,
+/// ascending.
 Status checkParents(const PackView& view)
 {
+    const std::vector<std::vector<uint32_t>> pages_of_set = pagesOfSets(view);
     // clusters stand in page order, so that a page's parents are found in ascending order
     std::vector<std::vector<uint32_t>> implied(view.pages().size());
     for (const ClusterRecord& cluster : view.clusters())
     {
         if (cluster.refined_group == kNone)
             continue;
-        const uint32_t finer_page = view.groups()[cluster.refined_group].page;
-        std::vector<uint32_t>& parents = implied[finer_page];
-        if (finer_page != cluster.page && (parents.empty() || parents.back() != cluster.page))
-            parents.push_back(cluster.page);
+        for (const uint32_t finer_page : pages_of_set[cluster.refined_group])
+        {
+            std::vector<uint32_t>& parents = implied[finer_page];
+            if (finer_page != cluster.page && (parents.empty() || parents.back() != cluster.page))
+                parents.push_back(cluster.page);
+        }
     }
     for (size_t i = 0; i < implied.size(); ++i)
     {
@@ -308,6 +351,7 @@ Status checkMeshTables(const PackView& view)
         {
             HEARTH_TRY(grouped.take(mesh.groups.first + g, view.groups()[mesh.groups.first + g].clusters));
             HEARTH_TRY(checkGroup(view, m, mesh.groups.first + g));
+            HEARTH_TRY(checkSet(view, mesh, mesh.groups.first + g));
         }
         if (grouped.at() != size_t{mesh.clusters.first} + mesh.clusters.count)
             return fail(view, Issue::meaning_range, "mesh", m, "its groups do not have exactly its clusters");

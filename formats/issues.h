@@ -64,6 +64,8 @@ enum class IssueClass : uint8_t
     X(mesh_empty, 1202, malformed, "a mesh file has no geometry", "check the export")                        \
     X(material_missing, 1203, warning, "a material library is missing; its materials are drawn grey",        \
       "put the file where the asset expects it")                                                             \
+    X(lod_file, 1204, malformed, "a file cannot be a level of detail",                                       \
+      "give a source and files that draw one mesh each")                                                     \
     X(image_malformed, 1300, malformed, "an image cannot be decoded", "save the image again")                \
     X(image_unsupported, 1301, malformed, "an image uses a feature that is not supported",                   \
       "save the image as PNG, JPEG, WebP, HDR or EXR")                                                       \
@@ -74,6 +76,11 @@ enum class IssueClass : uint8_t
     X(dropped, 1400, warning, "a part of the source is not kept", "")                                        \
     X(degraded, 1401, warning, "a part of the source is drawn in a simpler way", "")                         \
     X(repaired, 1402, warning, "a part of the source was repaired", "")                                      \
+    X(profile_syntax, 1500, malformed, "a profile is not valid TOML",                                        \
+      "see https://toml.io for how TOML is written")                                                         \
+    X(profile_key, 1501, malformed, "a profile has a key that is not known", "check its spelling")           \
+    X(profile_value, 1502, malformed, "a value of a profile is not allowed",                                 \
+      "correct the value in the profile")                                                                    \
     X(container_truncated, 2000, malformed, "the file is too short", "cook the asset again")                 \
     X(container_magic, 2001, malformed, "the file is not a Hearth container", "name a .hearth file")         \
     X(container_version, 2002, malformed, "the file was written by another major version",                   \

@@ -10,15 +10,16 @@
 namespace hearth::formats
 {
 
-inline constexpr uint32_t kChunkMeshes = fourCC("MESH");      ///< MeshRecord[]
-inline constexpr uint32_t kChunkLevels = fourCC("LEVL");      ///< LevelRecord[]
-inline constexpr uint32_t kChunkGroups = fourCC("GRUP");      ///< GroupRecord[]
-inline constexpr uint32_t kChunkClusters = fourCC("CLUS");    ///< ClusterRecord[]
-inline constexpr uint32_t kChunkPageTable = fourCC("PGTB");   ///< PageRecord[]
-inline constexpr uint32_t kChunkPageParents = fourCC("PGPA"); ///< u32[]: what a page needs
-inline constexpr uint32_t kChunkPages = fourCC("PAGE");       ///< the pages, each aligned to 64 bytes
-inline constexpr uint32_t kChunkSourceMesh = fourCC("SMSH");  ///< mesh `index` as imported
-inline constexpr uint32_t kChunkDeformation = fourCC("DEFM"); ///< joints, weights, morphs
+inline constexpr uint32_t kChunkMeshes = fourCC("MESH");       ///< MeshRecord[]
+inline constexpr uint32_t kChunkLevels = fourCC("LEVL");       ///< LevelRecord[]
+inline constexpr uint32_t kChunkGroups = fourCC("GRUP");       ///< GroupRecord[]
+inline constexpr uint32_t kChunkClusters = fourCC("CLUS");     ///< ClusterRecord[]
+inline constexpr uint32_t kChunkPageTable = fourCC("PGTB");    ///< PageRecord[]
+inline constexpr uint32_t kChunkPageParents = fourCC("PGPA");  ///< u32[]: what a page needs
+inline constexpr uint32_t kChunkPages = fourCC("PAGE");        ///< the pages, each aligned to 64 bytes
+inline constexpr uint32_t kChunkSourceMesh = fourCC("SMSH");   ///< mesh `index` as imported
+inline constexpr uint32_t kChunkAuthoredLods = fourCC("ALOD"); ///< AuthoredLodRecord[]
+inline constexpr uint32_t kChunkDeformation = fourCC("DEFM");  ///< joints, weights, morphs
 
 inline constexpr uint32_t kClusterMaxTriangles = 128;
 inline constexpr uint32_t kClusterMaxVertices = 256;
@@ -100,6 +101,8 @@ struct LevelRecord
 };
 
 /// Clusters that are simplified together and replaced together.
+/// Where a level was made by hand, all groups of the level below are replaced together: they are a set. The groups of a
+/// set follow each other and share sphere, error and level; clusters that were made from the set name its first group.
 /// The cut: with E(g) the projected error of a group, draw cluster x if and only if
 ///     (x.refined_group == none or E(refined_group) <= threshold) and E(group) > threshold,
 /// where E of a root group (error = infinity) is infinite. Errors and spheres are monotone: for every cluster x,
@@ -112,7 +115,8 @@ struct GroupRecord
     uint32_t level;
     Range clusters;
     uint32_t page;
-    uint32_t reserved[3];
+    uint32_t set_offset;
+    uint32_t reserved[2];
 };
 
 /// What culling and drawing need to know of a cluster; 48 bytes, read by the GPU as it is (formats/shared/records.h).
@@ -183,6 +187,14 @@ enum class SourceSemantic : uint32_t
     bind_tangent = 14,     ///< f32 x 4
 };
 
+/// Mesh `lod` is mesh `mesh` with less detail, made by hand, in the same object space; it is not drawn by itself.
+/// Records of one mesh follow each other, finest first; meshes ascending.
+struct AuthoredLodRecord
+{
+    uint32_t mesh;
+    uint32_t lod;
+};
+
 /// Chunks SMSH and DEFM: SourceMeshHeader, then array_count SourceArrays, then the data, each array 16-aligned.
 struct SourceMeshHeader
 {
@@ -242,6 +254,8 @@ HEARTH_RECORD(hearth::formats::GroupRecord, 48,
               HEARTH_FIELD(hearth::formats::GroupRecord, level, "of its clusters"),
               HEARTH_FIELD(hearth::formats::GroupRecord, clusters, "chunk CLUS"),
               HEARTH_FIELD(hearth::formats::GroupRecord, page, "that holds all its clusters"),
+              HEARTH_FIELD(hearth::formats::GroupRecord, set_offset,
+                           "how many groups it stands behind the first of its set; 0 where it is alone"),
               HEARTH_FIELD(hearth::formats::GroupRecord, reserved, "0"));
 HEARTH_RECORD(hearth::formats::ClusterRecord, 48,
               HEARTH_FIELD(hearth::formats::ClusterRecord, base,
@@ -278,6 +292,9 @@ HEARTH_RECORD(hearth::formats::PageRecord, 56,
                            "chunk PGPA: pages, all earlier, that hold what this page refines"),
               HEARTH_FIELD(hearth::formats::PageRecord, hash, "XXH3-64 of the stored bytes"),
               HEARTH_FIELD(hearth::formats::PageRecord, reserved, "0"));
+HEARTH_RECORD(hearth::formats::AuthoredLodRecord, 8,
+              HEARTH_FIELD(hearth::formats::AuthoredLodRecord, mesh, "chunk SMSH of this index"),
+              HEARTH_FIELD(hearth::formats::AuthoredLodRecord, lod, "chunk SMSH of this index"));
 HEARTH_RECORD(hearth::formats::SourceMeshHeader, 32,
               HEARTH_FIELD(hearth::formats::SourceMeshHeader, array_count, ""),
               HEARTH_FIELD(hearth::formats::SourceMeshHeader, face_count, "polygons before triangulation"),

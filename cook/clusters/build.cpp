@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/clusters/authored_levels.h"
 #include "cook/clusters/bounds.h"
 #include "cook/clusters/grouping.h"
 #include "cook/clusters/hierarchy.h"
+#include "cook/clusters/level_plan.h"
 #include "cook/clusters/pages.h"
 #include "cook/clusters/reduce.h"
 #include "cook/clusters/split.h"
+#include "cook/clusters/surface_bound.h"
 #include "formats/assert.h"
 #include "formats/cluster_bounds.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include <tbb/parallel_for.h>
@@ -25,11 +29,12 @@ using namespace formats;
 struct BuiltGroup
 {
     Sphere sphere;
-    float error = 0;       ///< infinity for a root
+    float error = 0;       ///< as it counts for the cut; infinity for a root
     ClusterStore clusters; ///< what replaces it, until the next level has taken it
     bool stuck = false;
     bool retried = false;
-    Reduced outcome; ///< for the counts
+    uint32_t set_offset = 0; ///< formats::GroupRecord::set_offset
+    Reduced outcome;         ///< for the counts
 };
 
 struct Level
@@ -39,6 +44,7 @@ struct Level
     std::vector<uint8_t> retries;        ///< for each cluster, how often it was passed on unchanged
     Groups groups;
     uint32_t first_group = 0; ///< number of its first group
+    uint64_t drawn_below = 0; ///< triangles of the roots of finer levels
     std::vector<BuiltGroup> built;
 };
 
@@ -48,6 +54,8 @@ struct Build
     PreparedMesh mesh;
     const Config& config;
     std::vector<Level> levels;
+    std::span<const AuthoredLevel> authored; ///< those that are to come
+    std::vector<uint32_t> level_of_authored; ///< by number of the authored mesh; kNone: not used
 
     const BuiltGroup& group(uint32_t number) const
     {
@@ -92,40 +100,97 @@ float largestError(const Build& build, const Level& level, std::span<const uint3
     return error;
 }
 
+/// The error of a group whose replacement is so far from the source: errors do not fall, whatever the weights.
+float errorOf(float distance, float weight, float members_error)
+{
+    return roundUp(std::max(double{distance} * double{weight}, double{members_error}) * kMonotoneSlack);
+}
+
+/// Pass a stuck group on unchanged, if it has not been tried too often, or a level that was made by hand replaces it.
+void passOn(const Build& build, const Level& level, std::span<const uint32_t> members, BuiltGroup& group)
+{
+    const auto tries =
+        std::min_element(members.begin(), members.end(),
+                         [&](uint32_t a, uint32_t b) { return level.retries[a] < level.retries[b]; });
+    const bool alone = level.store.shapes.size() == members.size();
+    if (build.authored.empty() && (alone || level.retries[*tries] >= build.config.max_retries))
+    {
+        group.stuck = !alone;
+        return;
+    }
+    group.retried = true;
+    group.error = errorOf(0, 1, largestError(build, level, members));
+    for (const uint32_t member : members)
+        group.clusters.appendCluster(level.store, level.store.shapes[member]);
+}
+
 /// Simplify a group, or decide what to do with one that is stuck: pass it on, or leave it as a root.
 BuiltGroup buildGroup(const Build& build, const Level& level, std::span<const uint32_t> members,
-                      std::span<const uint8_t> locked)
+                      std::span<const uint8_t> locked, const GroupGoal& goal)
 {
     BuiltGroup group;
     group.sphere = groupSphere(build, level, members);
     group.error = std::numeric_limits<float>::infinity();
-    const bool alone = level.store.shapes.size() == members.size();
-    if (alone && members.size() == 1)
+    if (level.store.shapes.size() == 1)
         return group;
 
-    const float members_error = largestError(build, level, members);
-    Reduced reduced = reduceGroup(build.mesh, level.store, members, locked, members_error, build.config);
-    if (reduced.progressed)
+    Reduced reduced = reduceGroup(build.mesh, level.store, members, locked, goal, build.config);
+    const float error = errorOf(reduced.distance, goal.error_weight, largestError(build, level, members));
+    // an error beyond the floats cannot be stored: what it belongs to is a root
+    if (!reduced.progressed || error >= std::numeric_limits<float>::max())
     {
-        growToHold(group.sphere, reduced.made.positions);
-        group.error = reduced.error;
-        group.clusters = std::move(reduced.clusters);
-        group.outcome = std::move(reduced);
+        passOn(build, level, members, group);
         return group;
     }
-    const auto tries =
-        std::min_element(members.begin(), members.end(),
-                         [&](uint32_t a, uint32_t b) { return level.retries[a] < level.retries[b]; });
-    if (alone || level.retries[*tries] >= build.config.max_retries)
-    {
-        group.stuck = !alone;
-        return group;
-    }
-    group.retried = true;
-    group.error = roundUp(members_error * kMonotoneSlack);
-    for (const uint32_t member : members)
-        group.clusters.appendCluster(level.store, level.store.shapes[member]);
+    growToHold(group.sphere, reduced.made.positions);
+    group.error = error;
+    group.clusters = std::move(reduced.clusters);
+    group.outcome = std::move(reduced);
     return group;
+}
+
+size_t trianglesOf(const ClusterStore& store)
+{
+    size_t count = 0;
+    for (const ClusterShape& shape : store.shapes)
+        count += shape.triangle_count;
+    return count;
+}
+
+/// Triangles that are drawn in place of each group of the level, or that it has itself where it is a root.
+std::vector<size_t> keptTriangles(const Level& level)
+{
+    std::vector<size_t> kept;
+    for (size_t g = 0; g < level.built.size(); ++g)
+    {
+        kept.push_back(trianglesOf(level.built[g].clusters));
+        if (std::isinf(level.built[g].error))
+            for (const uint32_t member : level.groups.membersOf(g))
+                kept.back() += level.store.shapes[member].triangle_count;
+    }
+    return kept;
+}
+
+/// Build the level's groups as the merge coefficient asks; where a target is not met because some groups could not do
+/// their share, the others do more.
+void buildGroups(const Build& build, Level& level, std::span<const uint8_t> locked, LevelPlan plan)
+{
+    // what the first correction asks is met but for what groups cannot do; each costs the level once more
+    constexpr int kMaxCorrections = 3;
+    std::vector<uint8_t> wanted(level.groups.count(), 1);
+    level.built.resize(level.groups.count());
+    for (int correction = 0; correction <= kMaxCorrections; ++correction)
+    {
+        tbb::parallel_for(size_t{0}, level.groups.count(),
+                          [&](size_t g)
+                          {
+                              if (wanted[g] != 0)
+                                  level.built[g] = buildGroup(build, level, level.groups.membersOf(g), locked,
+                                                              plan.goals[g]);
+                          });
+        if (!correctPlan(plan, keptTriangles(level), wanted))
+            return;
+    }
 }
 
 /// Positions of roots can never move again: what lies beside them is drawn together with them.
@@ -158,6 +223,7 @@ Level nextLevel(PreparedMesh& mesh, Level& level)
 {
     Level next;
     next.first_group = level.first_group + static_cast<uint32_t>(level.groups.count());
+    next.drawn_below = level.drawn_below;
     for (uint32_t g = 0; g < level.groups.count(); ++g)
     {
         BuiltGroup& group = level.built[g];
@@ -165,23 +231,112 @@ Level nextLevel(PreparedMesh& mesh, Level& level)
         for (size_t i = 0; i < group.clusters.shapes.size(); ++i)
         {
             next.refined_group.push_back(level.first_group + g);
-            const int tried = group.retried ? level.retries[members[i]] + 1 : 0;
+            const int tried = group.retried ? std::min(level.retries[members[i]] + 1, 255) : 0;
             next.retries.push_back(static_cast<uint8_t>(tried));
         }
         takeVertices(mesh, group.outcome, group.clusters);
         next.store.append(group.clusters);
         group.clusters = {};
+        if (std::isinf(group.error))
+            for (const uint32_t member : members)
+                next.drawn_below += level.store.shapes[member].triangle_count;
     }
+    level.store.errors = {};
     return next;
+}
+
+/// A sphere around those of all groups and the vertices of the authored level.
+Sphere setSphere(const Build& build, const Level& level, const AuthoredLevel& authored)
+{
+    std::vector<Sphere> spheres;
+    std::vector<Float3> points;
+    for (size_t g = 0; g < level.groups.count(); ++g)
+        spheres.push_back(groupSphere(build, level, level.groups.membersOf(g)));
+    for (const Sphere& sphere : spheres)
+        points.push_back(sphere.center);
+    Sphere sphere = sphereOfSpheres(spheres, sphereOfPoints(points));
+    points.clear();
+    for (const uint32_t vertex : authored.corners)
+        points.push_back(build.mesh.vertices.positions[vertex]);
+    growToHold(sphere, points);
+    return {sphere.center, roundUp(sphere.radius * kMonotoneSlack)};
+}
+
+/// Replace all groups of the level at once by the next authored level, and return that.
+Level switchToAuthored(Build& build, Level& level, const LevelPlan& plan,
+                       std::span<const uint32_t> source_corners)
+{
+    const AuthoredLevel& authored = build.authored.front();
+    const auto& positions = build.mesh.vertices.positions;
+    const auto all = std::span<const uint32_t>(level.groups.members);
+    // what is nearer than the level below makes no difference
+    const float carried = *std::max_element(level.store.errors.begin(), level.store.errors.end());
+    const SurfaceBound bound =
+        boundSurfaces({positions, source_corners}, {positions, authored.corners}, double{carried});
+    const float distance = roundUp(bound.upper + double{build.mesh.grid.error});
+    float weight = 1;
+    for (const GroupGoal& goal : plan.goals)
+        weight = std::max(weight, goal.error_weight);
+
+    BuiltGroup group;
+    group.sphere = setSphere(build, level, authored);
+    group.error = errorOf(distance, weight, largestError(build, level, all));
+    group.outcome.loose_pieces = bound.loose_pieces;
+    level.built.assign(level.groups.count(), group);
+    for (uint32_t g = 0; g < level.built.size(); ++g)
+        level.built[g].set_offset = g;
+
+    Level next;
+    next.first_group = level.first_group + static_cast<uint32_t>(level.groups.count());
+    build.mesh.corners = authored.corners;
+    build.mesh.materials = authored.materials;
+    next.store = splitMesh(build.mesh);
+    build.mesh.corners = {};
+    build.mesh.materials = {};
+    level.store.errors = {};
+    next.store.errors.assign(next.store.errors.size(), distance);
+    next.refined_group.assign(next.store.shapes.size(), level.first_group);
+    next.retries.assign(next.store.shapes.size(), 0);
+    build.level_of_authored[authored.authored] = static_cast<uint32_t>(build.levels.size());
+    build.authored = build.authored.subspan(1);
+    return next;
+}
+
+/// Whether the level that the plan makes would have no more triangles than the next authored one.
+bool authoredIsNext(const Build& build, const LevelPlan& plan)
+{
+    uint64_t planned = 0;
+    for (const GroupGoal& goal : plan.goals)
+        planned += goal.triangles;
+    return !build.authored.empty() && planned <= build.authored.front().triangleCount();
+}
+
+/// What replaces the level's groups: what they are simplified to, or a level that was made by hand.
+Level replaceGroups(Build& build, Level& level, std::span<const uint8_t> locked,
+                    std::span<const uint32_t> source_corners)
+{
+    LevelPlan plan = planLevel(build.config.reduction, static_cast<uint32_t>(build.levels.size() - 1),
+                               level.store, level.groups, level.drawn_below);
+    if (authoredIsNext(build, plan))
+        return switchToAuthored(build, level, plan, source_corners);
+    buildGroups(build, level, locked, plan);
+    if (!build.authored.empty() && isStuck(plan, keptTriangles(level)))
+        return switchToAuthored(build, level, plan, source_corners);
+    return nextLevel(build.mesh, level);
 }
 
 /// Group, simplify and split level after level until nothing is left to simplify.
 void buildLevels(Build& build)
 {
+    // authored levels are measured against the source, and take its place in the mesh
+    const std::vector<uint32_t> source_corners =
+        build.authored.empty() ? std::vector<uint32_t>{} : build.mesh.corners;
     std::vector<uint8_t> pinned(build.mesh.position_count, 0);
     std::vector<uint8_t> locked = pinned;
     Level first;
     first.store = splitMesh(build.mesh);
+    build.mesh.corners = {};
+    build.mesh.materials = {};
     first.refined_group.assign(first.store.shapes.size(), kNone);
     first.retries.assign(first.store.shapes.size(), 0);
     build.levels.push_back(std::move(first));
@@ -190,12 +345,11 @@ void buildLevels(Build& build)
         Level& level = build.levels.back();
         level.groups = groupClusters(build.mesh, level.store, locked, build.config);
         locked = lockSharedPositions(build.mesh, level.store, level.groups, pinned);
-        level.built.resize(level.groups.count());
-        tbb::parallel_for(size_t{0}, level.groups.count(),
-                          [&](size_t g)
-                          { level.built[g] = buildGroup(build, level, level.groups.membersOf(g), locked); });
+        const size_t authored_left = build.authored.size();
+        Level next = replaceGroups(build, level, locked, source_corners);
         pinRoots(build.mesh, level, pinned);
-        Level next = nextLevel(build.mesh, level);
+        if (build.authored.size() != authored_left)
+            locked.assign(locked.size(), 0);
         pinned.resize(build.mesh.position_count, 0);
         locked.resize(build.mesh.position_count, 0);
         if (next.store.shapes.empty())
@@ -211,6 +365,7 @@ void countOutcomes(const Build& build, BuildCounts& counts)
         {
             counts.permissive_groups += group.outcome.permissive ? 1 : 0;
             counts.pruned_groups += group.outcome.pruned ? 1 : 0;
+            counts.merged_groups += group.outcome.merged ? 1 : 0;
             counts.retried_groups += group.retried ? 1 : 0;
             counts.stuck_groups += group.stuck ? 1 : 0;
             counts.loose_pieces += group.outcome.loose_pieces;
@@ -251,6 +406,7 @@ void addLevelRecords(const Build& build, uint32_t l, std::span<const uint32_t> r
         group.sphere_radius = built.sphere.radius;
         group.error = built.error;
         group.level = l;
+        group.set_offset = built.set_offset;
         group.clusters.first = static_cast<uint32_t>(hierarchy.clusters.size());
         for (const uint32_t member : level.groups.membersOf(g))
         {
@@ -296,6 +452,9 @@ void writeRecords(Build& build, Hierarchy& hierarchy)
         from = {};
     }
     buildPages(build.mesh, store, shapes, build.config, hierarchy);
+    if (std::any_of(build.level_of_authored.begin(), build.level_of_authored.end(),
+                    [](uint32_t level) { return level != kNone; }))
+        linkPagesOfSets(hierarchy);
 }
 
 void fillSourceCounts(const mesh::SourceMesh& source, MeshRecord& mesh)
@@ -326,19 +485,28 @@ void fillMeshRecord(const PreparedMesh& prepared, Hierarchy& hierarchy)
 
 } // namespace
 
-Hierarchy buildHierarchy(mesh::SourceMesh source, const Config& config)
+Hierarchy buildHierarchy(mesh::SourceMesh source, std::span<const mesh::SourceMesh> authored,
+                         const Config& config)
 {
     Hierarchy hierarchy;
     fillSourceCounts(source, hierarchy.mesh);
-    Build build{prepareMesh(std::move(source)), config, {}};
+    JoinedMesh joined = joinAuthored(std::move(source), authored);
+    Build build{
+        std::move(joined.mesh), config, {}, joined.levels, std::vector<uint32_t>(authored.size(), kNone)};
     if (build.mesh.triangleCount() > 0)
     {
         buildLevels(build);
         countOutcomes(build, hierarchy.counts);
         writeRecords(build, hierarchy);
     }
+    hierarchy.authored_levels = std::move(build.level_of_authored);
     fillMeshRecord(build.mesh, hierarchy);
     return hierarchy;
+}
+
+Hierarchy buildHierarchy(mesh::SourceMesh source, const Config& config)
+{
+    return buildHierarchy(std::move(source), {}, config);
 }
 
 } // namespace hearth::clusters

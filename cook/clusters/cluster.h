@@ -45,6 +45,8 @@ struct ClusterStore
     std::vector<ClusterShape> shapes;
     std::vector<uint32_t> vertices; ///< of the prepared mesh
     std::vector<uint8_t> indices;
+    std::vector<float>
+        errors; ///< for each triangle, object space: bounds the distance to the source, both ways
 
     std::span<const uint32_t> verticesOf(const ClusterShape& shape) const
     {
@@ -53,6 +55,11 @@ struct ClusterStore
     std::span<const uint8_t> indicesOf(const ClusterShape& shape) const
     {
         return std::span(indices).subspan(shape.first_index, size_t{shape.triangle_count} * 3);
+    }
+
+    std::span<const float> errorsOf(const ClusterShape& shape) const
+    {
+        return std::span(errors).subspan(shape.first_index / 3, shape.triangle_count);
     }
 
     /// Append all clusters of `other`, in their order.

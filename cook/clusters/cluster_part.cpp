@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/clusters/cluster_part.h"
 
-#include "formats/scene.h"
+#include "formats/pack_view.h"
 
 #include <limits>
 
@@ -90,42 +90,91 @@ Status addTable(ContainerWriter& writer, uint32_t type, const std::vector<T>& re
     return writer.addRecords(type, std::span<const T>(records));
 }
 
-void addCounts(BuildCounts& total, const BuildCounts& counts)
+} // namespace
+
+uint32_t meshCount(const ContainerReader& part)
 {
-    total.permissive_groups += counts.permissive_groups;
-    total.pruned_groups += counts.pruned_groups;
-    total.retried_groups += counts.retried_groups;
-    total.stuck_groups += counts.stuck_groups;
-    total.loose_pieces += counts.loose_pieces;
+    uint32_t count = 0;
+    while (part.find(kChunkSourceMesh, count) != nullptr)
+        ++count;
+    return count;
+}
+
+Result<std::vector<std::string>> materialNames(const ContainerReader& part)
+{
+    HEARTH_ASSIGN_OR_RETURN(const PackView view, PackView::read(part));
+    std::vector<std::string> names;
+    for (const MaterialRecord& material : view.materials())
+        names.emplace_back(view.text(material.name));
+    return names;
+}
+
+namespace
+{
+
+/// The authored levels of each mesh, by the meshes that they are, finest first.
+struct LodLists
+{
+    std::vector<std::vector<uint32_t>> of_mesh;
+    std::vector<uint8_t> is_lod;
+};
+
+Result<LodLists> readLodLists(const ContainerReader& part, uint32_t mesh_count)
+{
+    LodLists lists{std::vector<std::vector<uint32_t>>(mesh_count), std::vector<uint8_t>(mesh_count, 0)};
+    HEARTH_ASSIGN_OR_RETURN(const Records<AuthoredLodRecord> records,
+                            part.records<AuthoredLodRecord>(kChunkAuthoredLods));
+    for (const AuthoredLodRecord& record : records)
+    {
+        if (record.mesh >= mesh_count || record.lod >= mesh_count || record.mesh == record.lod)
+            return Error{Issue::meaning_reference, part.name(), chunkName(kChunkAuthoredLods, 0),
+                         "a record names a mesh that does not exist, or one as its own level"};
+        lists.of_mesh[record.mesh].push_back(record.lod);
+        lists.is_lod[record.lod] = 1;
+    }
+    return lists;
+}
+
+/// The hierarchy of mesh `index`; a mesh that is a level of others is part of theirs, and has none itself.
+Result<Hierarchy> buildMesh(const ContainerReader& part, const LodLists& lods, uint32_t index,
+                            mesh::SourceMesh source, const Config& config)
+{
+    if (lods.is_lod[index] != 0)
+        return Hierarchy{};
+    std::vector<mesh::SourceMesh> authored;
+    for (const uint32_t lod : lods.of_mesh[index])
+    {
+        HEARTH_ASSIGN_OR_RETURN(mesh::SourceMesh level, mesh::readSourceMesh(part, lod));
+        authored.push_back(std::move(level));
+    }
+    return buildHierarchy(std::move(source), authored, config);
 }
 
 } // namespace
 
-Status writeClustersPart(const std::string& import_path, const std::string& output_path, const Config& config,
-                         BuildCounts& counts)
+Status writeClustersPart(const ContainerReader& part, const std::string& output_path,
+                         const MeshConfigurer& configure, const MeshObserver& observe)
 {
-    HEARTH_ASSIGN_OR_RETURN(const ContainerReader reader,
-                            ContainerReader::open(import_path, Check::structure));
     HEARTH_ASSIGN_OR_RETURN(ContainerWriter writer,
                             ContainerWriter::create(output_path, ContainerKind::part));
-    uint32_t mesh_count = 0;
-    while (reader.find(kChunkSourceMesh, mesh_count) != nullptr)
-        ++mesh_count;
-
+    const uint32_t mesh_count = meshCount(part);
+    HEARTH_ASSIGN_OR_RETURN(const LodLists lods, readLodLists(part, mesh_count));
     Tables tables;
     HEARTH_TRY(writer.beginChunk({.type = kChunkPages}, 1));
     for (uint32_t i = 0; i < mesh_count; ++i)
     {
-        HEARTH_ASSIGN_OR_RETURN(mesh::SourceMesh source, mesh::readSourceMesh(reader, i));
+        HEARTH_ASSIGN_OR_RETURN(mesh::SourceMesh source, mesh::readSourceMesh(part, i));
         const std::string name = source.name;
-        Hierarchy hierarchy = buildHierarchy(std::move(source), config);
-        addCounts(counts, hierarchy.counts);
+        const Config config = configure ? configure(name) : Config{};
+        HEARTH_ASSIGN_OR_RETURN(Hierarchy hierarchy, buildMesh(part, lods, i, std::move(source), config));
+        if (observe)
+            HEARTH_TRY(observe(i, name, config, hierarchy));
         const uint64_t page_offset = writer.chunkSize();
         HEARTH_TRY(writer.append(hierarchy.page_bytes));
         hierarchy.page_bytes = {};
         appendTables(tables, std::move(hierarchy), page_offset, name);
         if (!fits(tables))
-            return Error{Issue::input_too_large, import_path, chunkName(kChunkSourceMesh, i),
+            return Error{Issue::input_too_large, part.name(), chunkName(kChunkSourceMesh, i),
                          "more than 2^31 clusters"};
     }
     HEARTH_TRY(writer.endChunk());
@@ -134,7 +183,7 @@ Status writeClustersPart(const std::string& import_path, const std::string& outp
     for (uint32_t i = 0; i < mesh_count; ++i)
         if (tables.meshes[i].skinned != 0 || tables.meshes[i].morph_target_count != 0)
         {
-            HEARTH_ASSIGN_OR_RETURN(const mesh::SourceMesh source, mesh::readSourceMesh(reader, i));
+            HEARTH_ASSIGN_OR_RETURN(const mesh::SourceMesh source, mesh::readSourceMesh(part, i));
             HEARTH_TRY(mesh::writeDeformation(writer, i, source));
         }
     HEARTH_TRY(writer.addText(kChunkStrings, tables.strings));

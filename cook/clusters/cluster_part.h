@@ -3,17 +3,35 @@
 #pragma once
 
 #include "cook/clusters/hierarchy.h"
-#include "formats/result.h"
+#include "formats/container_reader.h"
 
+#include <functional>
 #include <string>
+#include <vector>
 
 namespace hearth::clusters
 {
 
-/// Build the hierarchies of all meshes of the part at `import_path` and write them to `output_path`.
-/// Adds up what happened in `counts`.
-/// errors: those of ContainerReader, readSourceMesh and ContainerWriter; input_too_large where an index would not fit.
-Status writeClustersPart(const std::string& import_path, const std::string& output_path, const Config& config,
-                         BuildCounts& counts);
+/// How a mesh of the part is built, by its name.
+using MeshConfigurer = std::function<Config(const std::string& name)>;
+
+/// Sees each mesh when it has been built, before it is written; an error ends the work.
+using MeshObserver = std::function<Status(uint32_t index, const std::string& name, const Config& config,
+                                          const Hierarchy& hierarchy)>;
+
+/// The meshes that an import part has.
+uint32_t meshCount(const formats::ContainerReader& part);
+
+/// The names of its materials, in their order. errors: those of PackView.
+Result<std::vector<std::string>> materialNames(const formats::ContainerReader& part);
+
+/// Build the hierarchies of all meshes of an import part and write them to `output_path`. Meshes that are authored levels
+/// of others keep their numbers, but have no clusters of their own.
+///
+/// configure, observe   may be empty
+/// errors               those of readSourceMesh, meaning_reference where chunk ALOD names no mesh, those of
+///                      ContainerWriter and `observe`; input_too_large where an index would not fit
+Status writeClustersPart(const formats::ContainerReader& part, const std::string& output_path,
+                         const MeshConfigurer& configure, const MeshObserver& observe);
 
 } // namespace hearth::clusters

@@ -1,11 +1,18 @@
-// hearth-clusters: reads an import part and writes the clusters part.
+// hearth-clusters: reads an import part, or a source, and writes the clusters part.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/clusters/cluster_part.h"
+#include "cook/clusters/debug_mesh.h"
+#include "cook/clusters/profile.h"
+#include "cook/clusters/source_part.h"
+#include "cook/clusters/statistics.h"
+#include "cook/tools/whole_file.h"
 #include "formats/program.h"
 
 #include <CLI/CLI.hpp>
 
+#include <chrono>
 #include <cstdio>
+#include <fmt/format.h>
 #include <memory>
 #include <string>
 
@@ -21,16 +28,117 @@ struct Arguments
     std::string input;
     std::string output;
     size_t jobs = 0;
+    std::string profile;
+    std::string statistics;
+    bool statistics_with_times = false;
+    uint32_t debug_mesh = 0;
+    uint32_t debug_level = 0;
+    std::string debug_output;
 };
 
-void printWarnings(const Arguments& arguments, const clusters::BuildCounts& counts)
+int fail(const Error& error)
 {
-    if (counts.stuck_groups == 0)
-        return;
-    const Error warning{Issue::degraded, arguments.input, "",
-                        std::to_string(counts.stuck_groups) +
-                            " groups of clusters cannot be simplified further and are drawn at any distance"};
+    std::fprintf(stderr, "%s\n", formatMessage(error).c_str());
+    return exitCode(error);
+}
+
+void printWarning(const Arguments& arguments, std::string detail)
+{
+    const Error warning{Issue::degraded, arguments.input, "", std::move(detail)};
     std::fprintf(stderr, "%s\n", formatMessage(warning).c_str());
+}
+
+void printWarnings(const Arguments& arguments, std::span<const clusters::MeshStatistics> meshes)
+{
+    uint64_t stuck_groups = 0;
+    for (const clusters::MeshStatistics& mesh : meshes)
+    {
+        stuck_groups += mesh.counts.stuck_groups;
+        for (const clusters::TargetStatistics& target : mesh.targets)
+            if (!target.met())
+                printWarning(arguments,
+                             fmt::format("mesh {} '{}' has no {} triangles at level {}, but {}", mesh.index,
+                                         mesh.name, target.wanted, target.level,
+                                         target.triangles ? std::to_string(*target.triangles)
+                                                          : fmt::format("{} levels", mesh.levels.size())));
+    }
+    for (const clusters::MeshStatistics& mesh : meshes)
+        for (size_t i = 0; i < mesh.authored_levels.size(); ++i)
+            if (mesh.authored_levels[i] == formats::kNone)
+                printWarning(arguments,
+                             fmt::format("authored level {} of mesh {} '{}' is left out: it has not fewer "
+                                         "triangles than what it would replace, or none",
+                                         i + 1, mesh.index, mesh.name));
+    if (stuck_groups != 0)
+        printWarning(arguments,
+                     std::to_string(stuck_groups) +
+                         " groups of clusters cannot be simplified further and are drawn at any distance");
+}
+
+/// Errors: usage where the options ask for what the part does not have.
+Status checkArguments(const Arguments& arguments, const formats::ContainerReader& part)
+{
+    if (arguments.debug_output.empty())
+        return success();
+    if (!clusters::isDebugMeshPath(arguments.debug_output))
+        return Error{Issue::usage, arguments.debug_output, "", "--debug-output must end in .ply or .obj"};
+    if (const uint32_t count = clusters::meshCount(part); arguments.debug_mesh >= count)
+        return Error{Issue::usage, arguments.input, "",
+                     "there is no mesh " + std::to_string(arguments.debug_mesh) + ": the source has " +
+                         std::to_string(count)};
+    return success();
+}
+
+Status writeStatistics(const Arguments& arguments, std::span<const clusters::MeshStatistics> meshes)
+{
+    const std::string source = arguments.input.substr(arguments.input.rfind('/') + 1); // npos + 1 is 0
+    const std::string json = clusters::statisticsJson(source, meshes);
+    if (arguments.statistics == "-")
+        return std::fwrite(json.data(), 1, json.size(), stdout) == json.size() && std::fflush(stdout) == 0
+                   ? success()
+                   : Error{Issue::read_failed, "stdout", "", "cannot be written"};
+    HEARTH_ASSIGN_OR_RETURN(tools::WholeFile file, tools::WholeFile::create(arguments.statistics));
+    file.write(json);
+    return file.finish();
+}
+
+Status cook(const Arguments& arguments, const clusters::Profile& profile,
+            const formats::ContainerReader& part)
+{
+    HEARTH_TRY(checkArguments(arguments, part));
+    std::vector<std::string> materials;
+    if (!profile.materials.empty())
+    {
+        HEARTH_ASSIGN_OR_RETURN(materials, clusters::materialNames(part));
+    }
+    const auto configure = [&](const std::string& name)
+    {
+        clusters::Config config;
+        config.reduction = clusters::reductionOf(profile, name, materials);
+        return config;
+    };
+    std::vector<clusters::MeshStatistics> meshes;
+    auto start = std::chrono::steady_clock::now();
+    const auto observe = [&](uint32_t index, const std::string& name, const clusters::Config& config,
+                             const clusters::Hierarchy& hierarchy) -> Status
+    {
+        meshes.push_back(clusters::statisticsOf(hierarchy, config, index, name));
+        if (arguments.statistics_with_times)
+            meshes.back().seconds =
+                std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+        if (!arguments.debug_output.empty() && index == arguments.debug_mesh)
+            HEARTH_TRY(clusters::writeDebugMesh(hierarchy, arguments.debug_level, arguments.debug_output));
+        start = std::chrono::steady_clock::now();
+        return success();
+    };
+    HEARTH_TRY(clusters::writeClustersPart(part, arguments.output, configure, observe));
+    printWarnings(arguments, meshes);
+    return arguments.statistics.empty() ? success() : writeStatistics(arguments, meshes);
+}
+
+Result<clusters::Profile> profileOf(const Arguments& arguments)
+{
+    return arguments.profile.empty() ? clusters::Profile{} : clusters::readProfile(arguments.profile);
 }
 
 int run(const Arguments& arguments)
@@ -39,29 +147,45 @@ int run(const Arguments& arguments)
     if (arguments.jobs > 0)
         limit = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism,
                                                       arguments.jobs);
-    clusters::BuildCounts counts;
-    const Status written = clusters::writeClustersPart(arguments.input, arguments.output, {}, counts);
-    if (!written)
-    {
-        std::fprintf(stderr, "%s\n", formatMessage(written.error()).c_str());
-        return exitCode(written.error());
-    }
-    printWarnings(arguments, counts);
-    return 0;
+    const Result<clusters::Profile> profile = profileOf(arguments);
+    if (!profile.ok())
+        return fail(profile.error());
+    const clusters::SourcePart source = clusters::openSourcePart(arguments.input, arguments.output);
+    if (!source.part)
+        return source.exit_code;
+    const Status status = cook(arguments, *profile, *source.part);
+    return status.ok() ? 0 : fail(status.error());
 }
 
 int program(int argc, char** argv)
 {
-    CLI::App app(
-        "Builds the cluster hierarchy of every mesh of an import part and writes the clusters part.");
+    CLI::App app("Builds the cluster hierarchy of every mesh and writes the clusters part.");
     Arguments arguments;
-    app.add_option("part", arguments.input, "import part")->required();
+    app.add_option("source", arguments.input, "import part, or any source that hearth-import reads")
+        ->required();
     app.add_option("-o,--output", arguments.output, "clusters part to write")->required();
     app.add_option("-j,--jobs", arguments.jobs, "threads to use; the result does not depend on it");
+    app.add_option("--profile", arguments.profile,
+                   "TOML file that says how far each level is simplified; see cook/clusters/README.md");
+    auto* statistics = app.add_option("--stats", arguments.statistics,
+                                      "write what became of each mesh as JSON; - is standard output");
+    app.add_flag("--stats-times", arguments.statistics_with_times,
+                 "add the seconds that each mesh took, which differ from run to run")
+        ->needs(statistics);
+    auto* debug = app.add_option("--debug-output", arguments.debug_output,
+                                 "write the clusters of one level as .ply (coloured) or .obj (grouped)");
+    app.add_option("--debug-mesh", arguments.debug_mesh, "index of the mesh")
+        ->needs(debug)
+        ->capture_default_str();
+    app.add_option("--debug-level", arguments.debug_level, "its level; 0 is the source")
+        ->needs(debug)
+        ->capture_default_str();
     app.footer(
-        "Example: hearth-clusters scene.import.part -o scene.clusters.part\n"
+        "Examples:\n"
+        "  hearth-clusters scene.import.part -o scene.clusters.part\n"
+        "  hearth-clusters rock.glb -o rock.part --stats - --debug-level 3 --debug-output rock3.ply\n"
         "Exit codes: 0 done, 2 usage, 65 malformed input, 66 input missing, 70 internal, 73 cannot write, "
-        "74 I/O");
+        "74 I/O, 130 interrupted");
     try
     {
         app.parse(argc, argv);

@@ -1,4 +1,4 @@
-// How far a simplified group lies from what it was, as a bound. See README.md, "Error".
+// How far a simplified group lies from the source, as a bound. See README.md, "Error".
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -6,23 +6,22 @@
 #include "cook/clusters/simplify.h"
 
 #include <cstdint>
+#include <vector>
 
 namespace hearth::clusters
 {
 
 struct Deviation
 {
-    double distance = 0;       ///< in units of the group's mesh
+    /// For each triangle of the simplified group, in units of the group's mesh: no point of it is farther from the
+    /// source, and no point of the source for which it stands is farther from it.
+    std::vector<float> errors;
     uint64_t loose_pieces = 0; ///< pieces whose bound was taken before the search for a better one ended
 };
 
-/// An upper bound of the two-sided distance between the surfaces: every point of the group's triangles has a point of
-/// the simplified ones within it, and the other way round.
-///
-/// The largest distance of a triangle to one other triangle is at a corner, because the distance to a convex set is
-/// convex. Triangles that lie across several others are cut where the nearest one changes until the pieces' bounds
-/// are good enough: when the error that the distance is added to, `carried`, and the distance together are within 10 %
-/// of what they are for sure.
-Deviation boundDeviation(const GroupMesh& group, const Simplified& simplified, double carried);
+/// Carry the errors of the group's triangles on to those that replace them: a triangle's error is the largest, over the
+/// triangles beside it on the other surface, of their error and the distance between the two, both ways. The largest of
+/// all is searched for until 10 % more are certain; smaller ones may be looser.
+Deviation boundDeviation(const GroupMesh& group, const Simplified& simplified);
 
 } // namespace hearth::clusters

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/clusters/group_mesh.h"
 
+#include "cook/clusters/bounds.h"
+#include "cook/clusters/set_hash.h"
+
 #include <bit>
 #include <cmath>
 #include <utility>
@@ -83,6 +86,8 @@ std::vector<uint32_t> gatherTriangles(GroupMesh& group, const PreparedMesh& mesh
         for (const uint8_t index : store.indicesOf(shape))
             group.corners.push_back(wedge_of_local[index]);
         group.materials.insert(group.materials.end(), shape.triangle_count, shape.material);
+        const auto errors = store.errorsOf(shape);
+        group.errors.insert(group.errors.end(), errors.begin(), errors.end());
     }
     return material_of_wedge;
 }
@@ -184,7 +189,22 @@ GroupMesh gatherGroup(const PreparedMesh& mesh, const ClusterStore& store, std::
     nameCharts(group, mesh.vertices, material_of_wedge);
     placePositions(group, mesh.vertices.positions);
     gatherAttributes(group, mesh.vertices, config);
+    for (float& error : group.errors)
+        error = roundUp(error / group.scale);
     return group;
+}
+
+std::vector<uint8_t> openPositions(const GroupMesh& group)
+{
+    std::vector<uint64_t> difference(group.positions.size(), 0);
+    for (size_t t = 0; t < group.corners.size(); t += 3)
+        for (size_t k = 0; k < 3; ++k)
+            difference[group.positionAt(t + k)] +=
+                hashOf(group.positionAt(t + (k + 1) % 3)) - hashOf(group.positionAt(t + (k + 2) % 3));
+    std::vector<uint8_t> open(difference.size());
+    for (size_t p = 0; p < open.size(); ++p)
+        open[p] = difference[p] != 0 ? 1 : 0;
+    return open;
 }
 
 } // namespace hearth::clusters

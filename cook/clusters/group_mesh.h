@@ -30,6 +30,7 @@ struct GroupMesh
     std::vector<uint32_t> materials;         ///< for each triangle
     double grid_step = 0;                    ///< object space
     AttributeWeights weights;
+    std::vector<float> errors;     ///< for each triangle: its distance from the source, local
     uint32_t attribute_rows = 0;   ///< rows of four attributes that a wedge has
     std::vector<Lanes> attributes; ///< rows of each wedge, weighted: differences are local lengths
 
@@ -51,5 +52,9 @@ struct WedgeMove
 /// Collect the clusters of a group.
 GroupMesh gatherGroup(const PreparedMesh& mesh, const ClusterStore& store, std::span<const uint32_t> members,
                       std::span<const uint8_t> locked, const Config& config);
+
+/// For each position, 1 where the triangles do not close around it. Collapses keep it so: borders only shorten along
+/// themselves.
+std::vector<uint8_t> openPositions(const GroupMesh& group);
 
 } // namespace hearth::clusters

@@ -2,10 +2,12 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
+#include "cook/clusters/reduction.h"
 #include "cook/mesh/source_mesh.h"
 #include "formats/mesh.h"
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace hearth::clusters
@@ -18,12 +20,8 @@ struct Config
     uint32_t group_target_clusters = 16;
     uint32_t group_max_clusters = 24;
 
-    /// Triangles that a group keeps, as part of what it has.
-    float simplify_ratio = 0.5f;
-
-    /// A group that keeps more than this part of its triangles is stuck: halving it again would cost more memory
-    /// than it saves drawing.
-    float stuck_ratio = 0.85f;
+    /// How far each level is simplified, and how much its error counts.
+    Reduction reduction;
 
     /// How often a stuck group passes unchanged to the next level, to be tried with other neighbours, before it
     /// stays as a root. Each time costs a copy of its geometry.
@@ -31,7 +29,7 @@ struct Config
 
     /// Weight of attribute errors against position errors, as lengths in units of the group's radius. That of normals
     /// is where distance and normals need as many triangles as clusterlod's at the same cuts (`./dev bench clusters`).
-    float normal_weight = 0.05f;
+    float normal_weight = 0.04f;
     float uv_weight = 0.25f;
     float color_weight = 0.25f;
 
@@ -48,6 +46,7 @@ struct BuildCounts
 {
     uint64_t permissive_groups = 0; ///< groups that had to let attributes jump across seams
     uint64_t pruned_groups = 0;     ///< groups that lost whole islands
+    uint64_t merged_groups = 0;     ///< groups whose positions were merged by cells
     uint64_t retried_groups = 0;    ///< groups that passed unchanged to the next level
     uint64_t stuck_groups = 0;      ///< roots besides the one that ends the hierarchy
     uint64_t loose_pieces = 0; ///< pieces of triangles whose distance was bounded without closing the search
@@ -64,6 +63,8 @@ struct Hierarchy
     std::vector<formats::PageRecord> pages;
     std::vector<uint32_t> page_parents;
     std::vector<std::byte> page_bytes; ///< the stored pages, each at a multiple of 64
+    std::vector<uint32_t>
+        authored_levels; ///< for each authored mesh, the level that it is; kNone: it was left out
     BuildCounts counts;
 };
 
@@ -74,5 +75,10 @@ struct Hierarchy
 ///          move to the grid (mesh/grid.h)
 /// returns  a hierarchy that validateHierarchy accepts; without clusters if no triangle has an area
 Hierarchy buildHierarchy(mesh::SourceMesh source, const Config& config = {});
+
+/// The same, with levels that were made by hand, finest first, in the source's object space: each is used from where
+/// the levels that were generated would have fewer triangles. The whole mesh switches to it at once.
+Hierarchy buildHierarchy(mesh::SourceMesh source, std::span<const mesh::SourceMesh> authored,
+                         const Config& config);
 
 } // namespace hearth::clusters

@@ -27,6 +27,9 @@ constexpr float kMargin = 1e-5f;
 // Triangles flatter than this (their determinant against the squares of their edges) have no useful plane.
 constexpr float kFlattest = 1e-4f;
 
+// Facets whose area, as the triangle sees it, is below 1e-4 of their edges' product stand upright.
+constexpr float kSteepest = 1e-4f / (kMargin * kMargin);
+
 using Eight = float __attribute__((vector_size(kEight * sizeof(float))));
 using EightMask = int32_t __attribute__((vector_size(kEight * sizeof(int32_t))));
 
@@ -82,13 +85,13 @@ HEARTH_INLINE Seen see(Eight x, Eight y, Eight z, const View& view)
 /// Collects heights, and what forbids to trust them.
 struct Finding
 {
-    Eight height{};
+    Eight height = Eight{} - 1.0f; ///< around one center; negative: it has nothing over the triangle
     EightMask failed{};
     EightMask covered[3]{};
 
     HEARTH_INLINE void add(EightMask mask, Eight h)
     {
-        height = greater(height, mask ? greater(h, -h) : Eight{});
+        height = greater(height, mask ? greater(h, -h) : Eight{} - 1.0f);
     }
 };
 
@@ -97,9 +100,11 @@ HEARTH_INLINE EightMask isOver(const Seen& p, float margin)
     return lesser(lesser(p.u, p.v), p.w) > margin;
 }
 
-HEARTH_INLINE EightMask areBeyond(Eight a, Eight b, Eight c)
+/// Whether facets lie beyond one of the triangle's edges.
+HEARTH_INLINE EightMask areBeside(const Seen& a, const Seen& b, const Seen& c, float margin)
 {
-    return greater(greater(a, b), c) < -kMargin;
+    const auto beyond = [&](Eight x, Eight y, Eight z) { return greater(greater(x, y), z) < margin; };
+    return beyond(a.u, b.u, c.u) | beyond(a.v, b.v, c.v) | beyond(a.w, b.w, c.w);
 }
 
 /// Where the edges a, b cross the edge of the triangle on which the coordinate `s` is 0 and `r` is that along the edge.
@@ -114,7 +119,7 @@ HEARTH_INLINE Crossing cross(Eight sa, Eight sb, Eight ra, Eight rb)
     const EightMask apart = ((sa > kMargin) & (sb < -kMargin)) | ((sa < -kMargin) & (sb > kMargin));
     const Eight t = sa / (sa - sb);
     const Eight r = ra + t * (rb - ra);
-    return {apart & (r > -kMargin) & (r < 1 + kMargin), t};
+    return {apart & (r > kMargin) & (r < 1 - kMargin), t};
 }
 
 /// Edges from a to b: where they cross those of the triangle.
@@ -126,39 +131,50 @@ HEARTH_INLINE void addCrossings(const Seen& a, const Seen& b, Finding& finding)
     add(cross(a.w, b.w, a.u, b.u));
 }
 
+/// Twice the signed areas that a line from a to b has with the triangle's corners.
+struct Sides
+{
+    Eight at[3];
+    Eight margin;
+
+    HEARTH_INLINE Eight least() const { return lesser(lesser(at[0], at[1]), at[2]); }
+    HEARTH_INLINE Eight most() const { return greater(greater(at[0], at[1]), at[2]); }
+};
+
+HEARTH_INLINE Sides sidesOf(const Seen& a, const Seen& b)
+{
+    const Eight du = b.u - a.u, dv = b.v - a.v;
+    const Eight at_0 = dv * a.u - du * a.v;
+    return {{at_0, at_0 - dv, at_0 + du}, kMargin * (greater(du, -du) + greater(dv, -dv))};
+}
+
 /// Edges from a to b that must not come over the triangle: each has to lie beyond one of the triangle's edges, or to
 /// have all of the triangle on one side.
-HEARTH_INLINE void addRim(const Seen& a, const Seen& b, EightMask rim, Finding& finding)
+HEARTH_INLINE void addRim(const Seen& a, const Seen& b, const Sides& sides, EightMask rim, Finding& finding)
 {
     const EightMask beyond =
         (greater(a.u, b.u) < kMargin) | (greater(a.v, b.v) < kMargin) | (greater(a.w, b.w) < kMargin);
-    const Eight du = b.u - a.u, dv = b.v - a.v;
-    const Eight at_0 = dv * a.u - du * a.v, at_1 = at_0 - dv, at_2 = at_0 + du;
-    const Eight margin = kMargin * (greater(du, -du) + greater(dv, -dv));
-    const EightMask aside =
-        (lesser(lesser(at_0, at_1), at_2) > -margin) | (greater(greater(at_0, at_1), at_2) < margin);
-    finding.failed |= rim & ~(beyond | aside);
+    finding.failed |= rim & ~(beyond | (sides.least() > -sides.margin) | (sides.most() < sides.margin));
 }
 
-/// The triangle's corners, at (0, 0), (1, 0) and (0, 1), over facets of twice the area `area2`.
-HEARTH_INLINE void addOwnCorners(const Seen& a, const Seen& b, const Seen& c, Eight area2, EightMask usable,
-                                 Finding& finding)
+/// The triangle's corners over facets a, b, c. `of` are the sides of the edges opposite them.
+HEARTH_INLINE void addOwnCorners(const Seen& a, const Seen& b, const Seen& c, const Sides (&of)[3],
+                                 Eight area2, EightMask overlapping, Finding& finding)
 {
-    // signed areas against each edge, at the first corner and how they change towards the others
-    const Eight of_a = b.u * c.v - b.v * c.u, of_b = c.u * a.v - c.v * a.u, of_c = a.u * b.v - a.v * b.u;
-    const Eight a_u = b.v - c.v, b_u = c.v - a.v, c_u = a.v - b.v;
-    const Eight a_v = c.u - b.u, b_v = a.u - c.u, c_v = b.u - a.u;
-    const Eight least_area = -kMargin * area2;
     const Eight inverse = 1.0f / area2;
-    const auto addAt = [&](size_t corner, Eight at_a, Eight at_b, Eight at_c)
+    for (size_t k = 0; k < 3; ++k)
     {
-        const EightMask inside = usable & (lesser(lesser(at_a, at_b), at_c) > least_area);
-        finding.add(inside, (at_a * a.h + at_b * b.h + at_c * c.h) * inverse);
-        finding.covered[corner] |= inside;
-    };
-    addAt(0, of_a, of_b, of_c);
-    addAt(1, of_a + a_u, of_b + b_u, of_c + c_u);
-    addAt(2, of_a + a_v, of_b + b_v, of_c + c_v);
+        const EightMask inside = overlapping & (of[0].at[k] > -of[0].margin) & (of[1].at[k] > -of[1].margin) &
+                                 (of[2].at[k] > -of[2].margin);
+        finding.add(inside, (of[0].at[k] * a.h + of[1].at[k] * b.h + of[2].at[k] * c.h) * inverse);
+        finding.covered[k] |= inside;
+    }
+}
+
+/// Whether a line parts facets that turn over, or stand upright (twice their area is `area2`), from the triangle.
+HEARTH_INLINE EightMask areAside(const Sides& of, Eight area2)
+{
+    return (of.least() > -of.margin) | ((of.most() < of.margin) & (area2 > -of.margin));
 }
 
 /// The edges opposite the center that are on the rim: neither end is a center, or both are open.
@@ -179,49 +195,56 @@ HEARTH_INLINE void addBlock(const StarBlock& block, const Seen& center, bool cen
     const Seen next = see(load(block.next[0]), load(block.next[1]), load(block.next[2]), view);
     const Seen previous =
         see(load(block.previous[0]), load(block.previous[1]), load(block.previous[2]), view);
-    const EightMask beside = areBeyond(center.u, next.u, previous.u) |
-                             areBeyond(center.v, next.v, previous.v) |
-                             areBeyond(center.w, next.w, previous.w);
+    const EightMask beside = areBeside(center, next, previous, -kMargin);
     if (!anySet(~beside))
         return;
     const EightMask next_name = load(block.next_name), previous_name = load(block.previous_name);
     const Eight area2 =
         (next.u - center.u) * (previous.v - center.v) - (next.v - center.v) * (previous.u - center.u);
-    const EightMask upward = area2 > 0.0f;
-    finding.failed |= ~(upward | beside);
+    const Sides of[3]{sidesOf(next, previous), sidesOf(previous, center), sidesOf(center, next)};
+    const EightMask upward = area2 > kSteepest * of[1].margin * of[2].margin;
+    // facets that only touch the triangle are not over it: walls that stand on its edges, and what is below them
+    const EightMask touching = areBeside(center, next, previous, kMargin);
+    const EightMask overlapping = upward & ~touching & (of[0].most() > of[0].margin) &
+                                  (of[1].most() > of[1].margin) & (of[2].most() > of[2].margin);
+    if (const EightMask others = ~(upward | touching); anySet(others))
+        finding.failed |=
+            others & ~(areAside(of[0], area2) | areAside(of[1], area2) | areAside(of[2], area2));
     addCrossings(center, next, finding);
     if (center_open)
     {
-        addRim(center, next, next_name < 0, finding);
-        addRim(center, previous, previous_name < 0, finding);
+        addRim(center, next, of[2], next_name < 0, finding);
+        addRim(previous, center, of[1], previous_name < 0, finding);
         addCrossings(center, previous, finding);
     }
-    addRim(next, previous, rimOf(next_name, previous_name, centers), finding);
-    finding.add(isOver(next, -kMargin), next.h);
-    finding.add(isOver(previous, -kMargin), previous.h);
-    addOwnCorners(center, next, previous, area2, upward, finding);
+    addRim(next, previous, of[0], rimOf(next_name, previous_name, centers), finding);
+    for (const Seen& corner : {center, next, previous})
+        finding.add(overlapping & isOver(corner, -kMargin), corner.h);
+    addOwnCorners(center, next, previous, of, area2, overlapping, finding);
 }
 
 /// The greatest height where corners or edges of triangle and patch meet, or infinity.
 HEARTH_EIGHT_LANES float greatestHeight(const Surface& surface, const StarBlocks& blocks,
-                                        std::span<const uint8_t> open, std::span<const uint32_t> centers,
-                                        const View& view)
+                                        std::span<const uint8_t> open, std::span<const float> added,
+                                        std::span<const uint32_t> centers, const View& view)
 {
     Finding finding;
+    Eight sums{};
     for (const uint32_t position : centers)
     {
         const Float3 place = surface.place_of_position[position];
         const Seen center = see(allEight(place.x), allEight(place.y), allEight(place.z), view);
-        finding.add(isOver(center, -kMargin), center.h);
         for (const StarBlock& block : blocks.of(position))
             addBlock(block, center, open[position] != 0, centers, view, finding);
+        sums = greater(sums, finding.height < 0.0f ? Eight{} : finding.height + added[position]);
+        finding.height = Eight{} - 1.0f;
     }
     if (anySet(finding.failed) || !anySet(finding.covered[0]) || !anySet(finding.covered[1]) ||
         !anySet(finding.covered[2]))
         return kInfinity;
     float greatest = 0;
     for (size_t lane = 0; lane < kEight; ++lane)
-        greatest = std::max(greatest, finding.height[lane]);
+        greatest = std::max(greatest, sums[lane]);
     return greatest;
 }
 
@@ -256,7 +279,7 @@ float Overlay::heightOver(const Corners& triangle) const
     View view;
     if (!makeView(triangle, view))
         return kInfinity;
-    return greatestHeight(surface_, blocks_, open_, centers_, view) + 4 * kMargin * view.size;
+    return greatestHeight(surface_, blocks_, open_, added_, centers_, view) + 4 * kMargin * view.size;
 }
 
 } // namespace hearth::clusters

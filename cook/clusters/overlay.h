@@ -17,9 +17,10 @@ namespace hearth::clusters
 class Overlay
 {
 public:
-    /// open  for each position: whether the facets do not close around it
-    Overlay(const Surface& surface, std::span<const uint8_t> open)
-        : surface_(surface), open_(open), blocks_(surface, open)
+    /// open   for each position: whether the facets do not close around it
+    /// added  for each position, what is added to the heights of the facets around it
+    Overlay(const Surface& surface, std::span<const uint8_t> open, std::vector<float> added)
+        : surface_(surface), open_(open), added_(std::move(added)), blocks_(surface, open)
     {
     }
 
@@ -27,7 +28,7 @@ public:
     void clear() { centers_.clear(); }
     void addCenter(uint32_t position);
 
-    /// An upper bound of the distance of any point of the triangle to the patch; infinity where the patch does not
+    /// An upper bound of the distance of any point of the triangle to the patch, and what is added there; infinity where the patch does not
     /// lie over the whole triangle, or turns over there.
     ///
     /// Seen along the triangle's normal both are maps of linear pieces, so that their distance is greatest at a corner
@@ -38,6 +39,7 @@ public:
 private:
     const Surface& surface_;
     std::span<const uint8_t> open_;
+    std::vector<float> added_;
     StarBlocks blocks_;
     std::vector<uint32_t> centers_;
 };

@@ -36,6 +36,23 @@ std::optional<Float3> solve(const PositionQuadric& q)
     return Float3{static_cast<float>(x), static_cast<float>(y), static_cast<float>(z)};
 }
 
+/// In object space, on the grid.
+Float3 objectPlace(const GroupMesh& group, Float3 local)
+{
+    Float3 place;
+    for (int axis = 0; axis < 3; ++axis)
+        place[axis] = mesh::snap(group.center[axis] + group.scale * local[axis], group.grid_step);
+    return place;
+}
+
+Float3 localPlace(const GroupMesh& group, Float3 object)
+{
+    Float3 place;
+    for (int axis = 0; axis < 3; ++axis)
+        place[axis] = static_cast<float>((object[axis] - group.center[axis]) / group.scale);
+    return place;
+}
+
 class Placer
 {
 public:
@@ -73,11 +90,11 @@ private:
         const float longest = longestEdge(position);
         if (!(dot(offset, offset) <= kFarthest * kFarthest * longest * longest))
             offset = {};
-        result_.object_places[position] = objectPlace(group_.positions[position]);
+        result_.object_places[position] = objectPlace(group_, group_.positions[position]);
         for (int halvings = 0; halvings <= kMaxHalvings; ++halvings, offset = offset * 0.5f)
         {
-            const Float3 object_place = objectPlace(group_.positions[position] + offset);
-            const Float3 place = localPlace(object_place);
+            const Float3 object_place = objectPlace(group_, group_.positions[position] + offset);
+            const Float3 place = localPlace(group_, object_place);
             if (turnsOver(position, place))
                 continue;
             result_.places[position] = place;
@@ -132,23 +149,6 @@ private:
         }
     }
 
-    /// On the grid.
-    Float3 objectPlace(Float3 local) const
-    {
-        Float3 place;
-        for (int axis = 0; axis < 3; ++axis)
-            place[axis] = mesh::snap(group_.center[axis] + group_.scale * local[axis], group_.grid_step);
-        return place;
-    }
-
-    Float3 localPlace(Float3 object) const
-    {
-        Float3 place;
-        for (int axis = 0; axis < 3; ++axis)
-            place[axis] = static_cast<float>((object[axis] - group_.center[axis]) / group_.scale);
-        return place;
-    }
-
     bool turnsOver(uint32_t position, Float3 place) const
     {
         for (const Corner corner : mesh_.star(position))
@@ -171,6 +171,19 @@ Placement placeOptimally(const GroupMesh& group, StarMesh& mesh, const Quadrics&
                          std::span<const uint8_t> movable)
 {
     return Placer(group, mesh, quadrics).run(movable);
+}
+
+void growIslands(const GroupMesh& group, const Growth& growth, Placement& placement)
+{
+    for (size_t i = 0; i < growth.positions.size(); ++i)
+    {
+        const uint32_t position = growth.positions[i];
+        const Float3 center = growth.centers[i];
+        placement.object_places[position] =
+            objectPlace(group, center + (placement.places[position] - center) * growth.factor);
+        placement.places[position] = localPlace(group, placement.object_places[position]);
+        placement.remade[position] = 1;
+    }
 }
 
 } // namespace hearth::clusters

@@ -6,6 +6,7 @@
 #include "cook/clusters/group_mesh.h"
 #include "cook/clusters/quadric.h"
 #include "cook/clusters/star_mesh.h"
+#include "cook/clusters/thinning.h"
 
 #include <cstdint>
 #include <span>
@@ -27,5 +28,8 @@ struct Placement
 /// attributes that are best there; positions whose triangles would turn over go half as far, or stay.
 Placement placeOptimally(const GroupMesh& group, StarMesh& mesh, const Quadrics& quadrics,
                          std::span<const uint8_t> movable);
+
+/// Move the positions of islands away from the islands' middles.
+void growIslands(const GroupMesh& group, const Growth& growth, Placement& placement);
 
 } // namespace hearth::clusters

@@ -18,6 +18,7 @@ void ClusterStore::append(const ClusterStore& other)
     }
     vertices.insert(vertices.end(), other.vertices.begin(), other.vertices.end());
     indices.insert(indices.end(), other.indices.begin(), other.indices.end());
+    errors.insert(errors.end(), other.errors.begin(), other.errors.end());
 }
 
 void ClusterStore::appendCluster(const ClusterStore& other, const ClusterShape& shape)
@@ -28,8 +29,10 @@ void ClusterStore::appendCluster(const ClusterStore& other, const ClusterShape& 
     shapes.push_back(copy);
     const auto shape_vertices = other.verticesOf(shape);
     const auto shape_indices = other.indicesOf(shape);
+    const auto shape_errors = other.errorsOf(shape);
     vertices.insert(vertices.end(), shape_vertices.begin(), shape_vertices.end());
     indices.insert(indices.end(), shape_indices.begin(), shape_indices.end());
+    errors.insert(errors.end(), shape_errors.begin(), shape_errors.end());
 }
 
 namespace

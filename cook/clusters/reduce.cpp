@@ -2,6 +2,7 @@
 #include "cook/clusters/reduce.h"
 
 #include "cook/clusters/bounds.h"
+#include "cook/clusters/cell_merge.h"
 #include "cook/clusters/deviation.h"
 #include "cook/clusters/group_mesh.h"
 #include "cook/clusters/islands.h"
@@ -9,8 +10,6 @@
 #include "cook/clusters/split.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <utility>
 
 namespace hearth::clusters
@@ -18,16 +17,6 @@ namespace hearth::clusters
 
 namespace
 {
-
-using formats::kClusterMaxTriangles;
-
-/// Half of the triangles, as full clusters where that is at least one.
-size_t targetTriangles(size_t triangle_count, const Config& config)
-{
-    const auto part = static_cast<size_t>(static_cast<float>(triangle_count) * config.simplify_ratio);
-    return std::max<size_t>(
-        1, part >= kClusterMaxTriangles ? part / kClusterMaxTriangles * kClusterMaxTriangles : part);
-}
 
 /// The vertex of each wedge that is left; those of remade positions are made.
 std::vector<uint32_t> makeVertices(const PreparedMesh& mesh, const GroupMesh& group,
@@ -58,7 +47,7 @@ std::vector<uint32_t> makeVertices(const PreparedMesh& mesh, const GroupMesh& gr
 
 /// Cut what is left into clusters, material by material in order of their numbers.
 ClusterStore splitSimplified(const GroupMesh& group, const Simplified& simplified,
-                             std::span<const uint32_t> vertex_of_wedge)
+                             std::span<const uint32_t> vertex_of_wedge, std::span<const float> errors)
 {
     const size_t count = simplified.triangleCount();
     std::vector<uint32_t> vertices(count * 3);
@@ -86,7 +75,7 @@ ClusterStore splitSimplified(const GroupMesh& group, const Simplified& simplifie
         size_t last = first;
         while (last < count && materials[items[last].triangle] == material)
             ++last;
-        splitIntoClusters(std::span(items).subspan(first, last - first), vertices, material, out);
+        splitIntoClusters(std::span(items).subspan(first, last - first), {vertices, errors, material}, out);
         first = last;
     }
     return out;
@@ -95,24 +84,36 @@ ClusterStore splitSimplified(const GroupMesh& group, const Simplified& simplifie
 } // namespace
 
 Reduced reduceGroup(const PreparedMesh& mesh, const ClusterStore& store, std::span<const uint32_t> members,
-                    std::span<const uint8_t> locked, float members_error, const Config& config)
+                    std::span<const uint8_t> locked, const GroupGoal& goal, const Config& config)
 {
     Reduced reduced;
     const GroupMesh group = gatherGroup(mesh, store, members, locked, config);
-    const Simplified simplified = simplifyGroup(group, targetTriangles(group.triangleCount(), config));
+    Simplified simplified = simplifyGroup(group, goal.triangles);
+    const auto stuck = [&]
+    {
+        return static_cast<float>(simplified.triangleCount()) >
+               goal.stuck_ratio * static_cast<float>(group.triangleCount());
+    };
+    if (stuck())
+    {
+        mergeByCells(group, goal.triangles, simplified);
+        simplified.merged = true;
+    }
+    if (stuck())
+        return reduced;
     reduced.permissive = simplified.permissive;
     reduced.pruned = simplified.pruned;
-    if (static_cast<float>(simplified.triangleCount()) >
-        config.stuck_ratio * static_cast<float>(group.triangleCount()))
-        return reduced;
-    reduced.clusters = splitSimplified(group, simplified, makeVertices(mesh, group, simplified, reduced));
-    if (reduced.clusters.shapes.size() >= members.size())
-        return reduced;
-    const Deviation deviation = boundDeviation(group, simplified, double{members_error} / group.scale);
+    reduced.merged = simplified.merged;
+    Deviation deviation = boundDeviation(group, simplified);
     reduced.loose_pieces = deviation.loose_pieces;
-    reduced.error = roundUp((members_error + deviation.distance * group.scale) * kMonotoneSlack);
-    // an error beyond the floats cannot be stored: what it belongs to is a root
-    reduced.progressed = reduced.error < std::numeric_limits<float>::max();
+    for (float& error : deviation.errors)
+    {
+        error = roundUp(error * group.scale);
+        reduced.distance = std::max(reduced.distance, error);
+    }
+    reduced.clusters =
+        splitSimplified(group, simplified, makeVertices(mesh, group, simplified, reduced), deviation.errors);
+    reduced.progressed = goal.exact || reduced.clusters.shapes.size() < members.size();
     return reduced;
 }
 

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/clusters/simplify.h"
 
-#include "cook/clusters/islands.h"
 #include "cook/clusters/quadric.h"
 #include "cook/clusters/star_mesh.h"
+#include "cook/clusters/thinning.h"
 #include "cook/clusters/turning.h"
 #include "formats/assert.h"
 
@@ -135,6 +135,7 @@ private:
     std::vector<uint8_t> wedge_blocked_; ///< 1 where wedges without a way ruled out a collapse
     std::vector<uint8_t> grown_;         ///< 1 for positions that others went to
     std::vector<HeapEntry> heap_;
+    Growth growth_;
     bool permissive_ = false;
     bool plain_ = false; ///< a fan is gathered, else a ring
 
@@ -472,55 +473,11 @@ void Collapser::step()
     evaluateAround(entry.position, entry.target);
 }
 
-struct Island
-{
-    Box3 box;
-    bool locked = false;
-    std::vector<uint32_t> triangles;
-};
-
-/// Remove whole islands that touch no locked position, the smallest first. Keeps at least one triangle.
 bool Collapser::pruneIslands(size_t target_triangles)
 {
-    std::vector<uint32_t> triangles;
-    std::vector<uint32_t> positions;
-    for (uint32_t t = 0; t < mesh_.triangleLimit(); ++t)
-        if (mesh_.alive(t))
-        {
-            triangles.push_back(t);
-            for (const Corner corner : StarMesh::cornersOf(t))
-                positions.push_back(mesh_.positionAt(corner));
-        }
-    const std::vector<uint32_t> island_of = islandOfTriangles(positions, group_.positions.size());
-    std::vector<Island> islands(group_.positions.size());
-    for (size_t i = 0; i < triangles.size(); ++i)
-    {
-        Island& island = islands[island_of[i]];
-        island.triangles.push_back(triangles[i]);
-        for (size_t k = 0; k < 3; ++k)
-        {
-            island.box.add(group_.positions[positions[i * 3 + k]]);
-            island.locked |= group_.locked[positions[i * 3 + k]] != 0;
-        }
-    }
-    std::erase_if(islands, [](const Island& island) { return island.triangles.empty() || island.locked; });
-    std::stable_sort(islands.begin(), islands.end(),
-                     [](const Island& a, const Island& b)
-                     { return length(a.box.max - a.box.min) < length(b.box.max - b.box.min); });
-    bool pruned = false;
-    for (const Island& island : islands)
-    {
-        if (mesh_.aliveCount() <= target_triangles || mesh_.aliveCount() == island.triangles.size())
-            break;
-        for (const uint32_t t : island.triangles)
-        {
-            for (const Corner corner : StarMesh::cornersOf(t))
-                target_[mesh_.positionAt(corner)] = kPruned;
-            mesh_.remove(t);
-        }
-        pruned = true;
-    }
-    return pruned;
+    Thinning thinning = thinIslands(group_, mesh_, target_triangles, target_);
+    growth_ = std::move(thinning.growth);
+    return thinning.pruned;
 }
 
 Simplified Collapser::result()
@@ -549,6 +506,7 @@ Simplified Collapser::result()
         if (target_[p] != p || group_.locked[p] != 0 || edges_held_[p] == 0)
             grown_[p] = 0;
     result.placement = placeOptimally(group_, mesh_, quadrics_, grown_);
+    growIslands(group_, growth_, result.placement);
     return result;
 }
 

@@ -22,6 +22,7 @@ struct Simplified
     Placement placement;                      ///< where the positions that are left lie now
     bool permissive = false;                  ///< attributes had to jump across a seam
     bool pruned = false;                      ///< whole islands are gone
+    bool merged = false;                      ///< positions were merged by cells
 
     size_t triangleCount() const { return corners.size() / 3; }
 };

@@ -77,8 +77,7 @@ private:
 };
 
 /// Append the items as one cluster; false if they have too many vertices.
-bool appendLeaf(std::span<const SplitItem> items, std::span<const uint32_t> corners, uint32_t material,
-                ClusterStore& out)
+bool appendLeaf(std::span<const SplitItem> items, const SplitTriangles& triangles, ClusterStore& out)
 {
     VertexNumbers numbers;
     std::array<uint8_t, kClusterMaxTriangles * 3> indices;
@@ -86,7 +85,7 @@ bool appendLeaf(std::span<const SplitItem> items, std::span<const uint32_t> corn
     for (const SplitItem& item : items)
         for (size_t k = 0; k < 3; ++k)
         {
-            const uint32_t number = numbers.numberOf(corners[size_t{item.triangle} * 3 + k]);
+            const uint32_t number = numbers.numberOf(triangles.corners[size_t{item.triangle} * 3 + k]);
             if (number == kClusterMaxVertices)
                 return false;
             indices[index_count++] = static_cast<uint8_t>(number);
@@ -96,10 +95,12 @@ bool appendLeaf(std::span<const SplitItem> items, std::span<const uint32_t> corn
                           .vertex_count = static_cast<uint32_t>(vertices.size()),
                           .first_index = static_cast<uint32_t>(out.indices.size()),
                           .triangle_count = static_cast<uint32_t>(items.size()),
-                          .material = material});
+                          .material = triangles.material});
     out.vertices.insert(out.vertices.end(), vertices.begin(), vertices.end());
     out.indices.insert(out.indices.end(), indices.begin(),
                        indices.begin() + static_cast<ptrdiff_t>(index_count));
+    for (const SplitItem& item : items)
+        out.errors.push_back(triangles.errors[item.triangle]);
     return true;
 }
 
@@ -287,8 +288,8 @@ size_t clusterCapacity(std::span<const SplitItem> items, std::span<const uint32_
 
 /// Cut `root` into clusters of up to `capacity` triangles, depth first without recursion. A cluster with too many
 /// vertices is halved, or ends the work with false.
-bool splitNode(std::span<SplitItem> root, size_t capacity, bool halve, std::span<const uint32_t> corners,
-               uint32_t material, ClusterStore& out)
+bool splitNode(std::span<SplitItem> root, size_t capacity, bool halve, const SplitTriangles& triangles,
+               ClusterStore& out)
 {
     std::vector<std::span<SplitItem>> stack{root};
     while (!stack.empty())
@@ -298,7 +299,7 @@ bool splitNode(std::span<SplitItem> root, size_t capacity, bool halve, std::span
         size_t part = capacity;
         if (items.size() <= capacity)
         {
-            if (appendLeaf(items, corners, material, out))
+            if (appendLeaf(items, triangles, out))
                 continue;
             if (!halve)
                 return false;
@@ -314,18 +315,18 @@ bool splitNode(std::span<SplitItem> root, size_t capacity, bool halve, std::span
 
 /// Cut a node whose clusters share vertices about evenly: into full clusters if their vertices suffice, else again
 /// into smaller ones of the size for which they do.
-void splitEvenNode(std::span<SplitItem> items, std::span<const uint32_t> corners, uint32_t material,
-                   ClusterStore& out)
+void splitEvenNode(std::span<SplitItem> items, const SplitTriangles& triangles, ClusterStore& out)
 {
     const size_t shape_count = out.shapes.size();
     const size_t vertex_count = out.vertices.size();
     const size_t index_count = out.indices.size();
-    if (splitNode(items, kClusterMaxTriangles, false, corners, material, out))
+    if (splitNode(items, kClusterMaxTriangles, false, triangles, out))
         return;
     out.shapes.resize(shape_count);
     out.vertices.resize(vertex_count);
     out.indices.resize(index_count);
-    splitNode(items, clusterCapacity(items, corners), true, corners, material, out);
+    out.errors.resize(index_count / 3);
+    splitNode(items, clusterCapacity(items, triangles.corners), true, triangles, out);
 }
 
 /// The top of the tree, a wave of nodes at a time, until they are small enough to be split one per task.
@@ -387,8 +388,7 @@ std::vector<uint32_t> orderByMaterial(const PreparedMesh& mesh)
 
 } // namespace
 
-void splitIntoClusters(std::span<SplitItem> items, std::span<const uint32_t> corners, uint32_t material,
-                       ClusterStore& out)
+void splitIntoClusters(std::span<SplitItem> items, const SplitTriangles& triangles, ClusterStore& out)
 {
     HEARTH_ASSERT(!items.empty());
     std::vector<std::span<SplitItem>> stack{items};
@@ -398,7 +398,7 @@ void splitIntoClusters(std::span<SplitItem> items, std::span<const uint32_t> cor
         stack.pop_back();
         if (node.size() <= kEvenNode)
         {
-            splitEvenNode(node, corners, material, out);
+            splitEvenNode(node, triangles, out);
             continue;
         }
         const Cut cut = bestCut(node, kClusterMaxTriangles);
@@ -412,6 +412,7 @@ ClusterStore splitMesh(const PreparedMesh& mesh)
 {
     const std::vector<uint32_t> order = orderByMaterial(mesh);
     const std::vector<Float3> centers = centersOf(mesh);
+    const std::vector<float> errors(mesh.triangleCount(), mesh.grid.error);
     std::vector<SplitItem> items(order.size());
     for (size_t i = 0; i < order.size(); ++i)
         items[i] = {centers[order[i]], order[i]};
@@ -424,9 +425,10 @@ ClusterStore splitMesh(const PreparedMesh& mesh)
         while (last < items.size() && mesh.materials[order[last]] == material)
             ++last;
         const auto nodes = splitTop(std::span(items).subspan(first, last - first));
+        const SplitTriangles triangles{mesh.corners, errors, material};
         std::vector<ClusterStore> parts(nodes.size());
         tbb::parallel_for(size_t{0}, nodes.size(),
-                          [&](size_t i) { splitIntoClusters(nodes[i], mesh.corners, material, parts[i]); });
+                          [&](size_t i) { splitIntoClusters(nodes[i], triangles, parts[i]); });
         for (const ClusterStore& part : parts)
             out.append(part);
         first = last;

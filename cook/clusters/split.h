@@ -20,15 +20,22 @@ struct SplitItem
     uint32_t triangle;
 };
 
+/// What the splitter hands on.
+struct SplitTriangles
+{
+    std::span<const uint32_t> corners; ///< three vertices for each triangle
+    std::span<const float> errors;     ///< for each triangle, as in ClusterStore
+    uint32_t material;
+};
+
 /// Top-down: cut where the surface-area cost is least, at multiples of a full cluster, so that all clusters but one
 /// are full. A cluster that would need more than 256 vertices is cut again.
 /// Reorders `items`; deterministic for any order of items with different triangles.
 ///
 /// items      of one material; centers finite
-/// corners    three vertices for each triangle
+/// triangles  those that the items name
 /// out        gets the clusters, in the order of the tree's leaves
-void splitIntoClusters(std::span<SplitItem> items, std::span<const uint32_t> corners, uint32_t material,
-                       ClusterStore& out);
+void splitIntoClusters(std::span<SplitItem> items, const SplitTriangles& triangles, ClusterStore& out);
 
 /// Clusters of the whole mesh, material by material, in parallel.
 ClusterStore splitMesh(const PreparedMesh& mesh);

@@ -77,6 +77,9 @@ Status checkMonotone(const Hierarchy& h)
             continue;
         const GroupRecord& finer = h.groups[cluster.refined_group];
         const GroupRecord& own = h.groups[cluster.group];
+        if (finer.set_offset != 0)
+            return wrong(Issue::meaning_tree, "cluster", c,
+                         "was made from a group behind the first of its set");
         replaced[cluster.refined_group] = 1;
         if (cluster.refined_group <= cluster.group || finer.level + 1 != cluster.level)
             return wrong(Issue::meaning_tree, "cluster", c, "was not made from a group of the finer level");
@@ -87,9 +90,29 @@ Status checkMonotone(const Hierarchy& h)
                          "the finer group's sphere leaves its group's");
     }
     for (size_t g = 0; g < h.groups.size(); ++g)
-        if ((replaced[g] != 0) != std::isfinite(h.groups[g].error))
+        if ((replaced[g - h.groups[g].set_offset] != 0) != std::isfinite(h.groups[g].error))
             return wrong(Issue::meaning_tree, "group", g,
                          "is a root with a finite error, or no root without");
+    return success();
+}
+
+/// Groups of a set are alike, and all that their level has: what was made by hand fits beside none of them.
+Status checkSets(const Hierarchy& h)
+{
+    for (size_t g = 0; g < h.groups.size(); ++g)
+    {
+        const GroupRecord& group = h.groups[g];
+        if (group.set_offset > g)
+            return wrong(Issue::meaning_reference, "group", g, "its set begins before the mesh");
+        const GroupRecord& first = h.groups[g - group.set_offset];
+        if (!(group.sphere_center == first.sphere_center) || group.sphere_radius != first.sphere_radius ||
+            group.error != first.error || group.level != first.level)
+            return wrong(Issue::meaning_value, "group", g, "is not as the first of its set");
+        const bool follows = g > 0 && h.groups[g - 1].level == group.level;
+        const bool in_set = follows && (group.set_offset != 0 || h.groups[g - 1].set_offset != 0);
+        if (in_set && group.set_offset != h.groups[g - 1].set_offset + 1)
+            return wrong(Issue::meaning_order, "group", g, "is not of the set of its level");
+    }
     return success();
 }
 
@@ -114,12 +137,16 @@ Status checkPages(const Hierarchy& h)
     {
         if (h.clusters[c].refined_group == kNone)
             continue;
-        const uint32_t finer = h.groups[h.clusters[c].refined_group].page;
-        const auto parents =
-            std::span(h.page_parents).subspan(h.pages[finer].parents.first, h.pages[finer].parents.count);
-        if (finer != h.clusters[c].page &&
-            std::find(parents.begin(), parents.end(), h.clusters[c].page) == parents.end())
-            return wrong(Issue::meaning_reference, "page", finer, "misses a parent");
+        const uint32_t first = h.clusters[c].refined_group;
+        for (uint32_t g = first; g < h.groups.size() && h.groups[g].set_offset == g - first; ++g)
+        {
+            const uint32_t finer = h.groups[g].page;
+            const auto parents =
+                std::span(h.page_parents).subspan(h.pages[finer].parents.first, h.pages[finer].parents.count);
+            if (finer != h.clusters[c].page &&
+                std::find(parents.begin(), parents.end(), h.clusters[c].page) == parents.end())
+                return wrong(Issue::meaning_reference, "page", finer, "misses a parent");
+        }
     }
     return success();
 }
@@ -298,10 +325,25 @@ uint64_t vertexHash(const ClusterGeometry& geometry, const ClusterRecord& cluste
     return hashWords(words);
 }
 
-Status checkFinestLevel(const mesh::SourceMesh& source, const Hierarchy& h, const DecodedHierarchy& decoded)
+/// The source on the grid that it shares with its authored levels.
+mesh::SourceMesh onGrid(const mesh::SourceMesh& source, std::span<const mesh::SourceMesh> authored)
 {
-    mesh::SourceMesh on_grid = source;
-    mesh::snapToGrid(on_grid);
+    mesh::SourceMesh joined = source;
+    for (const mesh::SourceMesh& level : authored)
+    {
+        const auto first = static_cast<uint32_t>(joined.positions.size());
+        joined.positions.insert(joined.positions.end(), level.positions.begin(), level.positions.end());
+        for (const uint32_t index : level.indices)
+            joined.indices.push_back(first + index);
+    }
+    mesh::snapToGrid(joined);
+    return joined;
+}
+
+Status checkFinestLevel(const mesh::SourceMesh& source, std::span<const mesh::SourceMesh> authored,
+                        const Hierarchy& h, const DecodedHierarchy& decoded)
+{
+    const mesh::SourceMesh on_grid = onGrid(source, authored);
     std::vector<uint64_t> hashes(source.vertexCount());
     for (uint32_t v = 0; v < hashes.size(); ++v)
         hashes[v] = sourceVertexHash(on_grid, h.mesh.attributes, h.mesh.grid_step, v);
@@ -402,7 +444,8 @@ std::vector<uint32_t> clustersOfCut(const Hierarchy& h, std::span<const uint8_t>
     return drawn;
 }
 
-Status validateHierarchy(const mesh::SourceMesh& source, const Hierarchy& hierarchy)
+Status validateHierarchy(const mesh::SourceMesh& source, const Hierarchy& hierarchy,
+                         std::span<const mesh::SourceMesh> authored)
 {
     if (hierarchy.mesh.source_triangles != source.triangleCount() ||
         hierarchy.mesh.lod_count != hierarchy.levels.size() ||
@@ -412,10 +455,11 @@ Status validateHierarchy(const mesh::SourceMesh& source, const Hierarchy& hierar
         return wrong(Issue::meaning_value, "mesh", 0, "its counts are not those of its tables");
     HEARTH_TRY(checkOrder(hierarchy));
     HEARTH_TRY(checkMonotone(hierarchy));
+    HEARTH_TRY(checkSets(hierarchy));
     HEARTH_TRY(checkPages(hierarchy));
     HEARTH_ASSIGN_OR_RETURN(const DecodedHierarchy decoded, decodeHierarchy(hierarchy));
     HEARTH_TRY(checkGeometry(hierarchy, decoded));
-    return checkFinestLevel(source, hierarchy, decoded);
+    return checkFinestLevel(source, authored, hierarchy, decoded);
 }
 
 } // namespace hearth::clusters

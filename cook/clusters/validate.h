@@ -34,6 +34,7 @@ std::vector<uint32_t> clustersOfCut(const Hierarchy& hierarchy, std::span<const 
 /// Tables in range and in order; level 0 holds each source triangle that has an area once, with its attributes and
 /// material; errors and spheres monotone; boxes, spheres and cones contain; pages as formats/mesh.h says.
 /// errors: meaning_*, page_hash, chunk_codec.
-Status validateHierarchy(const mesh::SourceMesh& source, const Hierarchy& hierarchy);
+Status validateHierarchy(const mesh::SourceMesh& source, const Hierarchy& hierarchy,
+                         std::span<const mesh::SourceMesh> authored = {});
 
 } // namespace hearth::clusters

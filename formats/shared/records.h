@@ -30,9 +30,9 @@ struct Group
     uint first_cluster;
     uint cluster_count;
     uint page;
+    uint set_offset;
     uint reserved0;
     uint reserved1;
-    uint reserved2;
 };
 
 /// formats::ClusterRecord, in words.

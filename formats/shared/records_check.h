@@ -24,6 +24,7 @@ HEARTH_SAME_OFFSET(Group, error, GroupRecord, error);
 HEARTH_SAME_OFFSET(Group, level, GroupRecord, level);
 HEARTH_SAME_OFFSET(Group, first_cluster, GroupRecord, clusters);
 HEARTH_SAME_OFFSET(Group, page, GroupRecord, page);
+HEARTH_SAME_OFFSET(Group, set_offset, GroupRecord, set_offset);
 
 static_assert(sizeof(hearth::shared::Cluster) == sizeof(hearth::formats::ClusterRecord));
 HEARTH_SAME_OFFSET(Cluster, base_x, ClusterRecord, base);

@@ -1,12 +1,12 @@
 // hearth: the command that users type. Reads the command line; each verb's work is in its own file.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/tools/suggest.h"
 #include "formats/program.h"
 #include "pipelines/command/cook.h"
 #include "pipelines/command/explain.h"
 #include "pipelines/command/extract.h"
 #include "pipelines/command/inspect.h"
 #include "pipelines/command/open_pack.h"
-#include "pipelines/command/suggest.h"
 #include "pipelines/command/verify.h"
 
 #include <CLI/CLI.hpp>
@@ -71,6 +71,11 @@ void addCook(CLI::App& app, Work& run)
     verb->add_option("-j,--jobs", options->jobs, "cookers that run at once")
         ->check(CLI::Range(1, 1024))
         ->capture_default_str();
+    verb->add_option("--lod", options->lods,
+                     "N=FILE: level of detail N of the source's only mesh, made by hand")
+        ->allow_extra_args(false);
+    verb->add_option("--profile", options->profile,
+                     "TOML file that says how far each level of detail is simplified");
     verb->add_option("--report", options->report_file, "write a report as JSON");
     auto* quiet = verb->add_flag("-q,--quiet", options->quiet, "print errors only");
     verb->add_flag("-v,--verbose", options->verbose, "print the command line of every stage")
@@ -214,7 +219,7 @@ std::string unknownWord(const CLI::App& app, const std::vector<std::string>& wor
             for (const CLI::Option* option : verb->get_options())
                 for (const std::string& long_name : option->get_lnames())
                     names.push_back("--" + long_name);
-            return describe("option", name, command::nearestMatch(name, names));
+            return describe("option", name, tools::nearestMatch(name, names));
         }
         if (verb != &app)
             continue;
@@ -226,7 +231,7 @@ std::string unknownWord(const CLI::App& app, const std::vector<std::string>& wor
                 verb = known;
         }
         if (verb == &app)
-            return describe("verb", word, command::nearestMatch(word, names));
+            return describe("verb", word, tools::nearestMatch(word, names));
     }
     return "";
 }

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/command/cook.h"
 
+#include "cook/tools/child_processes.h"
+#include "cook/tools/lod_files.h"
+#include "cook/tools/private_folder.h"
+#include "cook/tools/whole_file.h"
 #include "formats/pack_view.h"
-#include "pipelines/command/child_processes.h"
-#include "pipelines/command/private_folder.h"
-#include "pipelines/command/whole_file.h"
 
 #include <algorithm>
 #include <cerrno>
@@ -14,6 +15,8 @@
 
 namespace hearth::command
 {
+
+using namespace tools;
 
 namespace
 {
@@ -42,8 +45,9 @@ using Plan = std::vector<Stage>;
 // ---- plan
 
 void addSource(Plan& plan, const std::string& programs, const std::string& folder, size_t index,
-               const std::string& source)
+               const CookOptions& options)
 {
+    const std::string& source = options.sources[index];
     const auto part = [&](const char* kind) { return fmt::format("{}/{}.{}.part", folder, index, kind); };
     const size_t import_stage = plan.size();
     plan.push_back({"import",
@@ -52,6 +56,8 @@ void addSource(Plan& plan, const std::string& programs, const std::string& folde
                     part("import"),
                     {},
                     source});
+    for (const std::string& lod : options.lods)
+        plan.back().command.insert(plan.back().command.end(), {"--lod", lod});
     for (const char* kind : {"textures", "clusters"})
         plan.push_back({kind,
                         index,
@@ -59,6 +65,8 @@ void addSource(Plan& plan, const std::string& programs, const std::string& folde
                         part(kind),
                         {import_stage},
                         source});
+    if (!options.profile.empty())
+        plan.back().command.insert(plan.back().command.end(), {"--profile", options.profile});
 }
 
 void addLink(Plan& plan, const std::string& programs, const std::string& packed, const CookOptions& options)
@@ -260,6 +268,13 @@ Status checkOutput(const CookOptions& options)
     for (const std::string& source : options.sources)
         if (std::filesystem::equivalent(source, options.output, error))
             return Error{Issue::usage, options.output, "", "the output would overwrite a source"};
+    HEARTH_ASSIGN_OR_RETURN(const std::vector<LodFile> lods, parseLodFiles(options.lods));
+    if (!lods.empty() && options.sources.size() > 1)
+        return Error{Issue::usage, "--lod", "",
+                     "needs a cook of one source: which of several it is for is not said"};
+    for (const LodFile& lod : lods)
+        if (std::filesystem::equivalent(lod.path, options.output, error))
+            return Error{Issue::usage, options.output, "", "the output would overwrite a level of detail"};
     return success();
 }
 
@@ -296,10 +311,7 @@ std::optional<Failure> cookInPrivate(const CookOptions& options, CookOutcome& ou
     const Result<PrivateFolder> beside = PrivateFolder::create(folderOf(options.output), options.output);
     if (!beside.ok())
         return fail(beside.error());
-    const char* temporary = std::getenv("TMPDIR");
-    const bool has_temporary = temporary != nullptr && *temporary != '\0';
-    const Result<PrivateFolder> parts =
-        PrivateFolder::create(has_temporary ? temporary : beside->path(), options.output);
+    const Result<PrivateFolder> parts = PrivateFolder::create(temporaryOr(beside->path()), options.output);
     if (!parts.ok())
         return fail(parts.error());
 
@@ -307,7 +319,7 @@ std::optional<Failure> cookInPrivate(const CookOptions& options, CookOutcome& ou
     const std::string programs = programFolder();
     const std::string packed = beside->path() + "/pack.hearth";
     for (size_t i = 0; i < options.sources.size(); ++i)
-        addSource(plan, programs, parts->path(), i, options.sources[i]);
+        addSource(plan, programs, parts->path(), i, options);
     addLink(plan, programs, packed, options);
     if (auto failure = runPlan(plan, children, options, outcome))
         return failure;

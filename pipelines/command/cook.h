@@ -19,7 +19,9 @@ struct CookOptions
     /// the memory of another mesh.
     unsigned jobs = 2;
     Verbosity verbosity = Verbosity::normal;
-    std::string report_file; ///< empty: none
+    std::vector<std::string> lods; ///< "N=FILE": levels of detail of the only source
+    std::string profile;           ///< TOML file that the cookers read; empty: none
+    std::string report_file;       ///< empty: none
 };
 
 /// One cooker's run.

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/command/extract.h"
 
+#include "cook/tools/whole_file.h"
 #include "pipelines/command/open_pack.h"
-#include "pipelines/command/whole_file.h"
 
 #include <fmt/format.h>
 
@@ -10,6 +10,7 @@ namespace hearth::command
 {
 
 using namespace formats;
+using tools::WholeFile;
 
 namespace
 {

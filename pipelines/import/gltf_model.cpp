@@ -27,6 +27,7 @@ constexpr std::string_view kSupportedExtensions[] = {
     "KHR_mesh_quantization",
     "KHR_texture_basisu",
     "KHR_texture_transform",
+    "MSFT_lod",
 };
 
 bool isSupported(std::string_view name)

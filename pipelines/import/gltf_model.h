@@ -220,7 +220,8 @@ struct GltfNode
     Transform parent_from_node;
     std::vector<float> weights;
     bool has_instancing = false;
-    GltfAttributes instancing; ///< EXT_mesh_gpu_instancing
+    GltfAttributes instancing;  ///< EXT_mesh_gpu_instancing
+    std::vector<uint32_t> lods; ///< MSFT_lod: nodes with less and less detail; all exist
 };
 
 struct GltfScene

@@ -219,7 +219,12 @@ void readTextures(const GltfObject& root, GltfModel& model)
 void readMaterials(const GltfObject& root, GltfModel& model)
 {
     for (const GltfObject& object : root.objects("materials"))
+    {
         model.materials.push_back(readMaterial(object, model));
+        if (object.extension("MSFT_lod"))
+            object.problems().warn(Issue::dropped, object.json(),
+                                   "levels of detail of materials (MSFT_lod) are not kept");
+    }
 }
 
 } // namespace hearth::import

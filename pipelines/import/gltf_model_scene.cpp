@@ -89,8 +89,25 @@ void readTransform(const GltfObject& object, GltfNode& node)
     node.parent_from_node = transformFromTrs(node.translation, node.rotation, node.scale);
 }
 
-void readNodeExtensions(const GltfObject& object, const GltfModel& model, GltfNode& node)
+/// The nodes that are levels of detail; numbers that name none are left out.
+std::vector<uint32_t> readLods(const GltfObject& lod, size_t node_count)
 {
+    std::vector<uint32_t> nodes;
+    for (const float id : lod.numberList("ids"))
+    {
+        if (id >= 0 && static_cast<double>(id) < static_cast<double>(node_count) && std::floor(id) == id)
+            nodes.push_back(static_cast<uint32_t>(id));
+        else
+            lod.problems().warn(Issue::dropped, lod.json(),
+                                fmt::format("level of detail {:g} is no node: it is not kept", id));
+    }
+    return nodes;
+}
+
+void readNodeExtensions(const GltfObject& object, const GltfModel& model, size_t node_count, GltfNode& node)
+{
+    if (const auto lod = object.extension("MSFT_lod"))
+        node.lods = readLods(*lod, node_count);
     if (const auto light = object.extension("KHR_lights_punctual"))
         node.light = light->index("light", model.lights.size(), Need::required);
     if (const auto instancing = object.extension("EXT_mesh_gpu_instancing"))
@@ -203,7 +220,7 @@ void readNodes(const GltfObject& root, size_t skin_count, GltfModel& model)
         node.camera = object.index("camera", model.cameras.size());
         node.weights = object.numberList("weights");
         readTransform(object, node);
-        readNodeExtensions(object, model, node);
+        readNodeExtensions(object, model, objects.size(), node);
         model.nodes.push_back(std::move(node));
     }
     // a bad child index has been reported, and would lead outside the array

@@ -284,15 +284,15 @@ std::vector<float> restWeights(const GltfModel& model, uint32_t mesh)
 }
 
 Status writeScene(const GltfModel& model, std::span<const MeshSummary> meshes,
-                  std::span<const InverseBinds> inverse_binds, GltfAccessors& accessors,
-                  const GltfContext& context, GltfTally& tally)
+                  const std::vector<bool>& hidden, std::span<const InverseBinds> inverse_binds,
+                  GltfAccessors& accessors, const GltfContext& context, GltfTally& tally)
 {
     const std::vector<bool> drawn = findDrawn(model, context);
     SceneWriter writer(model, meshes, inverse_binds, accessors, context, tally);
     for (uint32_t node = 0; node < model.nodes.size(); ++node)
         HEARTH_TRY(writer.writeNode(node));
     for (uint32_t node = 0; node < model.nodes.size(); ++node)
-        if (drawn[node])
+        if (drawn[node] && !hidden[node])
             HEARTH_TRY(writer.writeContents(node));
     reportStillness(model, meshes, context);
     return success();

@@ -20,9 +20,10 @@ struct MeshSummary
 
 /// Write all nodes, and the instances, cameras and lights of the default scene (the first one, or without scenes
 /// all nodes). errors: gltf_value, gltf_data, input_too_large.
+/// `hidden` are nodes whose contents are not drawn.
 Status writeScene(const GltfModel& model, std::span<const MeshSummary> meshes,
-                  std::span<const InverseBinds> inverse_binds, GltfAccessors& accessors,
-                  const GltfContext& context, GltfTally& tally);
+                  const std::vector<bool>& hidden, std::span<const InverseBinds> inverse_binds,
+                  GltfAccessors& accessors, const GltfContext& context, GltfTally& tally);
 
 /// The morph weights of a node with a mesh: its own, or else the mesh's; `count` of them, missing ones 0.
 std::vector<float> morphWeights(const GltfModel& model, uint32_t node, size_t count);

@@ -74,6 +74,29 @@ Transform transformFromTrs(const std::array<float, 3>& translation, const std::a
     return t;
 }
 
+std::optional<Transform> inverted(const Transform& transform)
+{
+    const auto& m = transform.m;
+    Transform inverse;
+    for (size_t i = 0; i < 3; ++i)
+        for (size_t j = 0; j < 3; ++j)
+        {
+            // the cofactor of row j, column i
+            const size_t r1 = (j + 1) % 3, r2 = (j + 2) % 3, c1 = (i + 1) % 3, c2 = (i + 2) % 3;
+            inverse.m[i][j] = m[r1][c1] * m[r2][c2] - m[r1][c2] * m[r2][c1];
+        }
+    const double det = m[0][0] * inverse.m[0][0] + m[0][1] * inverse.m[1][0] + m[0][2] * inverse.m[2][0];
+    if (!(std::abs(det) > 0) || !std::isfinite(1 / det))
+        return std::nullopt;
+    for (auto& row : inverse.m)
+    {
+        for (size_t j = 0; j < 3; ++j)
+            row[j] /= det;
+        row[3] = -(row[0] * m[0][3] + row[1] * m[1][3] + row[2] * m[2][3]);
+    }
+    return inverse;
+}
+
 Transform transformFromColumns(std::span<const float, 16> columns)
 {
     Transform t;

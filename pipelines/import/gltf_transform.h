@@ -19,6 +19,9 @@ struct Transform
 
 Transform operator*(const Transform& a, const Transform& b);
 
+/// Nothing where the linear part is flat.
+std::optional<Transform> inverted(const Transform& transform);
+
 /// translation * rotation (unit quaternion x y z w) * scale.
 Transform transformFromTrs(const std::array<float, 3>& translation, const std::array<float, 4>& rotation,
                            const std::array<float, 3>& scale);

@@ -1,12 +1,13 @@
 // hearth-import: reads a source asset and writes the import part.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/tools/lod_files.h"
+#include "cook/tools/private_folder.h"
 #include "formats/program.h"
-#include "pipelines/import/asset_folder.h"
-#include "pipelines/import/readers.h"
+#include "pipelines/import/authored_files.h"
+#include "pipelines/import/read_source.h"
 
 #include <CLI/CLI.hpp>
 
-#include <algorithm>
 #include <cstdio>
 
 namespace
@@ -18,37 +19,8 @@ struct Arguments
 {
     std::string source;
     std::string output;
+    std::vector<std::string> lods;
 };
-
-std::string lowerCaseExtension(const std::string& path)
-{
-    const size_t name = path.rfind('/') + 1; // npos + 1 is 0
-    const size_t dot = path.find_last_of('.');
-    std::string extension = dot == std::string::npos || dot < name ? "" : path.substr(dot);
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
-    return extension;
-}
-
-bool looksLikeGltf(const std::string& path, std::span<const std::byte> bytes)
-{
-    const std::string extension = lowerCaseExtension(path);
-    const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-    return extension == ".gltf" || extension == ".glb" || text.starts_with("glTF");
-}
-
-Status readSource(const std::string& path, import::PartBuilder& part)
-{
-    const import::ImportOptions options;
-    HEARTH_ASSIGN_OR_RETURN(const std::vector<std::byte> bytes,
-                            import::readFile(path, options.limits.max_file_bytes));
-    part.addSource(path.substr(path.rfind('/') + 1), bytes);
-    if (looksLikeGltf(path, bytes))
-        return importGltf(path, bytes, options, part);
-    if (import::looksLikeImage(path, bytes))
-        return importImage(path, bytes, options, part);
-    return importScan(path, bytes, options, part);
-}
 
 void printWarnings(const import::PartBuilder& part)
 {
@@ -59,11 +31,24 @@ void printWarnings(const import::PartBuilder& part)
                      static_cast<unsigned long long>(part.warningsLeftOut()));
 }
 
+Status readAll(const Arguments& arguments, std::span<const tools::LodFile> lods, import::PartBuilder& part)
+{
+    const import::ImportOptions options;
+    HEARTH_TRY(import::readSource(arguments.source, options, part));
+    if (lods.empty())
+        return success();
+    HEARTH_ASSIGN_OR_RETURN(const tools::PrivateFolder folder,
+                            tools::PrivateFolder::create(
+                                tools::temporaryOr(tools::folderOf(arguments.output)), arguments.output));
+    return import::addAuthoredFiles(lods, folder.path(), options, part);
+}
+
 Status run(const Arguments& arguments)
 {
+    HEARTH_ASSIGN_OR_RETURN(const std::vector<tools::LodFile> lods, tools::parseLodFiles(arguments.lods));
     HEARTH_ASSIGN_OR_RETURN(import::PartBuilder part,
                             import::PartBuilder::create(arguments.output, arguments.source));
-    const Status read = readSource(arguments.source, part);
+    const Status read = readAll(arguments, lods, part);
     printWarnings(part);
     HEARTH_TRY(read);
     return part.finish();
@@ -76,7 +61,12 @@ int program(int argc, char** argv)
     app.add_option("source", arguments.source, "glTF, GLB, OBJ, PLY, STL, OFF, Draco or image file")
         ->required();
     app.add_option("-o,--output", arguments.output, "import part to write")->required();
-    app.footer("Example: hearth-import scene.glb -o scene.import.part\n"
+    app.add_option("--lod", arguments.lods,
+                   "N=FILE: level of detail N of the source's only mesh, made by hand")
+        ->allow_extra_args(false);
+    app.footer("Examples:\n"
+               "  hearth-import scene.glb -o scene.import.part\n"
+               "  hearth-import rock.glb --lod 1=rock_mid.glb --lod 2=rock_low.glb -o rock.import.part\n"
                "Exit codes: 0 done, 2 usage, 65 malformed input, 66 input missing, 70 internal, 73 cannot "
                "write, 74 I/O");
     try

@@ -116,6 +116,17 @@ Status PartBuilder::addMesh(const mesh::SourceMesh& mesh)
     return mesh::writeSourceMesh(writer_, mesh_count_++, mesh);
 }
 
+Status PartBuilder::addLod(uint32_t of, mesh::SourceMesh mesh)
+{
+    HEARTH_ASSERT(of < mesh_count_);
+    mesh.joint_sets = {};
+    mesh.weight_sets = {};
+    mesh.morph_targets = {};
+    mesh.bind_pose = {};
+    lods_.push_back({of, mesh_count_});
+    return addMesh(mesh);
+}
+
 Result<uint32_t> PartBuilder::addImage(ImageRecord record, const DecodedImage& image)
 {
     const size_t texel_bytes = image.is_float ? 8 : 4;
@@ -146,6 +157,17 @@ void PartBuilder::addSource(std::string name, std::span<const std::byte> content
     sources_.push_back({std::move(name), content.size(), hashBytes(content)});
 }
 
+void PartBuilder::adoptReport(const PartBuilder& other)
+{
+    sources_.insert(sources_.end(), other.sources_.begin(), other.sources_.end());
+    warnings_left_out_ += other.warnings_left_out_;
+    for (const Error& warning : other.warnings_)
+        if (warnings_.size() < kMaxWarnings)
+            warnings_.push_back(warning);
+        else
+            ++warnings_left_out_;
+}
+
 std::string PartBuilder::report() const
 {
     std::vector<std::string> sources;
@@ -164,8 +186,8 @@ std::string PartBuilder::report() const
         R"({{"schema":"hearth.import/1","tool":{{"name":"hearth-import","version":{}}},"source":{},)"
         R"("sources":{},"counts":{},"messages":{},"messages_left_out":{},"dropped":{}}})",
         quoteJson(HEARTH_VERSION), quoteJson(source_name_.substr(source_name_.rfind('/') + 1)),
-        joined(sources), countsJson(counts, mesh_count_, images_.size(), instances.size()), joined(messages),
-        warnings_left_out_, joined(dropped));
+        joined(sources), countsJson(counts, mesh_count_ - lods_.size(), images_.size(), instances.size()),
+        joined(messages), warnings_left_out_, joined(dropped));
 }
 
 Status PartBuilder::finish()
@@ -184,6 +206,8 @@ Status PartBuilder::finish()
     HEARTH_TRY(writer_.addRecords<AnimationChannelRecord>(kChunkChannels, channels));
     HEARTH_TRY(writer_.addRecords<float>(kChunkKeys, keys));
     HEARTH_TRY(writer_.addRecords<float>(kChunkMorphWeights, morph_weights));
+    if (!lods_.empty())
+        HEARTH_TRY(writer_.addRecords<AuthoredLodRecord>(kChunkAuthoredLods, lods_));
     return writer_.finish();
 }
 

@@ -51,6 +51,10 @@ public:
     /// Next mesh; meshes get the indices 0, 1, ... in call order.
     Status addMesh(const mesh::SourceMesh& mesh);
 
+    /// A mesh that is the next coarser level of detail of mesh `of`, in its object space. It is a mesh of its own number;
+    /// joints and morph targets are not kept: levels are drawn in the rest pose.
+    Status addLod(uint32_t of, mesh::SourceMesh mesh);
+
     /// Next image (finest mip only); returns its index. `record` brings name, format and flags.
     Result<uint32_t> addImage(formats::ImageRecord record, const DecodedImage& image);
 
@@ -74,6 +78,13 @@ public:
     std::vector<float> keys;
     std::vector<float> morph_weights;
     SourceCounts counts;
+
+    const std::string& sourceName() const { return source_name_; }
+    uint32_t imageCount() const { return static_cast<uint32_t>(images_.size()); }
+    bool hasLods() const { return !lods_.empty(); }
+
+    /// Take over the sources and messages of another part, whose meshes become part of this one.
+    void adoptReport(const PartBuilder& other);
 
     const std::vector<Error>& warnings() const { return warnings_; }
 
@@ -99,6 +110,7 @@ private:
     std::map<std::string, formats::StringRef, std::less<>> string_refs_;
     std::vector<formats::ImageRecord> images_;
     uint32_t mesh_count_ = 0;
+    std::vector<formats::AuthoredLodRecord> lods_;
     std::vector<Error> warnings_;
     uint64_t warnings_left_out_ = 0;
     std::vector<SourceFile> sources_;

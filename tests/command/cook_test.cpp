@@ -38,6 +38,7 @@ cp "PARTS.textures.part" "$3"
 )";
 
 constexpr const char* kClusters = R"(#!/bin/sh
+if [ "$4" = "--profile" ]; then echo "$5|line 1, here: error: is bad [E1501] hint: mend it" >&2; exit 65; fi
 if [ -e ./clusters-lie ]; then exit 0; fi
 cp "PARTS.clusters.part" "$3"
 )";
@@ -116,6 +117,12 @@ TEST_F(Cook, colourIsThereOnDemandOnly)
     };
     EXPECT_TRUE(colored({"CLICOLOR_FORCE=1", "NO_COLOR="}));
     EXPECT_FALSE(colored({"CLICOLOR_FORCE=1", "NO_COLOR=1"}));
+}
+
+TEST_F(Cook, givesItsProfileToTheClusters)
+{
+    expectFailure(cook({"a.gltf", "-o", "a.hearth", "--profile", "house.toml"}), 65,
+                  "house.toml|line 1, here: error: is bad");
 }
 
 TEST_F(Cook, severalSourcesMakeOnePack)

@@ -7,6 +7,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <set>
+
 namespace
 {
 
@@ -39,8 +42,19 @@ TEST(ClustersPart, holdsTheHierarchiesOfAllMeshes)
     meshes[2].joint_sets.push_back(std::vector<mesh::Joints4>(meshes[2].vertexCount()));
     meshes[2].weight_sets.push_back(std::vector<Float4>(meshes[2].vertexCount(), {1, 0, 0, 0}));
     writeImportPart(import_path, meshes);
-    clusters::BuildCounts counts;
-    ASSERT_EQ(messageOf(clusters::writeClustersPart(import_path, output_path, {}, counts)), "");
+    std::vector<std::string> seen;
+    const auto observe = [&](uint32_t index, const std::string& name, const clusters::Config&,
+                             const clusters::Hierarchy& hierarchy)
+    {
+        EXPECT_EQ(index, seen.size());
+        EXPECT_EQ(hierarchy.mesh.source_triangles, meshes[index].triangleCount());
+        seen.push_back(name);
+        return success();
+    };
+    const auto import_part = formats::ContainerReader::open(import_path);
+    ASSERT_TRUE(import_part.ok());
+    ASSERT_EQ(messageOf(clusters::writeClustersPart(*import_part, output_path, {}, observe)), "");
+    EXPECT_EQ(seen, (std::vector<std::string>{"rock", "", "", "terrain"}));
 
     auto reader = formats::ContainerReader::open(output_path);
     ASSERT_TRUE(reader.ok());
@@ -56,15 +70,73 @@ TEST(ClustersPart, holdsTheHierarchiesOfAllMeshes)
     EXPECT_EQ(view->container().find(formats::kChunkDeformation, 0), nullptr);
 }
 
-TEST(ClustersPart, saysWhatIsWrongWithItsInput)
+/// An import part of three rocks, and records that say which are levels of others.
+formats::ContainerReader partWithLods(const test::TemporaryFolder& folder,
+                                      const std::vector<formats::AuthoredLodRecord>& lods)
+{
+    const std::string path = folder.file("lods.part");
+    auto writer = formats::ContainerWriter::create(path, formats::ContainerKind::part);
+    EXPECT_TRUE(writer.ok());
+    const uint32_t sizes[] = {40, 20, 3};
+    for (uint32_t i = 0; i < 3; ++i)
+        EXPECT_TRUE(mesh::writeSourceMesh(*writer, i, shapes::rock(sizes[i], 0.2f)).ok());
+    EXPECT_TRUE(writer->addRecords<formats::AuthoredLodRecord>(formats::kChunkAuthoredLods, lods).ok());
+    EXPECT_TRUE(writer->finish().ok());
+    auto reader = formats::ContainerReader::open(path);
+    EXPECT_TRUE(reader.ok());
+    return std::move(*reader);
+}
+
+TEST(ClustersPart, hasAuthoredLevelsInTheMeshThatTheyBelongTo)
 {
     const test::TemporaryFolder folder;
-    clusters::BuildCounts counts;
-    const Status missing =
-        clusters::writeClustersPart(folder.file("no.part"), folder.file("out.part"), {}, counts);
-    ASSERT_FALSE(missing.ok());
-    EXPECT_EQ(missing.error().issue, Issue::input_missing);
-    EXPECT_FALSE(std::filesystem::exists(folder.file("out.part")));
+    const auto part = partWithLods(folder, {{0, 1}, {0, 2}});
+    ASSERT_EQ(messageOf(clusters::writeClustersPart(part, folder.file("out.part"), {}, {})), "");
+    auto reader = formats::ContainerReader::open(folder.file("out.part"));
+    ASSERT_TRUE(reader.ok());
+    const auto view = PackView::read(std::move(*reader));
+    ASSERT_TRUE(view.ok());
+    EXPECT_EQ(messageOf(formats::checkHierarchy(*view)), "");
+    ASSERT_EQ(view->meshes().size(), 3u) << "they keep their numbers";
+    EXPECT_EQ(view->meshes()[1].clusters.count, 0u);
+    EXPECT_EQ(view->meshes()[2].clusters.count, 0u);
+    std::set<uint32_t> counts;
+    for (const formats::LevelRecord& level : view->levels())
+        counts.insert(level.triangle_count);
+    EXPECT_TRUE(counts.contains(12 * 20 * 20) && counts.contains(12 * 3 * 3));
+    const bool has_sets =
+        std::any_of(view->groups().begin(), view->groups().end(),
+                    [](const formats::GroupRecord& group) { return group.set_offset != 0; });
+    EXPECT_TRUE(has_sets) << "the level below the first has several groups";
+}
+
+TEST(ClustersPart, refusesLevelsOfNoMesh)
+{
+    const test::TemporaryFolder folder;
+    for (const formats::AuthoredLodRecord bad : {formats::AuthoredLodRecord{0, 3}, {3, 0}, {1, 1}})
+    {
+        const Status status =
+            clusters::writeClustersPart(partWithLods(folder, {bad}), folder.file("out.part"), {}, {});
+        ASSERT_FALSE(status.ok());
+        EXPECT_EQ(status.error().issue, Issue::meaning_reference);
+        EXPECT_FALSE(std::filesystem::exists(folder.file("out.part")));
+    }
+}
+
+TEST(ClustersPart, doesNotAppearWhereTheObserverFails)
+{
+    const test::TemporaryFolder folder;
+    writeImportPart(folder.file("import.part"), {shapes::rock(8, 0.3f)});
+    const auto import_part = formats::ContainerReader::open(folder.file("import.part"));
+    ASSERT_TRUE(import_part.ok());
+    const auto fails = [](uint32_t, const std::string&, const clusters::Config&,
+                          const clusters::Hierarchy&) -> Status {
+        return Error{Issue::usage, "", "", "no such level"};
+    };
+    const Status status = clusters::writeClustersPart(*import_part, folder.file("out.part"), {}, fails);
+    ASSERT_FALSE(status.ok());
+    EXPECT_EQ(status.error().detail, "no such level");
+    EXPECT_EQ(folder.files(), std::set<std::string>{"import.part"});
 }
 
 } // namespace

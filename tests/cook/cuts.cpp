@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "tests/cook/cuts.h"
 
+#include "cook/clusters/islands.h"
+#include "cook/clusters/thinning.h"
 #include "cook/mesh/triangles.h"
 
 #include <algorithm>
@@ -36,17 +38,24 @@ std::vector<uint8_t> cutFromEye(const Hierarchy& hierarchy, Float3 eye, double t
 std::vector<uint8_t> randomCut(const Hierarchy& hierarchy, double chance, std::mt19937& random)
 {
     std::vector<uint8_t> replaced(hierarchy.groups.size(), 0);
+    bool possible = true;
     for (size_t g = hierarchy.groups.size(); g-- > 0;)
     {
         const auto& group = hierarchy.groups[g];
-        bool possible = std::isfinite(group.error);
+        possible &= std::isfinite(group.error);
         for (uint32_t c = 0; c < group.clusters.count; ++c)
         {
             const uint32_t refined = hierarchy.clusters[group.clusters.first + c].refined_group;
             possible &= refined == formats::kNone || replaced[refined] != 0;
         }
+        // a set is decided on at its first group, which comes last
+        if (group.set_offset != 0)
+            continue;
         const double roll = static_cast<double>(random()) / 4294967296.0;
         replaced[g] = possible && roll < chance ? 1 : 0;
+        for (size_t h = g + 1; h < replaced.size() && hierarchy.groups[h].set_offset == h - g; ++h)
+            replaced[h] = replaced[g];
+        possible = true;
     }
     return replaced;
 }
@@ -108,10 +117,35 @@ Border borderOf(const Hierarchy& hierarchy, const DecodedHierarchy& decoded)
     return border;
 }
 
+namespace
+{
+
+/// For each position that the triangles use, 1 if its island is as small as those that grow.
+std::vector<uint8_t> grownIslands(const Border& border, std::span<const uint32_t> triangles)
+{
+    clusters::DisjointSets islands(border.is_border.size());
+    for (size_t corner = 0; corner < triangles.size(); corner += 3)
+    {
+        islands.unite(triangles[corner], triangles[corner + 1]);
+        islands.unite(triangles[corner], triangles[corner + 2]);
+    }
+    std::vector<uint32_t> triangle_count(border.is_border.size(), 0);
+    for (size_t corner = 0; corner < triangles.size(); corner += 3)
+        ++triangle_count[islands.find(triangles[corner])];
+    std::vector<uint8_t> grown(border.is_border.size(), 0);
+    for (const uint32_t position : triangles)
+        grown[position] =
+            border.closed || triangle_count[islands.find(position)] > clusters::kMaxGrownTriangles ? 0 : 1;
+    return grown;
+}
+
+} // namespace
+
 std::string crackOf(const Border& border, std::span<const uint32_t> triangles)
 {
+    const std::vector<uint8_t> grown = grownIslands(border, triangles);
     const auto outside = [&](uint32_t from, uint32_t to)
-    { return border.is_border[from] == 0 || border.is_border[to] == 0; };
+    { return (border.is_border[from] == 0 || border.is_border[to] == 0) && (grown[from] & grown[to]) == 0; };
     for (const auto& edge : mesh::openEdges(triangles))
         if (outside(edge.from, edge.to))
             return "open edge " + std::to_string(edge.from) + " -> " + std::to_string(edge.to);

@@ -35,7 +35,8 @@ struct Border
 };
 Border borderOf(const clusters::Hierarchy& hierarchy, const clusters::DecodedHierarchy& decoded);
 
-/// Empty if the cut has no open edge but along the source's border, else what is wrong.
+/// Empty if the cut has no open edge but along the source's border, or around small islands of an open surface,
+/// which grow when others go. Else what is wrong.
 std::string crackOf(const Border& border, std::span<const uint32_t> triangles);
 
 } // namespace hearth::cuts

@@ -181,6 +181,30 @@ TEST(Hierarchy, mergesLooseQuadsBySpace)
     EXPECT_LE(hierarchy.levels.back().clusters.count, 4u);
 }
 
+/// The area of each level, finest first.
+std::vector<double> areasOfLevels(const Hierarchy& hierarchy)
+{
+    const auto decoded = clusters::decodeHierarchy(hierarchy);
+    EXPECT_TRUE(decoded.ok());
+    std::vector<double> areas(hierarchy.levels.size(), 0);
+    for (size_t c = 0; c < hierarchy.clusters.size(); ++c)
+    {
+        const auto& positions = decoded->clusters[c].positions;
+        const auto place = [&](size_t corner) { return decoded->positions[positions[corner]]; };
+        for (size_t k = 0; k < positions.size(); k += 3)
+            areas[hierarchy.clusters[c].level] +=
+                length(cross(place(k + 1) - place(k), place(k + 2) - place(k))) * 0.5;
+    }
+    return areas;
+}
+
+TEST(Hierarchy, ofFoliageKeepsItsArea)
+{
+    const std::vector<double> areas = areasOfLevels(buildHierarchy(shapes::foliage(6000)));
+    for (size_t level = 1; level < areas.size(); ++level)
+        EXPECT_NEAR(areas[level], areas[0], 0.15 * areas[0]) << "level " << level;
+}
+
 TEST(Hierarchy, mergesLooseTrianglesBySpace)
 {
     const SourceMesh mesh = shapes::soup(5000);

@@ -8,9 +8,10 @@
 namespace hearth::cuts
 {
 
-std::string unsoundness(const mesh::SourceMesh& mesh, const clusters::Hierarchy& hierarchy)
+std::string unsoundness(const mesh::SourceMesh& mesh, const clusters::Hierarchy& hierarchy,
+                        std::span<const mesh::SourceMesh> authored)
 {
-    if (const Status valid = clusters::validateHierarchy(mesh, hierarchy); !valid.ok())
+    if (const Status valid = clusters::validateHierarchy(mesh, hierarchy, authored); !valid.ok())
         return formatMessage(valid.error());
     const auto decoded = clusters::decodeHierarchy(hierarchy);
     if (!decoded.ok())

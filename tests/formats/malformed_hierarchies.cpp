@@ -112,6 +112,27 @@ std::vector<MalformedPack> malformedTables()
         {"groupThatNothingReplaces", Issue::meaning_tree, "group 2",
          [](PackModel& p) { p.clusters[1].refined_group = 1; }},
 
+        {"groupSetOutsideMesh", Issue::meaning_reference, "group 0",
+         [](PackModel& p) { p.groups[0].set_offset = 1; }},
+        {"groupSetWithGap", Issue::meaning_order, "group 2",
+         [](PackModel& p) { p.groups[2].set_offset = 2; }},
+        {"groupSetOfUnlike", Issue::meaning_value, "group 2",
+         [](PackModel& p) { p.groups[2].set_offset = 1; }},
+        {"groupSetNotNamedByItsFirst", Issue::meaning_reference, "cluster 1",
+         [](PackModel& p)
+         {
+             p.groups[2].set_offset = 1;
+             p.groups[2].sphere_center = p.groups[1].sphere_center;
+         }},
+        {"groupSetThatNothingReplaces", Issue::meaning_tree, "group 0",
+         [](PackModel& p)
+         {
+             p.groups[2].set_offset = 1;
+             p.groups[2].sphere_center = p.groups[1].sphere_center;
+             p.groups[0].error = 5;
+             p.clusters[1].refined_group = 1;
+         }},
+
         {"clusterTriangles", Issue::meaning_value, "cluster 3",
          [](PackModel& p) {
              p.clusters[3].triangle_count = 0, p.levels[0].triangle_count = 6,

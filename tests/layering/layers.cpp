@@ -19,13 +19,15 @@ struct Layer
     Folders may_include; ///< besides itself
 };
 
-// The first line that a path starts with holds. A folder of cook/ that is not named sees formats and cook/mesh only.
+// The first line that a path starts with holds. A folder of cook/ that is not named sees formats, cook/tools and
+// cook/mesh only.
 const std::vector<Layer>& layers()
 {
     static const std::vector<Layer> list = {
         {"formats/", {}},
+        {"cook/tools/", {"formats/"}},
         {"cook/mesh/", {"formats/"}},
-        {"cook/", {"formats/", "cook/mesh/"}},
+        {"cook/", {"formats/", "cook/tools/", "cook/mesh/"}},
         // extract draws the cut that the runtime would draw
         {"pipelines/command/", {"formats/", "cook/", "pipelines/", "runtime/pack/"}},
         {"pipelines/", {"formats/", "cook/", "pipelines/"}},
@@ -69,7 +71,7 @@ const std::vector<Library>& libraries()
         {"CLI/", {"cook/", "pipelines/", "sample_assets/"}},
         {"fmt/", {"cook/", "pipelines/", "sample_assets/"}},
         {"spdlog/", {"cook/", "pipelines/"}},
-        {"toml++/", {"pipelines/"}},
+        {"toml++/", {"cook/", "pipelines/"}},
         {"tbb/", {"cook/", "pipelines/", "sample_assets/"}, true},
         {"embree3/", {"cook/"}},
         {"CGAL/", {"cook/"}},

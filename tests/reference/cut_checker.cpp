@@ -39,7 +39,7 @@ CoverageReport checkCoverage(const PackView& view, uint32_t mesh, std::span<cons
     for (uint32_t i = 0; i < clusters.count; ++i)
     {
         const ClusterRecord& cluster = view.clusters()[clusters.first + i];
-        const auto above = above_group.find(cluster.group);
+        const auto above = above_group.find(cluster.group - view.groups()[cluster.group].set_offset);
         ways[i] = above == above_group.end() ? WayCount{} : above->second;
         ways[i].least += drawn[i];
         ways[i].most += drawn[i];

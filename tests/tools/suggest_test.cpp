@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "pipelines/command/suggest.h"
+#include "cook/tools/suggest.h"
 
 #include <gtest/gtest.h>
 
-namespace hearth::command
+namespace hearth::tools
 {
 
 TEST(EditDistance, countsEachKindOfSlipOnce)
@@ -33,4 +33,4 @@ TEST(NearestMatch, keepsQuietWhereNothingIsNear)
     EXPECT_EQ(nearestMatch(std::string(100000, 'c'), verbs), "");
 }
 
-} // namespace hearth::command
+} // namespace hearth::tools

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "pipelines/command/child_processes.h"
+#include "cook/tools/child_processes.h"
 
 #include <cerrno>
 #include <cstring>
@@ -12,7 +12,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-namespace hearth::command
+namespace hearth::tools
 {
 
 namespace
@@ -185,4 +185,4 @@ std::string programFolder()
     return std::filesystem::read_symlink("/proc/self/exe", error).parent_path().string();
 }
 
-} // namespace hearth::command
+} // namespace hearth::tools

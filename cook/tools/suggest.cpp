@@ -1,11 +1,11 @@
 // Distance: R. Lowrance, R. Wagner, "An extension of the string-to-string correction problem", 1975 (restricted form).
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "pipelines/command/suggest.h"
+#include "cook/tools/suggest.h"
 
 #include <algorithm>
 #include <vector>
 
-namespace hearth::command
+namespace hearth::tools
 {
 
 size_t editDistance(std::string_view a, std::string_view b)
@@ -47,4 +47,4 @@ std::string nearestMatch(std::string_view word, std::span<const std::string> can
     return best;
 }
 
-} // namespace hearth::command
+} // namespace hearth::tools

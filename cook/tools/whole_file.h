@@ -11,7 +11,7 @@
 #include <string>
 #include <string_view>
 
-namespace hearth::command
+namespace hearth::tools
 {
 
 /// Collects bytes in a temporary file beside `path`; finish() makes it appear under `path`. Without finish() nothing
@@ -43,4 +43,4 @@ private:
     bool failed_ = false;
 };
 
-} // namespace hearth::command
+} // namespace hearth::tools

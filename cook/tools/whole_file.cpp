@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "pipelines/command/whole_file.h"
+#include "cook/tools/whole_file.h"
 
 #include <cerrno>
 #include <cstdlib>
@@ -7,7 +7,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-namespace hearth::command
+namespace hearth::tools
 {
 
 namespace
@@ -58,4 +58,4 @@ Status WholeFile::finish()
     return success();
 }
 
-} // namespace hearth::command
+} // namespace hearth::tools

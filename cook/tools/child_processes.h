@@ -12,7 +12,7 @@
 #include <sys/types.h>
 #include <vector>
 
-namespace hearth::command
+namespace hearth::tools
 {
 
 /// How a child ended.
@@ -68,4 +68,4 @@ private:
 /// The folder that this program lies in, where its cookers lie as well.
 std::string programFolder();
 
-} // namespace hearth::command
+} // namespace hearth::tools

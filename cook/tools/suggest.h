@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-namespace hearth::command
+namespace hearth::tools
 {
 
 /// Fewest insertions, deletions, substitutions and swaps of neighbours that turn `a` into `b`.
@@ -16,4 +16,4 @@ size_t editDistance(std::string_view a, std::string_view b);
 /// equals wins.
 std::string nearestMatch(std::string_view word, std::span<const std::string> candidates);
 
-} // namespace hearth::command
+} // namespace hearth::tools

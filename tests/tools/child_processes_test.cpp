@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "pipelines/command/child_processes.h"
+#include "cook/tools/child_processes.h"
 
 #include <cerrno>
 #include <gtest/gtest.h>
@@ -7,7 +7,7 @@
 #include <thread>
 #include <unistd.h>
 
-namespace hearth::command
+namespace hearth::tools
 {
 
 namespace
@@ -114,4 +114,4 @@ TEST(ChildProcesses, leaveSignalsOfAChildAsTheyWere)
     EXPECT_EQ(children.wait()->signal, SIGINT);
 }
 
-} // namespace hearth::command
+} // namespace hearth::tools

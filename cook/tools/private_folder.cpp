@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "pipelines/command/private_folder.h"
+#include "cook/tools/private_folder.h"
 
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
 
-namespace hearth::command
+namespace hearth::tools
 {
 
 Result<PrivateFolder> PrivateFolder::create(const std::string& parent, const std::string& for_output)
@@ -32,4 +32,10 @@ std::string folderOf(const std::string& path)
     return folder.empty() ? "." : folder;
 }
 
-} // namespace hearth::command
+std::string temporaryOr(const std::string& otherwise)
+{
+    const char* temporary = std::getenv("TMPDIR");
+    return temporary != nullptr && *temporary != '\0' ? temporary : otherwise;
+}
+
+} // namespace hearth::tools

@@ -6,7 +6,7 @@
 
 #include <string>
 
-namespace hearth::command
+namespace hearth::tools
 {
 
 class PrivateFolder
@@ -30,4 +30,7 @@ private:
 /// The folder that a file lies in: "." for a bare name.
 std::string folderOf(const std::string& path);
 
-} // namespace hearth::command
+/// Where the user keeps temporary files: TMPDIR, or `otherwise` where that is not set.
+std::string temporaryOr(const std::string& otherwise);
+
+} // namespace hearth::tools

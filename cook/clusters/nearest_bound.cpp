@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/clusters/nearest_bound.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace hearth::clusters
+{
+
+namespace
+{
+
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+
+// A triangle this close in parts of its own size is not searched further: on a plane all distances are rounding.
+constexpr float kFinest2 = 1.0f / (512.0f * 512.0f);
+
+// Facets within this part of a triangle's size are looked at first.
+constexpr float kTouching = 0.1f;
+
+// The first tries take so many likely facets and points.
+constexpr size_t kFewLikely = 2 * kLanes;
+constexpr size_t kFewPoints = 6;
+constexpr size_t kQuickPoints = 16;
+
+// Rounding of planes' distances between points in [-1, 1]^3.
+constexpr float kSideMargin = 1e-5f;
+
+// A triangle is searched in at most so many parts before its bound is taken as it is.
+constexpr size_t kMaxParts = 64;
+
+Box3 boxAround(const Corners& corners, float radius)
+{
+    Box3 box;
+    for (const Float3 corner : corners)
+        box.add(corner);
+    box.min -= Float3{radius, radius, radius};
+    box.max += Float3{radius, radius, radius};
+    return box;
+}
+
+float sizeOf(const Corners& corners)
+{
+    return std::max(
+        {length(corners[1] - corners[0]), length(corners[2] - corners[1]), length(corners[0] - corners[2])});
+}
+
+/// Halves the longest edge.
+std::pair<Corners, Corners> halve(const Corners& c)
+{
+    size_t longest = 0;
+    for (size_t k = 1; k < 3; ++k)
+        if (length(c[(k + 1) % 3] - c[k]) > length(c[(longest + 1) % 3] - c[longest]))
+            longest = k;
+    const Float3 p = c[longest], q = c[(longest + 1) % 3], apex = c[(longest + 2) % 3];
+    const Float3 middle = (p + q) * 0.5f;
+    return {{p, middle, apex}, {middle, q, apex}};
+}
+
+} // namespace
+
+float NearestBound::bound(const Corners& triangle, const FacetIndex& index, std::span<const uint32_t> likely,
+                          Allowance allowance)
+{
+    const float size = sizeOf(triangle);
+    allowance_ = allowance;
+    floor2_ = size * size * kFinest2;
+    sure2_ = 0;
+    used_.assign(likely.begin(), likely.end());
+    if (!likely.empty())
+        if (const Bound quick = boundByLikely(triangle, index, likely); quick.closed)
+            return std::sqrt(quick.upper2);
+    used_.clear();
+    float worst2 = 0;
+    stack_.assign(1, triangle);
+    for (size_t parts = 1; !stack_.empty(); ++parts)
+    {
+        const Corners piece = stack_.back();
+        stack_.pop_back();
+        // the facets that touch the piece do for most; the rest needs all that could be the nearest
+        Bound bound = boundPiece(piece, index, allowed2(), size * kTouching);
+        if (!bound.closed)
+            bound = boundPiece(piece, index, allowed2(), std::sqrt(bound.found2) * 1.01f);
+        sure2_ = std::max(sure2_, bound.sure2);
+        if (!bound.closed && parts < kMaxParts)
+        {
+            const auto [first, second] = halve(piece);
+            stack_.push_back(first);
+            stack_.push_back(second);
+            continue;
+        }
+        if (!bound.closed)
+        {
+            ++loose_pieces_;
+            bound = boundPiece(piece, index, kInfinity, std::sqrt(bound.found2));
+        }
+        used_.insert(used_.end(), found_.begin(), found_.end());
+        worst2 = std::max(worst2, bound.upper2);
+    }
+    return std::sqrt(worst2);
+}
+
+Bound NearestBound::boundByLikely(const Corners& triangle, const FacetIndex& index,
+                                  std::span<const uint32_t> likely)
+{
+    const auto few = likely.first(std::min(likely.size(), kFewLikely));
+    candidates_.load(index.facets(), few);
+    const Bound bound = bounder_.bound(triangle, candidates_.blocks(), allowed2(), 0, kFewPoints);
+    if (bound.closed || few.size() == likely.size())
+        return bound;
+    candidates_.load(index.facets(), likely);
+    return bounder_.bound(triangle, candidates_.blocks(), allowed2(), 0, kQuickPoints);
+}
+
+float NearestBound::allowed2() const
+{
+    const float allowed = std::max(allowance_.enough, std::sqrt(sure2_) * kSlack + allowance_.slack);
+    return std::max(allowed * allowed, floor2_);
+}
+
+/// Bound the distance to the facets within `radius`; if there are none, to those within a larger one. Where there
+/// are more than fit, those with the nearest centers serve.
+Bound NearestBound::boundPiece(const Corners& piece, const FacetIndex& index, float allowed2, float radius)
+{
+    index.query(boxAround(piece, radius), found_);
+    for (float wider = std::max(radius, 1e-3f); found_.empty(); wider *= 2)
+        index.query(boxAround(piece, wider), found_);
+    if (found_.size() > kLanes)
+        dropBesides(piece, index, radius);
+    if (found_.size() > kMaxCandidates)
+    {
+        keepNearest(piece, index);
+        radius = 0;
+    }
+    candidates_.load(index.facets(), found_);
+    return bounder_.bound(piece, candidates_.blocks(), allowed2, radius);
+}
+
+/// Drop facets that lie beyond an edge of the piece by more than `radius`: the index knows them by their boxes only.
+/// Keeps all if none would be left.
+void NearestBound::dropBesides(const Corners& piece, const FacetIndex& index, float radius)
+{
+    const Float3 normal = cross(piece[1] - piece[0], piece[2] - piece[0]);
+    std::array<Float3, 3> outward;
+    std::array<float, 3> limit;
+    for (size_t k = 0; k < 3; ++k)
+    {
+        outward[k] = cross(piece[(k + 1) % 3] - piece[k], normal);
+        limit[k] = std::max({hearth::dot(outward[k], piece[0]), hearth::dot(outward[k], piece[1]),
+                             hearth::dot(outward[k], piece[2])}) +
+                   length(outward[k]) * (radius + kSideMargin);
+    }
+    const auto beside = [&](uint32_t f)
+    {
+        const Facet& facet = index.facets()[f];
+        for (size_t k = 0; k < 3; ++k)
+        {
+            const float a = hearth::dot(outward[k], facet.a);
+            const float nearest =
+                a + std::min({0.0f, hearth::dot(outward[k], facet.ab), hearth::dot(outward[k], facet.ac)});
+            if (nearest > limit[k])
+                return true;
+        }
+        return false;
+    };
+    const auto kept = std::remove_if(found_.begin(), found_.end(), beside);
+    if (kept != found_.begin())
+        found_.erase(kept, found_.end());
+}
+
+void NearestBound::keepNearest(const Corners& piece, const FacetIndex& index)
+{
+    const Float3 middle = (piece[0] + piece[1] + piece[2]) / 3.0f;
+    by_distance_.clear();
+    for (const uint32_t f : found_)
+    {
+        const Facet& facet = index.facets()[f];
+        const Float3 away = facet.a + (facet.ab + facet.ac) / 3.0f - middle;
+        by_distance_.push_back({hearth::dot(away, away), f});
+    }
+    std::nth_element(by_distance_.begin(), by_distance_.begin() + kMaxCandidates, by_distance_.end());
+    found_.clear();
+    for (size_t i = 0; i < kMaxCandidates; ++i)
+        found_.push_back(by_distance_[i].second);
+    std::sort(found_.begin(), found_.end());
+}
+
+} // namespace hearth::clusters

@@ -1,0 +1,278 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/clusters/profile.h"
+
+#include "cook/tools/suggest.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <fmt/format.h>
+#include <fstream>
+#include <iterator>
+#include <limits>
+#include <toml++/toml.h>
+
+namespace hearth::clusters
+{
+
+namespace
+{
+
+/// Where in the file a value stands, for messages.
+struct Place
+{
+    const std::string& file;
+    std::string key;
+
+    Place at(std::string_view name) const
+    {
+        return {file, key.empty() ? std::string(name) : key + "." + std::string(name)};
+    }
+    Place at(size_t index) const { return {file, fmt::format("{}[{}]", key, index)}; }
+
+    Error wrong(Issue issue, const toml::node& node, std::string detail) const
+    {
+        return {issue, file, fmt::format("line {}, {}", node.source().begin.line, key), std::move(detail)};
+    }
+};
+
+using Keys = std::vector<std::string>;
+
+/// Errors: profile_value where the node is no table, profile_key where it has a key beside `known`.
+Result<const toml::table*> tableAt(const toml::node& node, const Place& place, const Keys& known)
+{
+    const toml::table* table = node.as_table();
+    if (table == nullptr)
+        return place.wrong(Issue::profile_value, node, "must be a table");
+    for (const auto& [key, value] : *table)
+    {
+        if (std::find(known.begin(), known.end(), key.str()) != known.end())
+            continue;
+        const std::string nearest = tools::nearestMatch(key.str(), known);
+        return place.at(key.str()).wrong(
+            Issue::profile_key, value,
+            nearest.empty() ? "this key is not known"
+                            : fmt::format("this key is not known: did you mean '{}'?", nearest));
+    }
+    return table;
+}
+
+Result<const toml::array*> arrayAt(const toml::node& node, const Place& place)
+{
+    const toml::array* array = node.as_array();
+    if (array == nullptr || array->empty())
+        return place.wrong(Issue::profile_value, node, "must be an array of at least one table");
+    return array;
+}
+
+/// The member's number, or `otherwise` where it is not there. errors: profile_value.
+Result<float> numberAt(const toml::table& table, std::string_view name, const Place& place, float low,
+                       float high, float otherwise)
+{
+    const toml::node* node = table.get(name);
+    if (node == nullptr)
+        return otherwise;
+    const auto value = static_cast<float>(node->value<double>().value_or(0));
+    if (node->is_number() && value >= low && value <= high)
+        return value;
+    return place.at(name).wrong(Issue::profile_value, *node,
+                                fmt::format("must be a number from {:g} to {:g}", low, high));
+}
+
+Result<uint32_t> countAt(const toml::table& table, std::string_view name, const Place& place)
+{
+    const toml::node* node = table.get(name);
+    const toml::node& culprit = node == nullptr ? table : *node;
+    const auto* value = node == nullptr ? nullptr : node->as_integer();
+    constexpr int64_t kMost = std::numeric_limits<int32_t>::max();
+    if (value != nullptr && value->get() >= 1 && value->get() <= kMost)
+        return static_cast<uint32_t>(value->get());
+    return place.at(name).wrong(Issue::profile_value, culprit, "must be a whole number from 1 on");
+}
+
+Result<std::string> patternAt(const toml::table& table, const Place& place)
+{
+    const toml::node* node = table.get("name");
+    const auto* text = node == nullptr ? nullptr : node->as_string();
+    if (text != nullptr && !text->get().empty())
+        return text->get();
+    return place.at("name").wrong(Issue::profile_value, node == nullptr ? table : *node,
+                                  "must be a text: the name that the rule is for, with * and ? as wildcards");
+}
+
+Result<LevelCurve> curveAt(const toml::node& node, const Place& place)
+{
+    HEARTH_ASSIGN_OR_RETURN(const toml::array* array, arrayAt(node, place));
+    LevelCurve curve;
+    for (size_t i = 0; i < array->size(); ++i)
+    {
+        const Place at = place.at(i);
+        HEARTH_ASSIGN_OR_RETURN(const toml::table* table,
+                                tableAt(*array->get(i), at, {"keep", "error_weight"}));
+        LevelStep step;
+        HEARTH_ASSIGN_OR_RETURN(step.keep,
+                                numberAt(*table, "keep", at, kSmallestKeep, kLargestKeep, step.keep));
+        HEARTH_ASSIGN_OR_RETURN(step.error_weight, numberAt(*table, "error_weight", at, 1,
+                                                            kLargestErrorWeight, step.error_weight));
+        curve.push_back(step);
+    }
+    return curve;
+}
+
+Result<std::vector<LevelTarget>> targetsAt(const toml::node& node, const Place& place)
+{
+    HEARTH_ASSIGN_OR_RETURN(const toml::array* array, arrayAt(node, place));
+    std::vector<LevelTarget> targets;
+    for (size_t i = 0; i < array->size(); ++i)
+    {
+        const Place at = place.at(i);
+        HEARTH_ASSIGN_OR_RETURN(const toml::table* table,
+                                tableAt(*array->get(i), at, {"level", "triangles"}));
+        LevelTarget target;
+        HEARTH_ASSIGN_OR_RETURN(target.level, countAt(*table, "level", at));
+        HEARTH_ASSIGN_OR_RETURN(target.triangles, countAt(*table, "triangles", at));
+        if (!targets.empty() &&
+            (target.level <= targets.back().level || target.triangles >= targets.back().triangles))
+            return at.wrong(Issue::profile_value, *table,
+                            "must have a higher level and fewer triangles than the target before");
+        targets.push_back(target);
+    }
+    return targets;
+}
+
+Result<MeshRule> meshRuleAt(const toml::node& node, const Place& place)
+{
+    HEARTH_ASSIGN_OR_RETURN(const toml::table* table, tableAt(node, place, {"name", "levels", "targets"}));
+    MeshRule rule;
+    HEARTH_ASSIGN_OR_RETURN(rule.name, patternAt(*table, place));
+    if (const toml::node* levels = table->get("levels"))
+    {
+        HEARTH_ASSIGN_OR_RETURN(rule.levels, curveAt(*levels, place.at("levels")));
+    }
+    if (const toml::node* targets = table->get("targets"))
+    {
+        HEARTH_ASSIGN_OR_RETURN(rule.targets, targetsAt(*targets, place.at("targets")));
+    }
+    return rule;
+}
+
+Result<MaterialRule> materialRuleAt(const toml::node& node, const Place& place)
+{
+    HEARTH_ASSIGN_OR_RETURN(const toml::table* table, tableAt(node, place, {"name", "levels"}));
+    MaterialRule rule;
+    HEARTH_ASSIGN_OR_RETURN(rule.name, patternAt(*table, place));
+    const toml::node* levels = table->get("levels");
+    if (levels == nullptr)
+        return place.at("levels").wrong(Issue::profile_value, node, "a rule for materials needs levels");
+    HEARTH_ASSIGN_OR_RETURN(rule.levels, curveAt(*levels, place.at("levels")));
+    return rule;
+}
+
+/// One rule for each table of the array `name`, if that is there.
+template <typename Rule>
+Status readRules(const toml::table& table, std::string_view name, const Place& place,
+                 Result<Rule> (*readRule)(const toml::node&, const Place&), std::vector<Rule>& rules)
+{
+    const toml::node* node = table.get(name);
+    if (node == nullptr)
+        return success();
+    HEARTH_ASSIGN_OR_RETURN(const toml::array* array, arrayAt(*node, place.at(name)));
+    for (size_t i = 0; i < array->size(); ++i)
+    {
+        HEARTH_ASSIGN_OR_RETURN(Rule rule, readRule(*array->get(i), place.at(name).at(i)));
+        rules.push_back(std::move(rule));
+    }
+    return success();
+}
+
+Result<Profile> profileOf(const toml::table& root, const std::string& path)
+{
+    HEARTH_TRY(tableAt(root, {path, ""}, {"clusters"}));
+    Profile profile;
+    const toml::node* node = root.get("clusters");
+    if (node == nullptr)
+        return profile;
+    const Place place{path, "clusters"};
+    HEARTH_ASSIGN_OR_RETURN(const toml::table* table, tableAt(*node, place, {"levels", "mesh", "material"}));
+    if (const toml::node* levels = table->get("levels"))
+    {
+        HEARTH_ASSIGN_OR_RETURN(profile.levels, curveAt(*levels, place.at("levels")));
+    }
+    HEARTH_TRY(readRules(*table, "mesh", place, meshRuleAt, profile.meshes));
+    HEARTH_TRY(readRules(*table, "material", place, materialRuleAt, profile.materials));
+    return profile;
+}
+
+} // namespace
+
+Result<Profile> readProfile(const std::string& path)
+{
+    std::error_code error;
+    std::ifstream file(path, std::ios::binary);
+    if (!file.is_open() || std::filesystem::is_directory(path, error))
+        return Error{Issue::input_missing, path, "", "the profile cannot be read"};
+    const std::string text((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+    try
+    {
+        return profileOf(toml::parse(text), path);
+    }
+    catch (const toml::parse_error& wrong)
+    {
+        return Error{Issue::profile_syntax, path, fmt::format("line {}", wrong.source().begin.line),
+                     std::string(wrong.description())};
+    }
+}
+
+Reduction reductionOf(const Profile& profile, std::string_view mesh_name,
+                      std::span<const std::string> material_names)
+{
+    Reduction reduction;
+    reduction.curve = profile.levels;
+    const auto rule = std::find_if(profile.meshes.begin(), profile.meshes.end(),
+                                   [&](const MeshRule& r) { return matchesPattern(r.name, mesh_name); });
+    if (rule != profile.meshes.end())
+    {
+        reduction.curve = rule->levels.value_or(profile.levels);
+        reduction.targets = rule->targets;
+    }
+    for (uint32_t m = 0; m < material_names.size(); ++m)
+    {
+        const auto own =
+            std::find_if(profile.materials.begin(), profile.materials.end(),
+                         [&](const MaterialRule& r) { return matchesPattern(r.name, material_names[m]); });
+        if (own != profile.materials.end())
+            reduction.curve_of_material[m] = own->levels;
+    }
+    return reduction;
+}
+
+bool matchesPattern(std::string_view pattern, std::string_view text)
+{
+    // after a mismatch, the last * takes one character more: earlier ones need not be tried again
+    size_t p = 0;
+    size_t t = 0;
+    size_t star = std::string_view::npos;
+    size_t star_end = 0;
+    while (t < text.size())
+    {
+        if (p < pattern.size() && pattern[p] == '*')
+        {
+            star = p++;
+            star_end = t;
+        }
+        else if (p < pattern.size() && (pattern[p] == '?' || pattern[p] == text[t]))
+        {
+            ++p;
+            ++t;
+        }
+        else if (star != std::string_view::npos)
+        {
+            p = star + 1;
+            t = ++star_end;
+        }
+        else
+            return false;
+    }
+    return pattern.find_first_not_of('*', p) == std::string_view::npos;
+}
+
+} // namespace hearth::clusters

@@ -1,0 +1,51 @@
+// What a user asks of the cluster builder: a TOML file. See README.md, "Profiles".
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "cook/clusters/reduction.h"
+#include "formats/result.h"
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace hearth::clusters
+{
+
+/// For meshes whose name matches; what it does not set stays as it is for all.
+struct MeshRule
+{
+    std::string name; ///< a pattern
+    std::optional<LevelCurve> levels;
+    std::vector<LevelTarget> targets;
+};
+
+/// For materials whose name matches, in any mesh.
+struct MaterialRule
+{
+    std::string name; ///< a pattern
+    LevelCurve levels;
+};
+
+struct Profile
+{
+    LevelCurve levels{LevelStep{}};
+    std::vector<MeshRule> meshes;
+    std::vector<MaterialRule> materials;
+};
+
+/// Read a profile. Strict: a key that is not known is an error, and so is a value out of its range.
+/// errors: input_missing, profile_syntax, profile_key, profile_value; they name the line and the key.
+Result<Profile> readProfile(const std::string& path);
+
+/// What the profile says of one mesh: the first rule that matches its name, and for each material the first that
+/// matches its own.
+Reduction reductionOf(const Profile& profile, std::string_view mesh_name,
+                      std::span<const std::string> material_names);
+
+/// Whether all of `text` matches: * stands for any characters, ? for one, everything else for itself.
+bool matchesPattern(std::string_view pattern, std::string_view text);
+
+} // namespace hearth::clusters

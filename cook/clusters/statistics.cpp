@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/clusters/statistics.h"
+
+#include "formats/pack_view.h"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+namespace hearth::clusters
+{
+
+using namespace formats;
+using Json = nlohmann::ordered_json;
+
+namespace
+{
+
+LevelStatistics levelStatistics(const Hierarchy& hierarchy, const LevelRecord& level)
+{
+    LevelStatistics statistics;
+    statistics.clusters = level.clusters.count;
+    statistics.triangles = level.triangle_count;
+    statistics.max_error = level.max_error;
+    for (uint32_t c = level.clusters.first; c < level.clusters.first + level.clusters.count; ++c)
+        statistics.mean_error +=
+            double{errorOf(hierarchy.clusters[c], hierarchy.groups)} * hierarchy.clusters[c].triangle_count;
+    statistics.mean_error /= static_cast<double>(statistics.triangles);
+    statistics.fill = static_cast<double>(statistics.triangles) /
+                      (static_cast<double>(statistics.clusters) * kClusterMaxTriangles);
+    return statistics;
+}
+
+/// What is drawn at a level: its clusters, and the roots of finer levels.
+TargetStatistics targetStatistics(const Hierarchy& hierarchy, const LevelTarget& target)
+{
+    TargetStatistics statistics{target.level, target.triangles, std::nullopt};
+    if (target.level >= hierarchy.levels.size())
+        return statistics;
+    statistics.triangles = hierarchy.levels[target.level].triangle_count;
+    for (const ClusterRecord& cluster : hierarchy.clusters)
+        if (cluster.level < target.level && std::isinf(hierarchy.groups[cluster.group].error))
+            *statistics.triangles += cluster.triangle_count;
+    return statistics;
+}
+
+double ratio(uint64_t part, uint64_t whole)
+{
+    return whole == 0 ? 0.0 : static_cast<double>(part) / static_cast<double>(whole);
+}
+
+Json levelJson(const LevelStatistics& level)
+{
+    return {{"clusters", level.clusters},
+            {"triangles", level.triangles},
+            {"fill", level.fill},
+            {"max_error", level.max_error},
+            {"mean_error", level.mean_error}};
+}
+
+Json targetJson(const TargetStatistics& target)
+{
+    Json json{{"level", target.level}, {"wanted", target.wanted}, {"triangles", nullptr}};
+    if (target.triangles)
+        json["triangles"] = *target.triangles;
+    return json;
+}
+
+Json countsJson(const BuildCounts& counts)
+{
+    return {{"permissive", counts.permissive_groups},
+            {"pruned", counts.pruned_groups},
+            {"merged", counts.merged_groups},
+            {"retried", counts.retried_groups},
+            {"stuck", counts.stuck_groups}};
+}
+
+Json bytesJson(const MeshStatistics& mesh)
+{
+    return {{"pages", mesh.page_bytes},
+            {"pages_stored", mesh.stored_page_bytes},
+            {"pages_per_triangle", ratio(mesh.page_bytes, mesh.source_triangles)},
+            {"pages_stored_per_triangle", ratio(mesh.stored_page_bytes, mesh.source_triangles)}};
+}
+
+Json meshJson(const MeshStatistics& mesh)
+{
+    Json json{{"index", mesh.index},
+              {"name", mesh.name},
+              {"source", {{"triangles", mesh.source_triangles}, {"vertices", mesh.source_vertices}}},
+              {"degenerate_triangles", mesh.degenerate_triangles},
+              {"levels", Json::array()},
+              {"groups", mesh.groups},
+              {"clusters", mesh.clusters},
+              {"pages", mesh.pages},
+              {"groups_by_outcome", countsJson(mesh.counts)},
+              {"loose_pieces", mesh.counts.loose_pieces},
+              {"bytes", bytesJson(mesh)}};
+    for (const LevelStatistics& level : mesh.levels)
+        json["levels"].push_back(levelJson(level));
+    if (!mesh.targets.empty())
+        json["targets"] = Json::array();
+    for (const TargetStatistics& target : mesh.targets)
+        json["targets"].push_back(targetJson(target));
+    if (!mesh.authored_levels.empty())
+        json["authored_levels"] = Json::array();
+    for (const uint32_t level : mesh.authored_levels)
+        json["authored_levels"].push_back(level == kNone ? Json(nullptr) : Json(level));
+    if (mesh.seconds)
+        json["seconds"] = *mesh.seconds;
+    return json;
+}
+
+} // namespace
+
+bool TargetStatistics::met() const
+{
+    return triangles && std::abs(static_cast<double>(*triangles) - static_cast<double>(wanted)) <=
+                            0.03 * static_cast<double>(wanted);
+}
+
+MeshStatistics statisticsOf(const Hierarchy& hierarchy, const Config& config, uint32_t index,
+                            std::string name)
+{
+    MeshStatistics statistics;
+    statistics.index = index;
+    statistics.name = std::move(name);
+    statistics.source_triangles = hierarchy.mesh.source_triangles;
+    statistics.source_vertices = hierarchy.mesh.source_vertices;
+    statistics.degenerate_triangles = hierarchy.mesh.degenerate_triangles;
+    statistics.groups = static_cast<uint32_t>(hierarchy.groups.size());
+    statistics.clusters = static_cast<uint32_t>(hierarchy.clusters.size());
+    statistics.pages = static_cast<uint32_t>(hierarchy.pages.size());
+    for (const PageRecord& page : hierarchy.pages)
+    {
+        statistics.page_bytes += page.size;
+        statistics.stored_page_bytes += page.stored_size;
+    }
+    for (const LevelRecord& level : hierarchy.levels)
+        statistics.levels.push_back(levelStatistics(hierarchy, level));
+    for (const LevelTarget& target : config.reduction.targets)
+        statistics.targets.push_back(targetStatistics(hierarchy, target));
+    statistics.authored_levels = hierarchy.authored_levels;
+    statistics.counts = hierarchy.counts;
+    return statistics;
+}
+
+std::string statisticsJson(const std::string& source, std::span<const MeshStatistics> meshes)
+{
+    Json json{{"schema", "hearth.clusters/1"},
+              {"tool_version", HEARTH_VERSION},
+              {"source", source},
+              {"meshes", Json::array()}};
+    for (const MeshStatistics& mesh : meshes)
+        json["meshes"].push_back(meshJson(mesh));
+    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+} // namespace hearth::clusters

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "pipelines/import/authored_files.h"
+
+#include "formats/pack_view.h"
+#include "pipelines/import/bake_transform.h"
+#include "pipelines/import/read_source.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace hearth::import
+{
+
+using namespace formats;
+
+namespace
+{
+
+Transform widened(const Affine3& transform)
+{
+    Transform wide;
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 4; ++j)
+            wide.m[i][j] = double{transform.m[i][j]};
+    return wide;
+}
+
+/// The instance that stands for all: one mesh in one place. errors: lod_file.
+Result<InstanceRecord> onlyInstance(std::span<const InstanceRecord> instances, const std::string& file)
+{
+    if (instances.size() == 1)
+        return instances[0];
+    return Error{Issue::lod_file, file, "",
+                 fmt::format("draws {} meshes: with levels of detail in files, each file draws one",
+                             instances.size())};
+}
+
+bool isSkinned(std::span<const NodeRecord> nodes, const InstanceRecord& instance)
+{
+    return instance.node < nodes.size() && nodes[instance.node].skin != kNone;
+}
+
+/// Append the images of a part as they are.
+Status copyImages(const PackView& from, PartBuilder& part)
+{
+    for (uint32_t i = 0; i < from.images().size(); ++i)
+    {
+        ImageRecord record = from.images()[i];
+        record.name = part.intern(from.text(record.name));
+        HEARTH_ASSIGN_OR_RETURN(const ChunkData data, from.imageData(i));
+        DecodedImage image;
+        image.width = record.width;
+        image.height = record.height;
+        image.is_float = record.format == static_cast<uint32_t>(TexelFormat::rgba16_float);
+        image.texels.assign(data.bytes().begin(), data.bytes().end());
+        HEARTH_ASSIGN_OR_RETURN(const uint32_t added, part.addImage(record, image));
+        static_cast<void>(added);
+    }
+    return success();
+}
+
+void copyMaterials(const PackView& from, uint32_t first_image, PartBuilder& part)
+{
+    for (MaterialRecord material : from.materials())
+    {
+        material.name = part.intern(from.text(material.name));
+        for (TextureRef* texture :
+             {&material.base_color_texture, &material.metallic_roughness_texture, &material.normal_texture,
+              &material.occlusion_texture, &material.emissive_texture})
+            if (texture->image != kNone)
+                texture->image += first_image;
+        part.materials.push_back(material);
+    }
+}
+
+/// What a level of detail is held against.
+struct Base
+{
+    InstanceRecord instance;
+    bool skinned = false;
+};
+
+Status addLevel(const PackView& from, const std::string& path, const Base& base, PartBuilder& part)
+{
+    HEARTH_ASSIGN_OR_RETURN(const InstanceRecord instance, onlyInstance(from.instances(), path));
+    HEARTH_ASSIGN_OR_RETURN(mesh::SourceMesh mesh, mesh::readSourceMesh(from.container(), instance.mesh));
+    const auto drop = [&](const char* why)
+    { part.warn(Issue::dropped, "", fmt::format("level of detail {} {}: it is not kept", path, why)); };
+    if (isSkinned(from.nodes(), instance) != base.skinned)
+    {
+        drop("must be skinned like its source, or not skinned like it");
+        return success();
+    }
+    const auto object_from_world = inverted(widened(base.instance.world_from_object));
+    if (!object_from_world || !bakeTransform(mesh, *object_from_world * widened(instance.world_from_object)))
+    {
+        drop("cannot be moved to where its source stands");
+        return success();
+    }
+    const auto first_material = static_cast<uint32_t>(part.materials.size());
+    for (uint32_t& material : mesh.triangle_materials)
+        material += material == kNone ? 0 : first_material;
+    const uint32_t first_image = part.imageCount();
+    HEARTH_TRY(copyImages(from, part));
+    copyMaterials(from, first_image, part);
+    return part.addLod(base.instance.mesh, std::move(mesh));
+}
+
+} // namespace
+
+Status addAuthoredFiles(std::span<const tools::LodFile> files, const std::string& folder,
+                        const ImportOptions& options, PartBuilder& part)
+{
+    HEARTH_ASSIGN_OR_RETURN(const InstanceRecord instance, onlyInstance(part.instances, part.sourceName()));
+    if (part.hasLods())
+        return Error{Issue::lod_file, part.sourceName(), "",
+                     "has levels of detail of its own: they cannot be mixed with those of files"};
+    const Base base{instance, isSkinned(part.nodes, instance)};
+    for (const tools::LodFile& file : files)
+    {
+        const std::string path = fmt::format("{}/{}.part", folder, file.level);
+        HEARTH_ASSIGN_OR_RETURN(PartBuilder level, PartBuilder::create(path, file.path));
+        HEARTH_TRY(readSource(file.path, options, level));
+        HEARTH_TRY(level.finish());
+        part.adoptReport(level);
+        HEARTH_ASSIGN_OR_RETURN(ContainerReader reader, ContainerReader::open(path, Check::structure));
+        HEARTH_ASSIGN_OR_RETURN(const PackView view, PackView::read(std::move(reader)));
+        HEARTH_TRY(addLevel(view, file.path, base, part));
+    }
+    return success();
+}
+
+} // namespace hearth::import
