@@ -20,7 +20,10 @@ struct Arguments
     std::string source;
     std::string output;
     std::vector<std::string> lods;
+    double crease_angle_deg = 60;
 };
+
+constexpr double kRadiansPerDegree = 3.14159265358979323846 / 180;
 
 void printWarnings(const import::PartBuilder& part)
 {
@@ -33,7 +36,8 @@ void printWarnings(const import::PartBuilder& part)
 
 Status readAll(const Arguments& arguments, std::span<const tools::LodFile> lods, import::PartBuilder& part)
 {
-    const import::ImportOptions options;
+    import::ImportOptions options;
+    options.crease_angle_rad = static_cast<float>(arguments.crease_angle_deg * kRadiansPerDegree);
     HEARTH_TRY(import::readSource(arguments.source, options, part));
     if (lods.empty())
         return success();
@@ -64,6 +68,10 @@ int program(int argc, char** argv)
     app.add_option("--lod", arguments.lods,
                    "N=FILE: level of detail N of the source's only mesh, made by hand")
         ->allow_extra_args(false);
+    app.add_option("--crease-angle", arguments.crease_angle_deg,
+                   "degrees: sharper edges of a mesh without normals stay hard; 180: none does")
+        ->capture_default_str()
+        ->check(CLI::Range(0.0, 180.0));
     app.footer("Examples:\n"
                "  hearth-import scene.glb -o scene.import.part\n"
                "  hearth-import rock.glb --lod 1=rock_mid.glb --lod 2=rock_low.glb -o rock.import.part\n"
