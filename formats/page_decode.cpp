@@ -175,7 +175,7 @@ public:
         const uint8_t* const codes = streams.codes.at;
         for (uint32_t t = 0; t < triangle_count; ++t)
         {
-            const uint32_t code = codes[t / 2] >> (t % 2 * 4) & 15u;
+            const uint32_t code = uint32_t{codes[t / 2]} >> (t % 2 * 4) & 15u;
             if (code == kCodeRestart) [[unlikely]]
             {
                 restart(s, *restarts++);
