@@ -14,6 +14,9 @@ namespace hearth::clusters
 namespace
 {
 
+// Flatter groups count as if their normals changed by so much over a unit of length.
+constexpr float kLeastNormalChange = 1.5f;
+
 /// Numbers keys 0, 1, ... in order of first use.
 class KeyNumbers
 {
@@ -163,10 +166,29 @@ void nameCharts(GroupMesh& group, const mesh::SourceMesh& source, std::span<cons
     }
 }
 
+/// How much the normals change over the surface: radians, or what is like them, for each local unit of length.
+float normalChange(const GroupMesh& group, std::span<const Float3> normals)
+{
+    double changes = 0;
+    double lengths = 0;
+    for (size_t t = 0; t < group.corners.size(); t += 3)
+        for (size_t k = 0; k < 3; ++k)
+        {
+            const size_t a = t + k, b = t + (k + 1) % 3;
+            const Float3 along = group.positions[group.positionAt(b)] - group.positions[group.positionAt(a)];
+            const Float3 change = normals[group.vertex_of_wedge[group.corners[b]]] -
+                                  normals[group.vertex_of_wedge[group.corners[a]]];
+            changes += dot(change, change);
+            lengths += dot(along, along);
+        }
+    return lengths > 0 ? static_cast<float>(std::sqrt(changes / lengths)) : 0.0f;
+}
+
 void gatherAttributes(GroupMesh& group, const mesh::SourceMesh& vertices, const Config& config)
 {
-    if (!vertices.normals.empty())
-        group.weights.normal = config.normal_weight;
+    if (!vertices.normals.empty() && config.normal_weight > 0)
+        group.weights.normal =
+            config.normal_weight / std::max(normalChange(group, vertices.normals), kLeastNormalChange);
     if (!vertices.uvs[0].empty() && config.uv_weight > 0)
         group.weights.uv = config.uv_weight * uvScale(group, vertices.uvs[0]);
     if (!vertices.colors.empty())
