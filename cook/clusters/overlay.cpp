@@ -10,7 +10,11 @@
 #pragma GCC diagnostic ignored "-Wpsabi"
 
 // One function for processors with eight lanes, one for all others; the arithmetic, and so the result, is the same.
+#ifdef __x86_64__
 #define HEARTH_EIGHT_LANES __attribute__((target_clones("avx2", "default")))
+#else
+#define HEARTH_EIGHT_LANES
+#endif
 #define HEARTH_INLINE inline __attribute__((always_inline))
 
 namespace hearth::clusters

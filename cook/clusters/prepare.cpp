@@ -3,6 +3,8 @@
 #include "cook/mesh/triangles.h"
 #include "cook/mesh/weld.h"
 
+#include <cmath>
+
 namespace hearth::clusters
 {
 
@@ -48,6 +50,23 @@ std::vector<uint8_t> degenerateTriangles(const mesh::SourceMesh& source)
                             ? 1
                             : 0;
     return degenerate;
+}
+
+/// rms length of the difference of normals along the triangles' edges, flat ones left out.
+float normalBend(const mesh::SourceMesh& source, std::span<const uint32_t> corners)
+{
+    constexpr float kFlat2 = 1e-6f;
+    double sum = 0;
+    size_t count = 0;
+    for (size_t corner = 0; corner < corners.size() && !source.normals.empty(); ++corner)
+    {
+        const size_t next = corner % 3 == 2 ? corner - 2 : corner + 1;
+        const Float3 change = source.normals[corners[next]] - source.normals[corners[corner]];
+        const float change2 = dot(change, change);
+        sum += change2 > kFlat2 ? change2 : 0.0f;
+        count += change2 > kFlat2 ? 1 : 0;
+    }
+    return count > 0 ? static_cast<float>(std::sqrt(sum / static_cast<double>(count))) : 0.0f;
 }
 
 /// Call `visit` for each array of positions or attributes of both meshes.
@@ -106,6 +125,7 @@ PreparedMesh prepareMesh(mesh::SourceMesh source)
         prepared.corners.insert(prepared.corners.end(), {a, b, c});
         prepared.materials.push_back(source.triangle_materials[t]);
     }
+    prepared.normal_bend = normalBend(source, prepared.corners);
     prepared.position_of_vertex = std::move(weld.position_of_vertex);
     prepared.position_count = weld.position_count;
     source.indices = {};

@@ -47,8 +47,9 @@ std::string axes()
 std::string panel(const MeshCurve& curve)
 {
     std::string svg = axes();
-    svg += fmt::format("<text x='0' y='-10' font-weight='bold'>{}: {:.0f} triangles</text>\n", curve.mesh,
-                       curve.source_triangles);
+    svg += fmt::format(
+        "<text x='0' y='-10' font-weight='bold'>{}, {:.0f} triangles: rms distance / diagonal</text>\n",
+        curve.mesh, curve.source_triangles);
     svg += fmt::format(
         "<text x='{}' y='{}' text-anchor='middle'>triangles of the source that are drawn</text>\n",
         kWidth / 2, kHeight + 34);

@@ -198,9 +198,16 @@ std::vector<double> areasOfLevels(const Hierarchy& hierarchy)
     return areas;
 }
 
+TEST(Hierarchy, keepsFineNormalsWhereTheyAreSmooth)
+{
+    EXPECT_NE(buildHierarchy(shapes::rock(48, 0)).mesh.attributes & formats::kVertexFineNormal, 0u);
+    EXPECT_EQ(buildHierarchy(shapes::rock(48, 0.4f)).mesh.attributes & formats::kVertexFineNormal, 0u);
+}
+
 TEST(Hierarchy, ofFoliageKeepsItsArea)
 {
     const std::vector<double> areas = areasOfLevels(buildHierarchy(shapes::foliage(6000)));
+    ASSERT_GE(areas.size(), 6u);
     for (size_t level = 1; level < areas.size(); ++level)
         EXPECT_NEAR(areas[level], areas[0], 0.15 * areas[0]) << "level " << level;
 }
