@@ -198,6 +198,27 @@ std::vector<double> areasOfLevels(const Hierarchy& hierarchy)
     return areas;
 }
 
+TEST(Hierarchy, placesVerticesBesideTheSource)
+{
+    // chords of a ball lie inside it: what is placed well has its corners outside
+    const SourceMesh ball = shapes::rock(48, 0);
+    const Hierarchy hierarchy = buildHierarchy(ball);
+    const auto decoded = clusters::decodeHierarchy(hierarchy);
+    ASSERT_TRUE(decoded.ok());
+    float farthest = 0;
+    for (const Float3 place : ball.positions)
+        farthest = std::max(farthest, length(place));
+    size_t outside = 0, all = 0;
+    for (size_t c = 0; c < hierarchy.clusters.size(); ++c)
+        for (const uint32_t position : decoded->clusters[c].positions)
+            if (hierarchy.clusters[c].level == 3)
+            {
+                ++all;
+                outside += length(decoded->positions[position]) > farthest * 1.0002f ? 1u : 0u;
+            }
+    EXPECT_GT(outside * 2, all);
+}
+
 TEST(Hierarchy, keepsFineNormalsWhereTheyAreSmooth)
 {
     EXPECT_NE(buildHierarchy(shapes::rock(48, 0)).mesh.attributes & formats::kVertexFineNormal, 0u);
