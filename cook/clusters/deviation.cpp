@@ -117,7 +117,8 @@ public:
           over_after_(after_, open_, std::vector<float>(group.positions.size(), 0)),
           likely_before_(before_.facetCount()),
           likely_after_(after_.facetCount()),
-          errors_(after_.facetCount(), 0)
+          errors_(after_.facetCount(), 0),
+          errors_at_(group.positions.size(), 0)
     {
     }
 
@@ -139,8 +140,12 @@ public:
             if (unchanged[t] == 0)
                 totals_.push_back({totalBefore(t), t, true});
         takeTotals();
-        for (float& error : errors_)
-            error += kRounding;
+        for (size_t t = 0; t < errors_.size(); ++t)
+        {
+            for (size_t corner = t * 3; corner < t * 3 + 3; ++corner)
+                give(static_cast<uint32_t>(t), errors_at_[after_.positions[corner]]);
+            errors_[t] += kRounding;
+        }
         return {std::move(errors_), nearest_.loosePieces()};
     }
 
@@ -161,22 +166,34 @@ private:
         return target != before_.positions[corner] || simplified_.placement.remade[target] != 0;
     }
 
-    /// Largest first: once one needs no closer look, neither do the others.
+    /// Largest first: once one needs no closer look, neither do the others. The largest of all rules most of them out.
     void takeTotals()
     {
-        std::make_heap(totals_.begin(), totals_.end());
-        while (!totals_.empty() && totals_.front().upper > worst_)
-        {
-            const Total total = totals_.front();
-            if (isRounding(total))
-                take(total);
-            else
-                total.before ? searchBefore(total.triangle) : searchAfter(total.triangle);
-            std::pop_heap(totals_.begin(), totals_.end());
-            totals_.pop_back();
-        }
-        for (const Total& total : totals_)
+        if (totals_.empty())
+            return;
+        std::iter_swap(std::max_element(totals_.begin(), totals_.end()), totals_.end() - 1);
+        settle(totals_.back());
+        totals_.pop_back();
+        auto last =
+            std::partition(totals_.begin(), totals_.end(), [&](const Total& t) { return t.upper > worst_; });
+        for (const Total& total : std::span(last, totals_.end()))
             take(total);
+        std::make_heap(totals_.begin(), last);
+        for (; last != totals_.begin() && totals_.front().upper > worst_; --last)
+        {
+            settle(totals_.front());
+            std::pop_heap(totals_.begin(), last);
+        }
+        for (const Total& total : std::span(totals_.begin(), last))
+            take(total);
+    }
+
+    void settle(const Total& total)
+    {
+        if (isRounding(total))
+            take(total);
+        else
+            total.before ? searchBefore(total.triangle) : searchAfter(total.triangle);
     }
 
     void take(const Total& total)
@@ -201,8 +218,10 @@ private:
     void giveTargets(uint32_t triangle, float error)
     {
         for (size_t corner = size_t{triangle} * 3; corner < size_t{triangle} * 3 + 3; ++corner)
-            for (const uint32_t facet : after_.facets_at.of(targetOf(corner)))
-                give(facet, error);
+        {
+            float& at = errors_at_[targetOf(corner)];
+            at = std::max(at, error);
+        }
     }
 
     float totalBefore(size_t t)
@@ -217,8 +236,20 @@ private:
         return group_.errors[t] + over_after_.heightOver(before_.cornersOf(t));
     }
 
+    /// What lies over most triangles is beside the corners that they had and those that they have. For the others, all
+    /// positions that went to a corner are looked around.
     float totalAfter(size_t t)
     {
+        const size_t source = size_t{simplified_.source_triangle[t]} * 3;
+        over_before_.clear();
+        for (size_t k = 0; k < 3; ++k)
+        {
+            over_before_.addCenter(before_.positions[source + k]);
+            over_before_.addCenter(after_.positions[t * 3 + k]);
+        }
+        const float total = over_before_.heightOver(after_.cornersOf(t));
+        if (total < kInfinity)
+            return total;
         over_before_.clear();
         for (size_t corner = t * 3; corner < t * 3 + 3; ++corner)
             for (const uint32_t position : sources_.of(after_.positions[corner]))
@@ -288,8 +319,9 @@ private:
     Likely likely_after_;
     std::vector<Total> totals_;
     NearestBound nearest_;
-    float worst_ = 0;           ///< the largest total so far, as far as it was searched
-    std::vector<float> errors_; ///< for each triangle after
+    float worst_ = 0;              ///< the largest total so far, as far as it was searched
+    std::vector<float> errors_;    ///< for each triangle after
+    std::vector<float> errors_at_; ///< for each position after: what all triangles around it have at least
 };
 
 } // namespace

@@ -11,7 +11,7 @@
 
 // One function for processors with eight lanes, one for all others; the arithmetic, and so the result, is the same.
 #ifdef __x86_64__
-#define HEARTH_EIGHT_LANES __attribute__((target_clones("avx2", "default")))
+#define HEARTH_EIGHT_LANES __attribute__((target_clones("arch=x86-64-v4", "avx2", "default")))
 #else
 #define HEARTH_EIGHT_LANES
 #endif
@@ -93,16 +93,12 @@ struct Finding
     EightMask failed{};
     EightMask covered[3]{};
 
-    HEARTH_INLINE void add(EightMask mask, Eight h)
+    HEARTH_INLINE void add(EightMask mask, Eight h) { addBetween(mask, h, h); }
+    HEARTH_INLINE void addBetween(EightMask mask, Eight high, Eight low)
     {
-        height = greater(height, mask ? greater(h, -h) : Eight{} - 1.0f);
+        height = greater(height, mask ? greater(high, -low) : Eight{} - 1.0f);
     }
 };
-
-HEARTH_INLINE EightMask isOver(const Seen& p, float margin)
-{
-    return lesser(lesser(p.u, p.v), p.w) > margin;
-}
 
 /// Whether facets lie beyond one of the triangle's edges.
 HEARTH_INLINE EightMask areBeside(const Seen& a, const Seen& b, const Seen& c, float margin)
@@ -111,29 +107,22 @@ HEARTH_INLINE EightMask areBeside(const Seen& a, const Seen& b, const Seen& c, f
     return beyond(a.u, b.u, c.u) | beyond(a.v, b.v, c.v) | beyond(a.w, b.w, c.w);
 }
 
-/// Where the edges a, b cross the edge of the triangle on which the coordinate `s` is 0 and `r` is that along the edge.
-struct Crossing
+/// The parameters between which edges lie over the triangle: nowhere if begin > end.
+struct Stretch
 {
-    EightMask valid;
-    Eight t;
+    Eight begin{};
+    Eight end = Eight{} + 1.0f;
+
+    /// Keep what is on the inner side of the triangle's edge on which a coordinate, `a` to `b` on the edges, is 0:
+    /// nothing of edges that only touch it.
+    HEARTH_INLINE void clip(Eight a, Eight b)
+    {
+        const Eight at = a / (a - b);
+        begin = greater(begin, a < -kMargin ? at : Eight{});
+        end = lesser(end, b < -kMargin ? at : Eight{} + 1.0f);
+        end = greater(a, b) > kMargin ? end : Eight{} - 1.0f;
+    }
 };
-
-HEARTH_INLINE Crossing cross(Eight sa, Eight sb, Eight ra, Eight rb)
-{
-    const EightMask apart = ((sa > kMargin) & (sb < -kMargin)) | ((sa < -kMargin) & (sb > kMargin));
-    const Eight t = sa / (sa - sb);
-    const Eight r = ra + t * (rb - ra);
-    return {apart & (r > kMargin) & (r < 1 - kMargin), t};
-}
-
-/// Edges from a to b: where they cross those of the triangle.
-HEARTH_INLINE void addCrossings(const Seen& a, const Seen& b, Finding& finding)
-{
-    const auto add = [&](Crossing crossing) { finding.add(crossing.valid, a.h + crossing.t * (b.h - a.h)); };
-    add(cross(a.u, b.u, a.v, b.v));
-    add(cross(a.v, b.v, a.u, b.u));
-    add(cross(a.w, b.w, a.u, b.u));
-}
 
 /// Twice the signed areas that a line from a to b has with the triangle's corners.
 struct Sides
@@ -150,6 +139,19 @@ HEARTH_INLINE Sides sidesOf(const Seen& a, const Seen& b)
     const Eight du = b.u - a.u, dv = b.v - a.v;
     const Eight at_0 = dv * a.u - du * a.v;
     return {{at_0, at_0 - dv, at_0 + du}, kMargin * (greater(du, -du) + greater(dv, -dv))};
+}
+
+/// Edges from a to b: where they enter and leave the triangle. Those that only pass by a corner of it are not over it.
+HEARTH_INLINE void addEdges(const Seen& a, const Seen& b, const Sides& sides, Finding& finding)
+{
+    Stretch over;
+    over.clip(a.u, b.u);
+    over.clip(a.v, b.v);
+    over.clip(a.w, b.w);
+    const Eight rise = b.h - a.h;
+    const Eight first = a.h + over.begin * rise, last = a.h + over.end * rise;
+    const EightMask valid = (over.end - over.begin) * sides.margin > kMargin * kMargin;
+    finding.addBetween(valid, greater(first, last), lesser(first, last));
 }
 
 /// Edges from a to b that must not come over the triangle: each has to lie beyond one of the triangle's edges, or to
@@ -214,16 +216,14 @@ HEARTH_INLINE void addBlock(const StarBlock& block, const Seen& center, bool cen
     if (const EightMask others = ~(upward | touching); anySet(others))
         finding.failed |=
             others & ~(areAside(of[0], area2) | areAside(of[1], area2) | areAside(of[2], area2));
-    addCrossings(center, next, finding);
+    addEdges(center, next, of[2], finding);
     if (center_open)
     {
         addRim(center, next, of[2], next_name < 0, finding);
         addRim(previous, center, of[1], previous_name < 0, finding);
-        addCrossings(center, previous, finding);
+        addEdges(center, previous, of[1], finding);
     }
     addRim(next, previous, of[0], rimOf(next_name, previous_name, centers), finding);
-    for (const Seen& corner : {center, next, previous})
-        finding.add(overlapping & isOver(corner, -kMargin), corner.h);
     addOwnCorners(center, next, previous, of, area2, overlapping, finding);
 }
 
@@ -271,12 +271,6 @@ bool makeView(const Corners& triangle, View& view)
 }
 
 } // namespace
-
-void Overlay::addCenter(uint32_t position)
-{
-    if (std::find(centers_.begin(), centers_.end(), position) == centers_.end())
-        centers_.push_back(position);
-}
 
 float Overlay::heightOver(const Corners& triangle) const
 {

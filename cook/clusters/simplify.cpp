@@ -21,9 +21,6 @@ namespace
 
 constexpr uint32_t kNoPosition = 0xFFFFFFFFu;
 
-// Where the surface is flat all collapses cost nothing: then short edges of small areas go first.
-constexpr float kLengthWeight = 1e-6f;
-
 // Strict collapses that end within this of the target are good enough.
 constexpr double kNearTarget = 1.1;
 
@@ -112,7 +109,8 @@ private:
         evaluateGathered(position);
     }
     bool mapTo(uint32_t from, uint32_t to);
-    void gatherFanCandidates(uint32_t position);
+    template <typename Visit>
+    void forEachOfFan(uint32_t position, Visit visit) const;
     float cost(uint32_t from, uint32_t to) const;
     bool moreChartsThanTwo() const;
     void gatherCandidates(uint32_t position, bool along_seams);
@@ -272,21 +270,15 @@ void Collapser::mapNearest(uint32_t to)
 float Collapser::cost(uint32_t from, uint32_t to) const
 {
     const Float3 t = group_.positions[to] - group_.positions[from];
-    float error = quadrics_.position[from].at(t);
-    float weight = 0;
     const LaneVector t_lanes = allLanes(t);
     Lanes attribute_error{};
     for (const WedgeMove& move : moves_)
-    {
-        weight += quadrics_.wedge_weight[move.from];
         attribute_error += quadrics_.attributeError(group_, move, t_lanes);
-    }
     if (!allMapped())
         for (const uint32_t wedge : mesh_.wedges())
             if (!mapped(wedge))
                 attribute_error -= quadrics_.mostGain(group_, wedge, t_lanes);
-    error += sumOfLanes(attribute_error);
-    return std::max(error, 0.0f) + kLengthWeight * weight * dot(t, t);
+    return std::max(quadrics_.position[from].at(t) + sumOfLanes(attribute_error), 0.0f);
 }
 
 bool Collapser::moreChartsThanTwo() const
@@ -308,17 +300,23 @@ bool Collapser::moreChartsThanTwo() const
     return false;
 }
 
-void Collapser::gatherFanCandidates(uint32_t position)
+/// Calls `visit` with each collapse of the gathered fan.
+template <typename Visit>
+void Collapser::forEachOfFan(uint32_t position, Visit visit) const
 {
-    edges_held_[position] = 1;
     if (mesh_.degree(position) <= 2)
         return;
+    const Float3 place = group_.positions[position];
+    const PositionQuadric& quadric = quadrics_.position[position];
     for (const FanEnd end : mesh_.fan())
     {
         if (mesh_.degree(end.position) <= 2)
             continue;
-        moves_.assign(1, {mesh_.fanWedge(), end.wedge});
-        candidates_.push_back({cost(position, end.position), end.position, true});
+        const Float3 t = group_.positions[end.position] - place;
+        const Lanes of_attributes =
+            quadrics_.attributeError(group_, {mesh_.fanWedge(), end.wedge}, allLanes(t));
+        const float cost = std::max(quadric.at(t) + sumOfLanes(of_attributes), 0.0f);
+        visit(Candidate{cost, end.position, true});
     }
 }
 
@@ -329,7 +327,11 @@ void Collapser::gatherCandidates(uint32_t position, bool along_seams)
     candidates_.clear();
     wedge_blocked_[position] = 0;
     if (plain_)
-        return gatherFanCandidates(position);
+    {
+        edges_held_[position] = 1;
+        forEachOfFan(position, [&](const Candidate& candidate) { candidates_.push_back(candidate); });
+        return;
+    }
     const auto ring = mesh_.ring();
     if (std::all_of(ring.begin(), ring.end(), [&](const Spoke& s) { return mesh_.emptiesStar(position, s); }))
         return;
@@ -394,6 +396,16 @@ void Collapser::evaluateGathered(uint32_t position)
 {
     ++version_[position];
     best_target_[position] = kNoPosition;
+    if (plain_)
+    {
+        wedge_blocked_[position] = 0;
+        edges_held_[position] = 1;
+        Candidate best{std::numeric_limits<float>::infinity(), kNoPosition, true};
+        forEachOfFan(position, [&](const Candidate& candidate) { best = std::min(best, candidate); });
+        if (best.target != kNoPosition)
+            push(position, best);
+        return;
+    }
     gatherCandidates(position, permissive_);
     if (const auto candidate = nextCandidate(position))
         push(position, *candidate);

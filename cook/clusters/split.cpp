@@ -260,17 +260,27 @@ Cut bestCut(std::span<const SplitItem> items, size_t capacity)
     return best.cut;
 }
 
-/// Move the items that are first along the cut's axis to the front. Ties go by triangle: one result on every machine.
-void applyCut(std::span<SplitItem> items, Cut cut)
+/// Move the `count` items that are first along an axis to the front. Ties go by triangle: one result on every machine.
+template <float Float3::*axis>
+void moveToFront(std::span<SplitItem> items, size_t count)
 {
-    const auto order = [axis = cut.axis](const SplitItem& a, const SplitItem& b)
+    const auto order = [](const SplitItem& a, const SplitItem& b)
     {
-        const float x = a.center[axis];
-        const float y = b.center[axis];
+        const float x = a.center.*axis;
+        const float y = b.center.*axis;
         return x < y || (x == y && a.triangle < b.triangle);
     };
-    std::nth_element(items.begin(), items.begin() + static_cast<ptrdiff_t>(cut.left_count), items.end(),
-                     order);
+    std::nth_element(items.begin(), items.begin() + static_cast<ptrdiff_t>(count), items.end(), order);
+}
+
+void applyCut(std::span<SplitItem> items, Cut cut)
+{
+    if (cut.axis == 0)
+        moveToFront<&Float3::x>(items, cut.left_count);
+    else if (cut.axis == 1)
+        moveToFront<&Float3::y>(items, cut.left_count);
+    else
+        moveToFront<&Float3::z>(items, cut.left_count);
 }
 
 /// Triangles that a cluster of these items can have on average before its vertices run out.
