@@ -267,6 +267,18 @@ Result<ChunkData> ContainerReader::read(uint32_t type, uint32_t index) const
     return ChunkData(out, blocks);
 }
 
+void ContainerReader::discard(const ChunkEntry& entry) const
+{
+    if (owner_ == nullptr)
+        return;
+    const std::span<const std::byte> bytes = stored(entry);
+    const auto page = static_cast<uintptr_t>(::sysconf(_SC_PAGESIZE));
+    const auto first = (reinterpret_cast<uintptr_t>(bytes.data()) + page - 1) / page * page;
+    const auto last = reinterpret_cast<uintptr_t>(bytes.data() + bytes.size()) / page * page;
+    if (first < last)
+        ::madvise(reinterpret_cast<void*>(first), last - first, MADV_DONTNEED);
+}
+
 Status ContainerReader::checkDecodes(const ChunkEntry& entry) const
 {
     const std::span<const std::byte> bytes = stored(entry);

@@ -80,6 +80,9 @@ public:
     /// Decompressed content; empty if the chunk does not exist. errors: chunk_hash, chunk_codec.
     Result<ChunkData> read(uint32_t type, uint32_t index = 0) const;
 
+    /// Give the memory of a chunk's stored bytes back to the system. They come from the file again when they are read.
+    void discard(const ChunkEntry& entry) const;
+
     /// Whether the content can be decompressed to the size that the table says, without keeping it.
     /// errors: chunk_hash, chunk_codec.
     Status checkDecodes(const ChunkEntry& entry) const;
@@ -102,7 +105,7 @@ private:
 
     std::string name_;
     std::span<const std::byte> bytes_;
-    std::shared_ptr<const void> owner_;
+    std::shared_ptr<const void> owner_; ///< the mapping of the file, or nothing
     FileHeader header_{};
     std::vector<ChunkEntry> table_;
     std::vector<uint32_t> entries_by_id_; ///< entries sorted by type and index

@@ -8,6 +8,7 @@
 #include "cook/clusters/reduce.h"
 #include "cook/clusters/split.h"
 #include "cook/clusters/surface_bound.h"
+#include "cook/mesh/free_memory.h"
 #include "formats/assert.h"
 #include "formats/cluster_bounds.h"
 
@@ -215,7 +216,7 @@ void takeVertices(PreparedMesh& mesh, Reduced& outcome, ClusterStore& clusters)
         mesh.position_of_vertex.push_back(mesh.position_count + position);
     mesh.position_count += outcome.made_position_count;
     outcome.made = {};
-    outcome.made_positions = {};
+    mesh::freeMemory(outcome.made_positions);
 }
 
 /// Collect what replaces the level's groups.
@@ -241,7 +242,7 @@ Level nextLevel(PreparedMesh& mesh, Level& level)
             for (const uint32_t member : members)
                 next.drawn_below += level.store.shapes[member].triangle_count;
     }
-    level.store.errors = {};
+    mesh::freeMemory(level.store.errors);
     return next;
 }
 
@@ -291,9 +292,9 @@ Level switchToAuthored(Build& build, Level& level, const LevelPlan& plan,
     build.mesh.corners = authored.corners;
     build.mesh.materials = authored.materials;
     next.store = splitMesh(build.mesh);
-    build.mesh.corners = {};
-    build.mesh.materials = {};
-    level.store.errors = {};
+    mesh::freeMemory(build.mesh.corners);
+    mesh::freeMemory(build.mesh.materials);
+    mesh::freeMemory(level.store.errors);
     next.store.errors.assign(next.store.errors.size(), distance);
     next.refined_group.assign(next.store.shapes.size(), level.first_group);
     next.retries.assign(next.store.shapes.size(), 0);
@@ -335,8 +336,8 @@ void buildLevels(Build& build)
     std::vector<uint8_t> locked = pinned;
     Level first;
     first.store = splitMesh(build.mesh);
-    build.mesh.corners = {};
-    build.mesh.materials = {};
+    mesh::freeMemory(build.mesh.corners);
+    mesh::freeMemory(build.mesh.materials);
     first.refined_group.assign(first.store.shapes.size(), kNone);
     first.retries.assign(first.store.shapes.size(), 0);
     build.levels.push_back(std::move(first));

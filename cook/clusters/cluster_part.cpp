@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/clusters/cluster_part.h"
 
+#include "cook/mesh/free_memory.h"
 #include "formats/pack_view.h"
 
 #include <limits>
@@ -171,7 +172,7 @@ Status writeClustersPart(const ContainerReader& part, const std::string& output_
             HEARTH_TRY(observe(i, name, config, hierarchy));
         const uint64_t page_offset = writer.chunkSize();
         HEARTH_TRY(writer.append(hierarchy.page_bytes));
-        hierarchy.page_bytes = {};
+        mesh::freeMemory(hierarchy.page_bytes);
         appendTables(tables, std::move(hierarchy), page_offset, name);
         if (!fits(tables))
             return Error{Issue::input_too_large, part.name(), chunkName(kChunkSourceMesh, i),

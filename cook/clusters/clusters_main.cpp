@@ -13,6 +13,7 @@
 #include <chrono>
 #include <cstdio>
 #include <fmt/format.h>
+#include <malloc.h>
 #include <memory>
 #include <string>
 
@@ -201,5 +202,9 @@ int program(int argc, char** argv)
 
 int main(int argc, char** argv)
 {
+#ifdef __GLIBC__
+    // large arrays go back to the system when they are freed, whatever was allocated behind them
+    ::mallopt(M_MMAP_THRESHOLD, 1 << 20);
+#endif
     return hearth::runProgram("hearth-clusters", [&] { return program(argc, argv); });
 }

@@ -2,6 +2,7 @@
 #include "cook/clusters/grouping.h"
 
 #include "cook/clusters/morton.h"
+#include "cook/mesh/free_memory.h"
 #include "formats/assert.h"
 #include "formats/vertex_codec.h"
 
@@ -269,8 +270,8 @@ private:
         a.members.insert(a.members.end(), b.members.begin(), b.members.end());
         a.links.insert(a.links.end(), b.links.begin(), b.links.end());
         a.bytes += b.bytes;
-        b.members = {};
-        b.links = {};
+        mesh::freeMemory(b.members);
+        mesh::freeMemory(b.links);
         b.merged_into = into;
     }
 

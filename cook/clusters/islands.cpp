@@ -58,6 +58,8 @@ void gatherSmallIslands(std::span<Float3> centers, std::span<const uint32_t> ver
     std::vector<uint32_t> size(vertex_count, 0);
     for (const uint32_t i : island)
         ++size[i];
+    if (std::none_of(island.begin(), island.end(), [&](uint32_t i) { return size[i] <= kSmallIsland; }))
+        return;
     std::vector<Float3> island_center(vertex_count);
     for (size_t t = 0; t < centers.size(); ++t)
         if (size[island[t]] <= kSmallIsland)

@@ -108,13 +108,15 @@ PreparedMesh prepareMesh(mesh::SourceMesh source)
     prepared.grid = mesh::snapToGrid(source);
     mesh::Weld weld = mesh::weldPositions(source.positions);
     const std::vector<uint32_t> first_equal = mesh::firstEqualVertices(source);
-    prepared.corners.reserve(source.indices.size());
-    prepared.materials.reserve(source.triangleCount());
-    for (size_t t = 0; t < source.triangleCount(); ++t)
+    // the arrays of the source take what is kept
+    prepared.corners = std::move(source.indices);
+    prepared.materials = std::move(source.triangle_materials);
+    size_t kept = 0;
+    for (size_t t = 0; t < degenerate.size(); ++t)
     {
-        const uint32_t a = first_equal[source.indices[t * 3]];
-        const uint32_t b = first_equal[source.indices[t * 3 + 1]];
-        const uint32_t c = first_equal[source.indices[t * 3 + 2]];
+        const uint32_t a = first_equal[prepared.corners[t * 3]];
+        const uint32_t b = first_equal[prepared.corners[t * 3 + 1]];
+        const uint32_t c = first_equal[prepared.corners[t * 3 + 2]];
         // what has become flat on the grid stays: only without it would its neighbours come apart
         if (degenerate[t] != 0 || source.positions[a] == source.positions[b] ||
             source.positions[b] == source.positions[c] || source.positions[c] == source.positions[a])
@@ -122,14 +124,17 @@ PreparedMesh prepareMesh(mesh::SourceMesh source)
             ++prepared.degenerate_count;
             continue;
         }
-        prepared.corners.insert(prepared.corners.end(), {a, b, c});
-        prepared.materials.push_back(source.triangle_materials[t]);
+        prepared.corners[kept * 3] = a;
+        prepared.corners[kept * 3 + 1] = b;
+        prepared.corners[kept * 3 + 2] = c;
+        prepared.materials[kept] = prepared.materials[t];
+        ++kept;
     }
+    prepared.corners.resize(kept * 3);
+    prepared.materials.resize(kept);
     prepared.normal_bend = normalBend(source, prepared.corners);
     prepared.position_of_vertex = std::move(weld.position_of_vertex);
     prepared.position_count = weld.position_count;
-    source.indices = {};
-    source.triangle_materials = {};
     prepared.vertices = std::move(source);
     return prepared;
 }

@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <array>
-#include <numeric>
 
 #include <tbb/parallel_for.h>
 
@@ -369,7 +368,8 @@ std::vector<std::span<SplitItem>> splitTop(std::span<SplitItem> items)
     return nodes;
 }
 
-std::vector<Float3> centersOf(const PreparedMesh& mesh)
+/// The triangles ordered by material, with their centers.
+std::vector<SplitItem> itemsOf(const PreparedMesh& mesh)
 {
     std::vector<Float3> centers(mesh.triangleCount());
     for (size_t t = 0; t < centers.size(); ++t)
@@ -379,21 +379,17 @@ std::vector<Float3> centersOf(const PreparedMesh& mesh)
         centers[t] = triangleCenter(place(0), place(1), place(2));
     }
     gatherSmallIslands(centers, mesh.corners, mesh.vertices.vertexCount());
-    return centers;
-}
-
-/// Triangles ordered by material, stable.
-std::vector<uint32_t> orderByMaterial(const PreparedMesh& mesh)
-{
-    std::vector<uint32_t> order(mesh.triangleCount());
-    std::iota(order.begin(), order.end(), 0u);
+    std::vector<SplitItem> items(centers.size());
+    for (uint32_t t = 0; t < items.size(); ++t)
+        items[t] = {centers[t], t};
     const auto materials = std::span(mesh.materials);
     const bool mixed = std::any_of(materials.begin(), materials.end(),
                                    [&](uint32_t material) { return material != materials.front(); });
     if (mixed)
-        std::stable_sort(order.begin(), order.end(),
-                         [&](uint32_t a, uint32_t b) { return materials[a] < materials[b]; });
-    return order;
+        std::stable_sort(items.begin(), items.end(),
+                         [&](const SplitItem& a, const SplitItem& b)
+                         { return materials[a.triangle] < materials[b.triangle]; });
+    return items;
 }
 
 } // namespace
@@ -420,27 +416,25 @@ void splitIntoClusters(std::span<SplitItem> items, const SplitTriangles& triangl
 
 ClusterStore splitMesh(const PreparedMesh& mesh)
 {
-    const std::vector<uint32_t> order = orderByMaterial(mesh);
-    const std::vector<Float3> centers = centersOf(mesh);
+    std::vector<SplitItem> items = itemsOf(mesh);
     const std::vector<float> errors(mesh.triangleCount(), mesh.grid.error);
-    std::vector<SplitItem> items(order.size());
-    for (size_t i = 0; i < order.size(); ++i)
-        items[i] = {centers[order[i]], order[i]};
-
     ClusterStore out;
     for (size_t first = 0; first < items.size();)
     {
-        const uint32_t material = mesh.materials[order[first]];
+        const uint32_t material = mesh.materials[items[first].triangle];
         size_t last = first;
-        while (last < items.size() && mesh.materials[order[last]] == material)
+        while (last < items.size() && mesh.materials[items[last].triangle] == material)
             ++last;
         const auto nodes = splitTop(std::span(items).subspan(first, last - first));
         const SplitTriangles triangles{mesh.corners, errors, material};
         std::vector<ClusterStore> parts(nodes.size());
         tbb::parallel_for(size_t{0}, nodes.size(),
                           [&](size_t i) { splitIntoClusters(nodes[i], triangles, parts[i]); });
-        for (const ClusterStore& part : parts)
+        for (ClusterStore& part : parts)
+        {
             out.append(part);
+            part = {};
+        }
         first = last;
     }
     return out;

@@ -212,7 +212,8 @@ Result<SourceMesh> readSourceMesh(const ContainerReader& reader, uint32_t index)
     const auto damaged = [&](const char* what) {
         return Error{Issue::chunk_size, reader.name(), where, what};
     };
-    if (reader.find(kChunkSourceMesh, index) == nullptr)
+    const ChunkEntry* entry = reader.find(kChunkSourceMesh, index);
+    if (entry == nullptr)
         return Error{Issue::chunk_missing, reader.name(), where, ""};
     HEARTH_ASSIGN_OR_RETURN(const ChunkData data, reader.read(kChunkSourceMesh, index));
 
@@ -240,6 +241,7 @@ Result<SourceMesh> readSourceMesh(const ContainerReader& reader, uint32_t index)
     if (std::any_of(mesh.indices.begin(), mesh.indices.end(),
                     [&](uint32_t i) { return i >= header->vertex_count; }))
         return Error{Issue::index_out_of_range, reader.name(), where, ""};
+    reader.discard(*entry); // all is copied
     return mesh;
 }
 
