@@ -204,7 +204,7 @@ int main(int argc, char** argv)
 {
 #ifdef __GLIBC__
     // large arrays go back to the system when they are freed, whatever was allocated behind them
-    ::mallopt(M_MMAP_THRESHOLD, 1 << 20);
+    ::mallopt(M_MMAP_THRESHOLD, 1 << 22);
 #endif
     return hearth::runProgram("hearth-clusters", [&] { return program(argc, argv); });
 }
