@@ -141,7 +141,7 @@ public:
         takeTotals();
         for (float& error : errors_)
             error += kRounding;
-        return {std::move(errors_), nearest_.loosePieces()};
+        return {std::move(errors_), std::move(after_), nearest_.loosePieces()};
     }
 
 private:
