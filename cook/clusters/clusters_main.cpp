@@ -112,11 +112,7 @@ Status cook(const Arguments& arguments, const clusters::Profile& profile,
         HEARTH_ASSIGN_OR_RETURN(materials, clusters::materialNames(part));
     }
     const auto configure = [&](const std::string& name)
-    {
-        clusters::Config config;
-        config.reduction = clusters::reductionOf(profile, name, materials);
-        return config;
-    };
+    { return clusters::configOf(profile, name, materials); };
     std::vector<clusters::MeshStatistics> meshes;
     auto start = std::chrono::steady_clock::now();
     const auto observe = [&](uint32_t index, const std::string& name, const clusters::Config& config,
