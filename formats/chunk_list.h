@@ -38,7 +38,7 @@ inline constexpr std::array kChunkList{
     ChunkInfo{kChunkMorphWeights, 1, "f32[]", false, "rest weights of nodes with morph targets"},
     ChunkInfo{kChunkMeshes, 1, "MeshRecord[]", false, "one for each mesh of the source, same index"},
     ChunkInfo{kChunkLevels, 1, "LevelRecord[]", false, "levels of detail of all meshes"},
-    ChunkInfo{kChunkGroups, 1, "GroupRecord[]", false, "groups of all meshes"},
+    ChunkInfo{kChunkGroups, 2, "GroupRecord[]", false, "groups of all meshes"},
     ChunkInfo{kChunkClusters, 1, "ClusterRecord[]", false, "clusters of all meshes"},
     ChunkInfo{kChunkPageTable, 1, "PageRecord[]", false, "the geometry pages"},
     ChunkInfo{kChunkPageParents, 1, "u32[]", false, "for each page, the pages that it refines"},
@@ -57,6 +57,13 @@ constexpr const ChunkInfo* chunkInfo(uint32_t type)
     const auto found = std::find_if(kChunkList.begin(), kChunkList.end(),
                                     [type](const ChunkInfo& chunk) { return chunk.type == type; });
     return found == kChunkList.end() ? nullptr : &*found;
+}
+
+/// The version that writers give a chunk: 1 for types that are not in the list.
+constexpr uint32_t chunkVersion(uint32_t type)
+{
+    const ChunkInfo* info = chunkInfo(type);
+    return info == nullptr ? 1 : info->version;
 }
 
 } // namespace hearth::formats

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
+#include "formats/chunk_list.h"
 #include "formats/container.h"
 #include "formats/result.h"
 
@@ -39,7 +40,8 @@ public:
                       uint32_t index = 0)
     {
         static_assert(std::is_trivially_copyable_v<T>);
-        return addChunk({.type = type, .index = index}, std::as_bytes(records), sizeof(T), codec);
+        return addChunk({.type = type, .index = index, .version = chunkVersion(type)}, std::as_bytes(records),
+                        sizeof(T), codec);
     }
 
     Status addText(uint32_t type, std::string_view text, Codec codec = Codec::zstd, uint32_t index = 0)

@@ -113,6 +113,10 @@ Status checkGroup(const PackView& view, uint32_t mesh_index, uint32_t i)
     const GroupRecord& group = view.groups()[i];
     if (!finite(group.sphere_center) || !nonNegative(group.sphere_radius) || !(group.error >= 0))
         return fail(view, Issue::meaning_value, "group", i, "its sphere or error is negative or not finite");
+    if (!nonNegative(group.position_error) || !nonNegative(group.normal_error) ||
+        !nonNegative(group.uv_error) || !(group.position_error <= group.error))
+        return fail(view, Issue::meaning_value, "group", i,
+                    "a part of its error is negative or not finite, or the position's exceeds it");
     if (group.page < mesh.pages.first || group.page - mesh.pages.first >= mesh.pages.count)
         return fail(view, Issue::meaning_reference, "group", i,
                     "page " + std::to_string(group.page) + " is not of its mesh");
@@ -141,9 +145,11 @@ Status checkSet(const PackView& view, const MeshRecord& mesh, uint32_t i)
         return fail(view, Issue::meaning_order, "group", i,
                     "it does not follow the group before it in its set");
     if (!(group.sphere_center == before.sphere_center) || group.sphere_radius != before.sphere_radius ||
-        group.error != before.error || group.level != before.level)
+        group.error != before.error || group.level != before.level ||
+        group.position_error != before.position_error || group.normal_error != before.normal_error ||
+        group.uv_error != before.uv_error)
         return fail(view, Issue::meaning_value, "group", i,
-                    "its sphere, error or level is not that of the group before it in its set");
+                    "its sphere, errors or level are not those of the group before it in its set");
     return success();
 }
 
@@ -193,6 +199,11 @@ Status checkRefinement(const PackView& view, const MeshRecord& mesh, size_t i)
         return fail(view, Issue::meaning_monotone, "cluster", i,
                     "error " + std::to_string(finer.error) + " of its refined group, " +
                         std::to_string(own.error) + " of its group");
+    if (std::isfinite(own.error) &&
+        !(finer.position_error <= own.position_error && finer.normal_error <= own.normal_error &&
+          finer.uv_error <= own.uv_error))
+        return fail(view, Issue::meaning_monotone, "cluster", i,
+                    "a part of its refined group's error exceeds that of its group's");
     if (!sphereContains(own, finer))
         return fail(view, Issue::meaning_monotone, "cluster", i,
                     "the sphere of its refined group leaves the sphere of its group");

@@ -116,7 +116,10 @@ struct GroupRecord
     Range clusters;
     uint32_t page;
     uint32_t set_offset;
-    uint32_t reserved[2];
+    float position_error;
+    float normal_error;
+    float uv_error;
+    uint32_t reserved[3];
 };
 
 /// What culling and drawing need to know of a cluster; 48 bytes, read by the GPU as it is (formats/shared/records.h).
@@ -245,17 +248,23 @@ HEARTH_RECORD(hearth::formats::LevelRecord, 16,
               HEARTH_FIELD(hearth::formats::LevelRecord, triangle_count, ""),
               HEARTH_FIELD(hearth::formats::LevelRecord, max_error,
                            "largest error of its clusters, object space"));
-HEARTH_RECORD(hearth::formats::GroupRecord, 48,
+HEARTH_RECORD(hearth::formats::GroupRecord, 64,
               HEARTH_FIELD(hearth::formats::GroupRecord, sphere_center, "object space"),
               HEARTH_FIELD(hearth::formats::GroupRecord, sphere_radius,
                            "contains the spheres of all refined groups"),
               HEARTH_FIELD(hearth::formats::GroupRecord, error,
-                           "object space; of what replaces it; infinity for a root"),
+                           "object space; of what replaces it, for the cut; infinity for a root"),
               HEARTH_FIELD(hearth::formats::GroupRecord, level, "of its clusters"),
               HEARTH_FIELD(hearth::formats::GroupRecord, clusters, "chunk CLUS"),
               HEARTH_FIELD(hearth::formats::GroupRecord, page, "that holds all its clusters"),
               HEARTH_FIELD(hearth::formats::GroupRecord, set_offset,
                            "how many groups it stands behind the first of its set; 0 where it is alone"),
+              HEARTH_FIELD(hearth::formats::GroupRecord, position_error,
+                           "object space; bounds the distance of what replaces it to the source"),
+              HEARTH_FIELD(hearth::formats::GroupRecord, normal_error,
+                           "radians, root mean square: normals of what replaces it"),
+              HEARTH_FIELD(hearth::formats::GroupRecord, uv_error,
+                           "object space, root mean square: UVs of set 0, as lengths on the surface"),
               HEARTH_FIELD(hearth::formats::GroupRecord, reserved, "0"));
 HEARTH_RECORD(hearth::formats::ClusterRecord, 48,
               HEARTH_FIELD(hearth::formats::ClusterRecord, base,

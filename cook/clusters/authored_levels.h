@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
+#include "cook/clusters/attribute_error.h"
 #include "cook/clusters/cluster.h"
 #include "cook/clusters/hierarchy.h"
 
@@ -33,6 +34,11 @@ struct JoinedMesh
 /// what they have besides, and what they lack is 0, white, or made up from the normal. A level that has not fewer
 /// triangles than the one before it, or than the source, is left out: it would cost more and show less.
 JoinedMesh joinAuthored(mesh::SourceMesh source, std::span<const mesh::SourceMesh> authored);
+
+/// Compare the attributes of a level with those of the source, whose triangles are `source_corners`: at the middles of at
+/// most 131072 of these, evenly through their order, and the points of the level that are nearest to them.
+AttributeStep measureAttributes(const PreparedMesh& mesh, std::span<const uint32_t> source_corners,
+                                const AuthoredLevel& level);
 
 /// Link each page to those that it needs, where groups switch together: as pages.h says, but each group of a set
 /// needs all that was made in place of the set.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/clusters/authored_levels.h"
 #include "cook/clusters/bounds.h"
+#include "cook/clusters/group_errors.h"
 #include "cook/clusters/grouping.h"
 #include "cook/clusters/hierarchy.h"
 #include "cook/clusters/level_plan.h"
@@ -30,12 +31,14 @@ using namespace formats;
 struct BuiltGroup
 {
     Sphere sphere;
-    float error = 0;       ///< as it counts for the cut; infinity for a root
+    GroupErrors errors;
     ClusterStore clusters; ///< what replaces it, until the next level has taken it
     bool stuck = false;
     bool retried = false;
     uint32_t set_offset = 0; ///< formats::GroupRecord::set_offset
     Reduced outcome;         ///< for the counts
+
+    bool isRoot() const { return std::isinf(errors.lod); }
 };
 
 struct Level
@@ -92,19 +95,14 @@ Sphere groupSphere(const Build& build, const Level& level, std::span<const uint3
     return {sphere.center, roundUp(sphere.radius * kMonotoneSlack)};
 }
 
-float largestError(const Build& build, const Level& level, std::span<const uint32_t> members)
+ErrorsBelow errorsOf(const Build& build, const Level& level, std::span<const uint32_t> members)
 {
-    float error = build.mesh.grid.error;
+    ErrorsBelow errors(build.mesh.grid.error);
     for (const uint32_t member : members)
         if (level.refined_group[member] != kNone)
-            error = std::max(error, build.group(level.refined_group[member]).error);
-    return error;
-}
-
-/// The error of a group whose replacement is so far from the source: errors do not fall, whatever the weights.
-float errorOf(float distance, float weight, float members_error)
-{
-    return roundUp(std::max(double{distance} * double{weight}, double{members_error}) * kMonotoneSlack);
+            errors.add(build.group(level.refined_group[member]).errors,
+                       level.store.shapes[member].triangle_count);
+    return errors;
 }
 
 /// Pass a stuck group on unchanged, if it has not been tried too often, or a level that was made by hand replaces it.
@@ -120,7 +118,7 @@ void passOn(const Build& build, const Level& level, std::span<const uint32_t> me
         return;
     }
     group.retried = true;
-    group.error = errorOf(0, 1, largestError(build, level, members));
+    group.errors = errorsOf(build, level, members).plus({}, build.config);
     for (const uint32_t member : members)
         group.clusters.appendCluster(level.store, level.store.shapes[member]);
 }
@@ -131,20 +129,22 @@ BuiltGroup buildGroup(const Build& build, const Level& level, std::span<const ui
 {
     BuiltGroup group;
     group.sphere = groupSphere(build, level, members);
-    group.error = std::numeric_limits<float>::infinity();
+    group.errors = rootErrors();
     if (level.store.shapes.size() == 1)
         return group;
 
     Reduced reduced = reduceGroup(build.mesh, level.store, members, locked, goal, build.config);
-    const float error = errorOf(reduced.distance, goal.error_weight, largestError(build, level, members));
+    const GroupErrors errors =
+        errorsOf(build, level, members)
+            .plus({reduced.distance, reduced.attributes, goal.error_weight}, build.config);
     // an error beyond the floats cannot be stored: what it belongs to is a root
-    if (!reduced.progressed || error >= std::numeric_limits<float>::max())
+    if (!reduced.progressed || errors.lod >= std::numeric_limits<float>::max())
     {
         passOn(build, level, members, group);
         return group;
     }
     growToHold(group.sphere, reduced.made.positions);
-    group.error = error;
+    group.errors = errors;
     group.clusters = std::move(reduced.clusters);
     group.outcome = std::move(reduced);
     return group;
@@ -165,7 +165,7 @@ std::vector<size_t> keptTriangles(const Level& level)
     for (size_t g = 0; g < level.built.size(); ++g)
     {
         kept.push_back(trianglesOf(level.built[g].clusters));
-        if (std::isinf(level.built[g].error))
+        if (level.built[g].isRoot())
             for (const uint32_t member : level.groups.membersOf(g))
                 kept.back() += level.store.shapes[member].triangle_count;
     }
@@ -198,7 +198,7 @@ void buildGroups(const Build& build, Level& level, std::span<const uint8_t> lock
 void pinRoots(const PreparedMesh& mesh, const Level& level, std::vector<uint8_t>& pinned)
 {
     for (uint32_t g = 0; g < level.groups.count(); ++g)
-        if (std::isinf(level.built[g].error))
+        if (level.built[g].isRoot())
             for (const uint32_t member : level.groups.membersOf(g))
                 for (const uint32_t vertex : level.store.verticesOf(level.store.shapes[member]))
                     pinned[mesh.position_of_vertex[vertex]] = 1;
@@ -238,7 +238,7 @@ Level nextLevel(PreparedMesh& mesh, Level& level)
         takeVertices(mesh, group.outcome, group.clusters);
         next.store.append(group.clusters);
         group.clusters = {};
-        if (std::isinf(group.error))
+        if (group.isRoot())
             for (const uint32_t member : members)
                 next.drawn_below += level.store.shapes[member].triangle_count;
     }
@@ -281,7 +281,9 @@ Level switchToAuthored(Build& build, Level& level, const LevelPlan& plan,
 
     BuiltGroup group;
     group.sphere = setSphere(build, level, authored);
-    group.error = errorOf(distance, weight, largestError(build, level, all));
+    group.errors =
+        errorsOf(build, level, all)
+            .orOf({distance, measureAttributes(build.mesh, source_corners, authored), weight}, build.config);
     group.outcome.loose_pieces = bound.loose_pieces;
     level.built.assign(level.groups.count(), group);
     for (uint32_t g = 0; g < level.built.size(); ++g)
@@ -405,7 +407,10 @@ void addLevelRecords(const Build& build, uint32_t l, std::span<const uint32_t> r
         GroupRecord group{};
         group.sphere_center = built.sphere.center;
         group.sphere_radius = built.sphere.radius;
-        group.error = built.error;
+        group.error = built.errors.lod;
+        group.position_error = built.errors.position;
+        group.normal_error = built.errors.attributes.normal;
+        group.uv_error = built.errors.attributes.uv;
         group.level = l;
         group.set_offset = built.set_offset;
         group.clusters.first = static_cast<uint32_t>(hierarchy.clusters.size());
@@ -418,7 +423,7 @@ void addLevelRecords(const Build& build, uint32_t l, std::span<const uint32_t> r
             if (const uint32_t refined = level.refined_group[member]; refined != kNone)
             {
                 record.refined_group = record_of_group[refined];
-                level_record.max_error = std::max(level_record.max_error, build.group(refined).error);
+                level_record.max_error = std::max(level_record.max_error, build.group(refined).errors.lod);
             }
             record.level = static_cast<uint8_t>(l);
             record.material = shape.material;

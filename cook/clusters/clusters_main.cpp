@@ -28,6 +28,7 @@ struct Arguments
 {
     std::string input;
     std::string output;
+    std::vector<std::string> lods;
     size_t jobs = 0;
     std::string profile;
     std::string statistics;
@@ -113,11 +114,7 @@ Status cook(const Arguments& arguments, const clusters::Profile& profile,
         HEARTH_ASSIGN_OR_RETURN(materials, clusters::materialNames(part));
     }
     const auto configure = [&](const std::string& name)
-    {
-        clusters::Config config;
-        config.reduction = clusters::reductionOf(profile, name, materials);
-        return config;
-    };
+    { return clusters::configOf(profile, name, materials); };
     std::vector<clusters::MeshStatistics> meshes;
     auto start = std::chrono::steady_clock::now();
     const auto observe = [&](uint32_t index, const std::string& name, const clusters::Config& config,
@@ -127,6 +124,9 @@ Status cook(const Arguments& arguments, const clusters::Profile& profile,
         if (arguments.statistics_with_times)
             meshes.back().seconds =
                 std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+        if (!arguments.statistics.empty())
+            meshes.back().manual_lods = {clusters::measureManualLods(hierarchy),
+                                         clusters::storedBytes(hierarchy)};
         if (!arguments.debug_output.empty() && index == arguments.debug_mesh)
             HEARTH_TRY(clusters::writeDebugMesh(hierarchy, arguments.debug_level, arguments.debug_output));
         start = std::chrono::steady_clock::now();
@@ -151,7 +151,8 @@ int run(const Arguments& arguments)
     const Result<clusters::Profile> profile = profileOf(arguments);
     if (!profile.ok())
         return fail(profile.error());
-    const clusters::SourcePart source = clusters::openSourcePart(arguments.input, arguments.output);
+    const clusters::SourcePart source =
+        clusters::openSourcePart(arguments.input, arguments.lods, arguments.output);
     if (!source.part)
         return source.exit_code;
     const Status status = cook(arguments, *profile, *source.part);
@@ -165,6 +166,10 @@ int program(int argc, char** argv)
     app.add_option("source", arguments.input, "import part, or any source that hearth-import reads")
         ->required();
     app.add_option("-o,--output", arguments.output, "clusters part to write")->required();
+    app.add_option(
+           "--lod", arguments.lods,
+           "N=FILE: level of detail N of the source's only mesh, made by hand; not with an import part")
+        ->allow_extra_args(false);
     app.add_option("-j,--jobs", arguments.jobs, "threads to use; the result does not depend on it");
     app.add_option("--profile", arguments.profile,
                    "TOML file that says how far each level is simplified; see cook/clusters/README.md");

@@ -146,7 +146,7 @@ public:
                 give(static_cast<uint32_t>(t), errors_at_[after_.positions[corner]]);
             errors_[t] += kRounding;
         }
-        return {std::move(errors_), nearest_.loosePieces()};
+        return {std::move(errors_), std::move(after_), nearest_.loosePieces()};
     }
 
 private:

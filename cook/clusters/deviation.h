@@ -4,6 +4,7 @@
 
 #include "cook/clusters/group_mesh.h"
 #include "cook/clusters/simplify.h"
+#include "cook/clusters/surface.h"
 
 #include <cstdint>
 #include <vector>
@@ -16,6 +17,7 @@ struct Deviation
     /// For each triangle of the simplified group, in units of the group's mesh: no point of it is farther from the
     /// source, and no point of the source for which it stands is farther from it.
     std::vector<float> errors;
+    Surface surface;           ///< that was measured: the simplified group's
     uint64_t loose_pieces = 0; ///< pieces whose bound was taken before the search for a better one ended
 };
 

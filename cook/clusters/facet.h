@@ -60,10 +60,15 @@ struct FacetBlock
         return {(ac_ac * ab_ap - ab_ac * ac_ap) * inverse_det, (ab_ab * ac_ap - ab_ac * ab_ap) * inverse_det};
     }
 
-    /// Squared distances of a point, never too small: each is the distance to some point of the facet. That is the
-    /// nearest one where the point projects into the facet; elsewhere two steps along the edges come close to it, at
-    /// half the cost of comparing the three edges.
-    Lanes distance2(Float3 point) const
+    struct Nearest
+    {
+        Lanes v, w; ///< a + v ab + w ac
+        Lanes distance2;
+    };
+
+    /// A point of each facet that is near to the given one: the nearest where that projects into the facet; elsewhere two
+    /// steps along the edges come close to it, at half the cost of comparing the three edges.
+    Nearest nearest(Float3 point) const
     {
         const LaneVector ap = allLanes(point) - a;
         const Lanes ab_ap = dot(ab, ap);
@@ -72,8 +77,11 @@ struct FacetBlock
         const Lanes w = minimum(maximum((ac_ap - ab_ac * v) * inverse_ac, allLanes(0)), allLanes(1) - v);
         v = minimum(maximum((ab_ap - ab_ac * w) * inverse_ab, allLanes(0)), allLanes(1) - w);
         const LaneVector away = ap - ab * v - ac * w;
-        return dot(away, away);
+        return {v, w, dot(away, away)};
     }
+
+    /// Squared distances of a point, never too small: each is the distance to some point of the facet.
+    Lanes distance2(Float3 point) const { return nearest(point).distance2; }
 };
 
 /// Row r of the four facets' numbers: four numbers of each.

@@ -189,8 +189,9 @@ void gatherAttributes(GroupMesh& group, const mesh::SourceMesh& vertices, const 
     if (!vertices.normals.empty() && config.normal_weight > 0)
         group.weights.normal =
             config.normal_weight / std::max(normalChange(group, vertices.normals), kLeastNormalChange);
-    if (!vertices.uvs[0].empty() && config.uv_weight > 0)
-        group.weights.uv = config.uv_weight * uvScale(group, vertices.uvs[0]);
+    if (!vertices.uvs[0].empty())
+        group.uv_length = uvScale(group, vertices.uvs[0]);
+    group.weights.uv = config.uv_weight * group.uv_length;
     if (!vertices.colors.empty())
         group.weights.color = config.color_weight;
     group.attribute_rows = group.weights.rows();

@@ -29,6 +29,7 @@ struct GroupMesh
     std::vector<uint32_t> corners;           ///< three wedges for each triangle
     std::vector<uint32_t> materials;         ///< for each triangle
     double grid_step = 0;                    ///< object space
+    float uv_length = 0; ///< local length of one unit of UV; 0 where that is no useful number
     AttributeWeights weights;
     std::vector<float> errors;     ///< for each triangle: its distance from the source, local
     uint32_t attribute_rows = 0;   ///< rows of four attributes that a wedge has

@@ -34,6 +34,12 @@ struct Config
     float uv_weight = 0.25f;
     float color_weight = 0.25f;
 
+    /// What the errors of a group's attributes count in the error that chooses the cut, against its distance: UVs by how
+    /// far on the surface they are off, normals by the height of a wave as long as the new triangles' edges whose
+    /// slope is as far off. 0: nothing. README.md, "Normals and UVs", says what was measured.
+    float normal_error_weight = 1;
+    float uv_error_weight = 0.25f;
+
     /// Bits of each of the two parts of a normal's code: 8 are off by at most 0.7 degrees, 16 by 0.003. 0: 16 for smooth
     /// meshes, whose highlights would be ragged with 8, and 8 for others.
     uint32_t normal_bits = 0;

@@ -139,11 +139,50 @@ Result<std::vector<LevelTarget>> targetsAt(const toml::node& node, const Place& 
     return targets;
 }
 
+/// The member's number, if it is there. errors: profile_value.
+Result<std::optional<float>> weightAt(const toml::table& table, std::string_view name, const Place& place)
+{
+    constexpr float kMost = 1e6f;
+    if (!table.contains(name))
+        return std::optional<float>();
+    HEARTH_ASSIGN_OR_RETURN(const float weight, numberAt(table, name, place, 0, kMost, 0));
+    return std::optional(weight);
+}
+
+Result<std::optional<uint32_t>> normalBitsAt(const toml::table& table, const Place& place)
+{
+    const toml::node* node = table.get("normal_bits");
+    if (node == nullptr)
+        return std::optional<uint32_t>();
+    const auto* bits = node->as_integer();
+    if (bits == nullptr || (bits->get() != 8 && bits->get() != 16))
+        return place.at("normal_bits").wrong(Issue::profile_value, *node, "must be 8 or 16");
+    return std::optional(static_cast<uint32_t>(bits->get()));
+}
+
+Result<MeshSettings> settingsAt(const toml::table& table, const Place& place)
+{
+    MeshSettings settings;
+    HEARTH_ASSIGN_OR_RETURN(settings.normal_bits, normalBitsAt(table, place));
+    HEARTH_ASSIGN_OR_RETURN(settings.normal_error_weight, weightAt(table, "normal_error_weight", place));
+    HEARTH_ASSIGN_OR_RETURN(settings.uv_error_weight, weightAt(table, "uv_error_weight", place));
+    return settings;
+}
+
+/// The keys of settingsAt beside others.
+Keys withSettings(Keys keys)
+{
+    keys.insert(keys.end(), {"normal_bits", "normal_error_weight", "uv_error_weight"});
+    return keys;
+}
+
 Result<MeshRule> meshRuleAt(const toml::node& node, const Place& place)
 {
-    HEARTH_ASSIGN_OR_RETURN(const toml::table* table, tableAt(node, place, {"name", "levels", "targets"}));
+    HEARTH_ASSIGN_OR_RETURN(const toml::table* table,
+                            tableAt(node, place, withSettings({"name", "levels", "targets"})));
     MeshRule rule;
     HEARTH_ASSIGN_OR_RETURN(rule.name, patternAt(*table, place));
+    HEARTH_ASSIGN_OR_RETURN(rule.settings, settingsAt(*table, place));
     if (const toml::node* levels = table->get("levels"))
     {
         HEARTH_ASSIGN_OR_RETURN(rule.levels, curveAt(*levels, place.at("levels")));
@@ -192,7 +231,9 @@ Result<Profile> profileOf(const toml::table& root, const std::string& path)
     if (node == nullptr)
         return profile;
     const Place place{path, "clusters"};
-    HEARTH_ASSIGN_OR_RETURN(const toml::table* table, tableAt(*node, place, {"levels", "mesh", "material"}));
+    HEARTH_ASSIGN_OR_RETURN(const toml::table* table,
+                            tableAt(*node, place, withSettings({"levels", "mesh", "material"})));
+    HEARTH_ASSIGN_OR_RETURN(profile.settings, settingsAt(*table, place));
     if (const toml::node* levels = table->get("levels"))
     {
         HEARTH_ASSIGN_OR_RETURN(profile.levels, curveAt(*levels, place.at("levels")));
@@ -222,15 +263,30 @@ Result<Profile> readProfile(const std::string& path)
     }
 }
 
-Reduction reductionOf(const Profile& profile, std::string_view mesh_name,
-                      std::span<const std::string> material_names)
+namespace
 {
-    Reduction reduction;
+
+void apply(const MeshSettings& settings, Config& config)
+{
+    config.normal_bits = settings.normal_bits.value_or(config.normal_bits);
+    config.normal_error_weight = settings.normal_error_weight.value_or(config.normal_error_weight);
+    config.uv_error_weight = settings.uv_error_weight.value_or(config.uv_error_weight);
+}
+
+} // namespace
+
+Config configOf(const Profile& profile, std::string_view mesh_name,
+                std::span<const std::string> material_names)
+{
+    Config config;
+    apply(profile.settings, config);
+    Reduction& reduction = config.reduction;
     reduction.curve = profile.levels;
     const auto rule = std::find_if(profile.meshes.begin(), profile.meshes.end(),
                                    [&](const MeshRule& r) { return matchesPattern(r.name, mesh_name); });
     if (rule != profile.meshes.end())
     {
+        apply(rule->settings, config);
         reduction.curve = rule->levels.value_or(profile.levels);
         reduction.targets = rule->targets;
     }
@@ -242,7 +298,7 @@ Reduction reductionOf(const Profile& profile, std::string_view mesh_name,
         if (own != profile.materials.end())
             reduction.curve_of_material[m] = own->levels;
     }
-    return reduction;
+    return config;
 }
 
 bool matchesPattern(std::string_view pattern, std::string_view text)

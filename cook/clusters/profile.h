@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include "cook/clusters/reduction.h"
+#include "cook/clusters/hierarchy.h"
 #include "formats/result.h"
 
 #include <optional>
@@ -14,12 +14,21 @@
 namespace hearth::clusters
 {
 
+/// Members of Config; nothing where the file does not set them.
+struct MeshSettings
+{
+    std::optional<uint32_t> normal_bits;
+    std::optional<float> normal_error_weight;
+    std::optional<float> uv_error_weight;
+};
+
 /// For meshes whose name matches; what it does not set stays as it is for all.
 struct MeshRule
 {
     std::string name; ///< a pattern
     std::optional<LevelCurve> levels;
     std::vector<LevelTarget> targets;
+    MeshSettings settings;
 };
 
 /// For materials whose name matches, in any mesh.
@@ -32,6 +41,7 @@ struct MaterialRule
 struct Profile
 {
     LevelCurve levels{LevelStep{}};
+    MeshSettings settings;
     std::vector<MeshRule> meshes;
     std::vector<MaterialRule> materials;
 };
@@ -40,10 +50,10 @@ struct Profile
 /// errors: input_missing, profile_syntax, profile_key, profile_value; they name the line and the key.
 Result<Profile> readProfile(const std::string& path);
 
-/// What the profile says of one mesh: the first rule that matches its name, and for each material the first that
-/// matches its own.
-Reduction reductionOf(const Profile& profile, std::string_view mesh_name,
-                      std::span<const std::string> material_names);
+/// What the profile says of one mesh: the first rule that matches its name, what that leaves open as for all, and for
+/// each material the first rule that matches its own.
+Config configOf(const Profile& profile, std::string_view mesh_name,
+                std::span<const std::string> material_names);
 
 /// Whether all of `text` matches: * stands for any characters, ? for one, everything else for itself.
 bool matchesPattern(std::string_view pattern, std::string_view text);

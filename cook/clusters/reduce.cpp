@@ -111,8 +111,10 @@ Reduced reduceGroup(const PreparedMesh& mesh, const ClusterStore& store, std::sp
         error = roundUp(error * group.scale);
         reduced.distance = std::max(reduced.distance, error);
     }
-    reduced.clusters =
-        splitSimplified(group, simplified, makeVertices(mesh, group, simplified, reduced), deviation.errors);
+    const std::vector<uint32_t> vertices = makeVertices(mesh, group, simplified, reduced);
+    reduced.attributes =
+        measureAttributes(group, {simplified, deviation.surface, mesh.vertices, reduced.made, vertices});
+    reduced.clusters = splitSimplified(group, simplified, vertices, deviation.errors);
     reduced.progressed = goal.exact || reduced.clusters.shapes.size() < members.size();
     return reduced;
 }

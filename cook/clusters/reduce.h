@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
+#include "cook/clusters/attribute_error.h"
 #include "cook/clusters/cluster.h"
 #include "cook/clusters/hierarchy.h"
 #include "cook/clusters/level_plan.h"
@@ -21,7 +22,8 @@ struct Reduced
     mesh::SourceMesh made;                ///< attributes of made vertices
     std::vector<uint32_t> made_positions; ///< position of each, numbered from 0
     uint32_t made_position_count = 0;
-    float distance = 0; ///< object space: largest error of the clusters' triangles
+    float distance = 0;       ///< object space: largest error of the clusters' triangles
+    AttributeStep attributes; ///< of the clusters against the group's
     bool permissive = false;
     bool pruned = false;
     bool merged = false;

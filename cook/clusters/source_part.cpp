@@ -65,7 +65,8 @@ int passOn(const tools::ChildEnd& end, const std::string& source, const std::str
         .exit_code;
 }
 
-SourcePart importSource(const std::string& source, const std::string& output)
+SourcePart importSource(const std::string& source, std::span<const std::string> lods,
+                        const std::string& output)
 {
     // first, so that it goes last: signals wait until the folder is gone
     tools::ChildProcesses children;
@@ -73,7 +74,10 @@ SourcePart importSource(const std::string& source, const std::string& output)
     if (!folder.ok())
         return failed(folder.error());
     const std::string part = folder->path() + "/import.part";
-    const auto child = children.start({tools::programFolder() + "/hearth-import", source, "-o", part});
+    std::vector<std::string> command{tools::programFolder() + "/hearth-import", source, "-o", part};
+    for (const std::string& lod : lods)
+        command.insert(command.end(), {"--lod", lod});
+    const auto child = children.start(command);
     if (!child.ok())
         return failed(child.error());
     const std::optional<tools::ChildEnd> end = children.wait();
@@ -86,9 +90,15 @@ SourcePart importSource(const std::string& source, const std::string& output)
 
 } // namespace
 
-SourcePart openSourcePart(const std::string& path, const std::string& output)
+SourcePart openSourcePart(const std::string& path, std::span<const std::string> lods,
+                          const std::string& output)
 {
-    return isContainer(path) ? opened(path) : importSource(path, output);
+    if (!isContainer(path))
+        return importSource(path, lods, output);
+    if (!lods.empty())
+        return failed(
+            {Issue::usage, path, "", "is an import part: --lod is for hearth-import, which wrote it"});
+    return opened(path);
 }
 
 } // namespace hearth::clusters

@@ -5,6 +5,7 @@
 #include "formats/container_reader.h"
 
 #include <optional>
+#include <span>
 #include <string>
 
 namespace hearth::clusters
@@ -19,7 +20,9 @@ struct SourcePart
 /// Open an import part; a file that is no container goes through the program hearth-import beside this one, into a
 /// folder that is gone when this returns: what is open stays readable. Problems are told on stderr.
 ///
+/// lods    "N=FILE" as hearth-import takes them; an import part has its own
 /// output  names the folder for temporary files where TMPDIR does not
-SourcePart openSourcePart(const std::string& path, const std::string& output);
+SourcePart openSourcePart(const std::string& path, std::span<const std::string> lods,
+                          const std::string& output);
 
 } // namespace hearth::clusters

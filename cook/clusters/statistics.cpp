@@ -15,16 +15,33 @@ using Json = nlohmann::ordered_json;
 namespace
 {
 
+/// Of the groups that the level's clusters were made from; 0 at level 0.
+ErrorStatistics errorStatistics(const Hierarchy& hierarchy, const LevelRecord& level,
+                                float GroupRecord::*error)
+{
+    ErrorStatistics errors;
+    for (const ClusterRecord& cluster :
+         recordsOf(std::span<const ClusterRecord>(hierarchy.clusters), level.clusters))
+    {
+        if (cluster.refined_group == kNone)
+            continue;
+        const double value{hierarchy.groups[cluster.refined_group].*error};
+        errors.max = std::max(errors.max, value);
+        errors.mean += value * cluster.triangle_count;
+    }
+    errors.mean /= level.triangle_count;
+    return errors;
+}
+
 LevelStatistics levelStatistics(const Hierarchy& hierarchy, const LevelRecord& level)
 {
     LevelStatistics statistics;
     statistics.clusters = level.clusters.count;
     statistics.triangles = level.triangle_count;
-    statistics.max_error = level.max_error;
-    for (uint32_t c = level.clusters.first; c < level.clusters.first + level.clusters.count; ++c)
-        statistics.mean_error +=
-            double{errorOf(hierarchy.clusters[c], hierarchy.groups)} * hierarchy.clusters[c].triangle_count;
-    statistics.mean_error /= static_cast<double>(statistics.triangles);
+    statistics.error = errorStatistics(hierarchy, level, &GroupRecord::error);
+    statistics.position = errorStatistics(hierarchy, level, &GroupRecord::position_error);
+    statistics.normal = errorStatistics(hierarchy, level, &GroupRecord::normal_error);
+    statistics.uv = errorStatistics(hierarchy, level, &GroupRecord::uv_error);
     statistics.fill = static_cast<double>(statistics.triangles) /
                       (static_cast<double>(statistics.clusters) * kClusterMaxTriangles);
     return statistics;
@@ -48,13 +65,21 @@ double ratio(uint64_t part, uint64_t whole)
     return whole == 0 ? 0.0 : static_cast<double>(part) / static_cast<double>(whole);
 }
 
+Json errorJson(const ErrorStatistics& error)
+{
+    return {{"max", error.max}, {"mean", error.mean}};
+}
+
 Json levelJson(const LevelStatistics& level)
 {
     return {{"clusters", level.clusters},
             {"triangles", level.triangles},
             {"fill", level.fill},
-            {"max_error", level.max_error},
-            {"mean_error", level.mean_error}};
+            {"max_error", level.error.max},
+            {"mean_error", level.error.mean},
+            {"position_error", errorJson(level.position)},
+            {"normal_error", errorJson(level.normal)},
+            {"uv_error", errorJson(level.uv)}};
 }
 
 Json targetJson(const TargetStatistics& target)
@@ -82,6 +107,38 @@ Json bytesJson(const MeshStatistics& mesh)
             {"pages_stored_per_triangle", ratio(mesh.stored_page_bytes, mesh.source_triangles)}};
 }
 
+Json manualLodsJson(const ManualLodStatistics& manual)
+{
+    Json lods = Json::array();
+    for (const ManualLod& lod : manual.chain.lods)
+        lods.push_back({{"triangles", lod.triangles}, {"vertices", lod.vertices}});
+    return {{"lods", lods},
+            {"bytes", manual.chain.bytes},
+            {"bytes_zstd", manual.chain.bytes_zstd},
+            {"hierarchy_bytes", manual.hierarchy_bytes},
+            {"hierarchy_of_bytes", ratio(manual.hierarchy_bytes, manual.chain.bytes)},
+            {"hierarchy_of_bytes_zstd", ratio(manual.hierarchy_bytes, manual.chain.bytes_zstd)}};
+}
+
+/// All meshes together, those that were measured.
+Json totalsJson(std::span<const MeshStatistics> meshes)
+{
+    uint64_t triangles = 0;
+    ManualLodStatistics total;
+    for (const MeshStatistics& mesh : meshes)
+    {
+        triangles += mesh.source_triangles;
+        if (!mesh.manual_lods)
+            continue;
+        total.chain.bytes += mesh.manual_lods->chain.bytes;
+        total.chain.bytes_zstd += mesh.manual_lods->chain.bytes_zstd;
+        total.hierarchy_bytes += mesh.manual_lods->hierarchy_bytes;
+    }
+    Json manual_lods = manualLodsJson(total);
+    manual_lods.erase("lods");
+    return {{"triangles", triangles}, {"manual_lods", manual_lods}};
+}
+
 Json meshJson(const MeshStatistics& mesh)
 {
     Json json{{"index", mesh.index},
@@ -105,6 +162,8 @@ Json meshJson(const MeshStatistics& mesh)
         json["authored_levels"] = Json::array();
     for (const uint32_t level : mesh.authored_levels)
         json["authored_levels"].push_back(level == kNone ? Json(nullptr) : Json(level));
+    if (mesh.manual_lods)
+        json["manual_lods"] = manualLodsJson(*mesh.manual_lods);
     if (mesh.seconds)
         json["seconds"] = *mesh.seconds;
     return json;
@@ -152,6 +211,7 @@ std::string statisticsJson(const std::string& source, std::span<const MeshStatis
               {"meshes", Json::array()}};
     for (const MeshStatistics& mesh : meshes)
         json["meshes"].push_back(meshJson(mesh));
+    json["totals"] = totalsJson(meshes);
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "cook/clusters/hierarchy.h"
+#include "cook/clusters/manual_lods.h"
 
 #include <cstdint>
 #include <optional>
@@ -13,13 +14,22 @@
 namespace hearth::clusters
 {
 
+/// Of the clusters of a level.
+struct ErrorStatistics
+{
+    double max = 0;
+    double mean = 0; ///< over the triangles
+};
+
 struct LevelStatistics
 {
     uint32_t clusters = 0;
     uint64_t triangles = 0;
-    double fill = 0;       ///< triangles, of those that as many full clusters would have
-    double max_error = 0;  ///< object space
-    double mean_error = 0; ///< over the triangles
+    double fill = 0;          ///< triangles, of those that as many full clusters would have
+    ErrorStatistics error;    ///< object space: what chooses the cut
+    ErrorStatistics position; ///< object space
+    ErrorStatistics normal;   ///< radians
+    ErrorStatistics uv;       ///< object space
 };
 
 /// What became of a LevelTarget.
@@ -29,6 +39,13 @@ struct TargetStatistics
     uint64_t wanted = 0;
     std::optional<uint64_t> triangles; ///< nothing where the hierarchy has no such level
     bool met() const;                  ///< within 3 %, what users are promised
+};
+
+/// The hierarchy against levels by hand.
+struct ManualLodStatistics
+{
+    ManualLods chain;
+    uint64_t hierarchy_bytes = 0; ///< storedBytes
 };
 
 struct MeshStatistics
@@ -47,6 +64,7 @@ struct MeshStatistics
     std::vector<TargetStatistics> targets;
     std::vector<uint32_t> authored_levels; ///< as in Hierarchy
     BuildCounts counts;
+    std::optional<ManualLodStatistics> manual_lods; ///< takes time, so only on request
     std::optional<double>
         seconds; ///< that building took; what differs from run to run is only there on request
 };

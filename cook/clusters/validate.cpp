@@ -85,6 +85,10 @@ Status checkMonotone(const Hierarchy& h)
             return wrong(Issue::meaning_tree, "cluster", c, "was not made from a group of the finer level");
         if (!(finer.error <= own.error))
             return wrong(Issue::meaning_monotone, "cluster", c, "error falls towards the root");
+        if (std::isfinite(own.error) &&
+            !(finer.position_error <= own.position_error && own.position_error <= own.error &&
+              finer.normal_error <= own.normal_error && finer.uv_error <= own.uv_error))
+            return wrong(Issue::meaning_monotone, "cluster", c, "a part of the error falls towards the root");
         if (distance(finer.sphere_center, own.sphere_center) + finer.sphere_radius > own.sphere_radius)
             return wrong(Issue::meaning_monotone, "cluster", c,
                          "the finer group's sphere leaves its group's");
@@ -106,7 +110,9 @@ Status checkSets(const Hierarchy& h)
             return wrong(Issue::meaning_reference, "group", g, "its set begins before the mesh");
         const GroupRecord& first = h.groups[g - group.set_offset];
         if (!(group.sphere_center == first.sphere_center) || group.sphere_radius != first.sphere_radius ||
-            group.error != first.error || group.level != first.level)
+            group.error != first.error || group.level != first.level ||
+            group.position_error != first.position_error || group.normal_error != first.normal_error ||
+            group.uv_error != first.uv_error)
             return wrong(Issue::meaning_value, "group", g, "is not as the first of its set");
         const bool follows = g > 0 && h.groups[g - 1].level == group.level;
         const bool in_set = follows && (group.set_offset != 0 || h.groups[g - 1].set_offset != 0);

@@ -31,8 +31,12 @@ struct Group
     uint cluster_count;
     uint page;
     uint set_offset;
+    float position_error;
+    float normal_error;
+    float uv_error;
     uint reserved0;
     uint reserved1;
+    uint reserved2;
 };
 
 /// formats::ClusterRecord, in words.

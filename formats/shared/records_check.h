@@ -25,6 +25,9 @@ HEARTH_SAME_OFFSET(Group, level, GroupRecord, level);
 HEARTH_SAME_OFFSET(Group, first_cluster, GroupRecord, clusters);
 HEARTH_SAME_OFFSET(Group, page, GroupRecord, page);
 HEARTH_SAME_OFFSET(Group, set_offset, GroupRecord, set_offset);
+HEARTH_SAME_OFFSET(Group, position_error, GroupRecord, position_error);
+HEARTH_SAME_OFFSET(Group, normal_error, GroupRecord, normal_error);
+HEARTH_SAME_OFFSET(Group, uv_error, GroupRecord, uv_error);
 
 static_assert(sizeof(hearth::shared::Cluster) == sizeof(hearth::formats::ClusterRecord));
 HEARTH_SAME_OFFSET(Cluster, base_x, ClusterRecord, base);

@@ -12,6 +12,8 @@
 #include <cstring>
 #include <filesystem>
 #include <fmt/format.h>
+#include <fstream>
+#include <iterator>
 
 namespace hearth::command
 {
@@ -44,6 +46,12 @@ using Plan = std::vector<Stage>;
 
 // ---- plan
 
+/// What hearth-clusters says of a source.
+std::string statisticsFile(const std::string& folder, size_t index)
+{
+    return fmt::format("{}/{}.clusters.json", folder, index);
+}
+
 void addSource(Plan& plan, const std::string& programs, const std::string& folder, size_t index,
                const CookOptions& options)
 {
@@ -67,6 +75,8 @@ void addSource(Plan& plan, const std::string& programs, const std::string& folde
                         source});
     if (!options.profile.empty())
         plan.back().command.insert(plan.back().command.end(), {"--profile", options.profile});
+    if (!options.report_file.empty())
+        plan.back().command.insert(plan.back().command.end(), {"--stats", statisticsFile(folder, index)});
 }
 
 void addLink(Plan& plan, const std::string& programs, const std::string& packed, const CookOptions& options)
@@ -278,6 +288,12 @@ Status checkOutput(const CookOptions& options)
     return success();
 }
 
+std::string textOf(const std::string& path)
+{
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
 /// META of the pack at `path`, for the report.
 std::string metaOf(const std::string& path)
 {
@@ -324,6 +340,9 @@ std::optional<Failure> cookInPrivate(const CookOptions& options, CookOutcome& ou
     if (auto failure = runPlan(plan, children, options, outcome))
         return failure;
 
+    if (!options.report_file.empty())
+        for (size_t i = 0; i < options.sources.size(); ++i)
+            outcome.cluster_statistics.push_back(textOf(statisticsFile(parts->path(), i)));
     outcome.output_bytes = sizeOf(packed);
     if (::rename(packed.c_str(), options.output.c_str()) != 0)
         return fail(

@@ -21,6 +21,16 @@ Json stageJson(const StageRecord& stage)
             {"bytes", stage.output_bytes}};
 }
 
+/// What hearth-clusters wrote of a source, without what the report says anyway.
+Json clustersJson(const std::string& statistics)
+{
+    const Json json = Json::parse(statistics, nullptr, false);
+    if (!json.is_object())
+        return nullptr;
+    return {{"meshes", json.value("meshes", Json::array())},
+            {"totals", json.value("totals", Json::object())}};
+}
+
 Json assetJson(const CookOptions& options, const CookOutcome& outcome, size_t source)
 {
     const bool failed = outcome.exit_code != 0 &&
@@ -30,6 +40,8 @@ Json assetJson(const CookOptions& options, const CookOutcome& outcome, size_t so
     for (const StageRecord& stage : outcome.stages)
         if (stage.source == source)
             asset["stages"].push_back(stageJson(stage));
+    if (source < outcome.cluster_statistics.size())
+        asset["clusters"] = clustersJson(outcome.cluster_statistics[source]);
     return asset;
 }
 

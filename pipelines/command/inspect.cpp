@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/command/inspect.h"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -12,6 +13,22 @@ using Json = nlohmann::json;
 
 namespace
 {
+
+LevelSummary summarizeLevel(const PackView& pack, const LevelRecord& level)
+{
+    LevelSummary summary{level.clusters.count, level.triangle_count, level.max_error};
+    for (const ClusterRecord& cluster : recordsOf(pack.clusters(), level.clusters))
+    {
+        // none, or nonsense in a part, whose records nobody has checked
+        if (cluster.refined_group >= pack.groups().size())
+            continue;
+        const GroupRecord& group = pack.groups()[cluster.refined_group];
+        summary.position_error = std::max(summary.position_error, group.position_error);
+        summary.normal_error = std::max(summary.normal_error, group.normal_error);
+        summary.uv_error = std::max(summary.uv_error, group.uv_error);
+    }
+    return summary;
+}
 
 void addClusters(MeshSummary& summary, std::span<const ClusterRecord> clusters)
 {
@@ -55,7 +72,7 @@ MeshSummary summarizeMesh(const PackView& pack, uint32_t index)
     summary.clusters = mesh.clusters.count;
     summary.pages = mesh.pages.count;
     for (const LevelRecord& level : recordsOf(pack.levels(), mesh.levels))
-        summary.levels.push_back({level.clusters.count, level.triangle_count, level.max_error});
+        summary.levels.push_back(summarizeLevel(pack, level));
     summary.record_bytes = sizeof(MeshRecord) + mesh.levels.count * sizeof(LevelRecord) +
                            mesh.groups.count * sizeof(GroupRecord) +
                            mesh.clusters.count * sizeof(ClusterRecord);

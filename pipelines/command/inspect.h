@@ -15,7 +15,10 @@ struct LevelSummary
 {
     uint32_t clusters = 0;
     uint32_t triangles = 0;
-    float max_error = 0; ///< object space
+    float max_error = 0; ///< object space; the others are what it is made of, each the largest
+    float position_error = 0;
+    float normal_error = 0; ///< radians
+    float uv_error = 0;     ///< object space
 };
 
 struct MeshSummary

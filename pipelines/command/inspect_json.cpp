@@ -24,7 +24,9 @@ double ratio(uint64_t part, uint64_t whole)
 
 Json levelJson(const LevelSummary& level)
 {
-    return {{"clusters", level.clusters}, {"triangles", level.triangles}, {"max_error", level.max_error}};
+    return {{"clusters", level.clusters},         {"triangles", level.triangles},
+            {"max_error", level.max_error},       {"position_error", level.position_error},
+            {"normal_error", level.normal_error}, {"uv_error", level.uv_error}};
 }
 
 Json meshJson(const MeshSummary& mesh, uint32_t index)

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <numbers>
 
 namespace hearth::command
 {
@@ -60,10 +61,14 @@ std::string meshText(const MeshSummary& mesh, size_t index)
                             readableSize(mesh.deformation_bytes));
     if (mesh.levels.empty())
         return text + "  no triangles\n";
-    text += "  level  clusters   triangles  largest error\n";
+    text += "  level  clusters   triangles  largest error      positions  normals            UVs\n";
     for (size_t i = 0; i < mesh.levels.size(); ++i)
-        text += fmt::format("  {:>5}  {:>8}  {:>10}  {:>13.6g}\n", i, mesh.levels[i].clusters,
-                            mesh.levels[i].triangles, mesh.levels[i].max_error);
+    {
+        const LevelSummary& level = mesh.levels[i];
+        text += fmt::format("  {:>5}  {:>8}  {:>10}  {:>13.6g}  {:>13.6g}  {:>6.1f}\u00b0  {:>13.6g}\n", i,
+                            level.clusters, level.triangles, level.max_error, level.position_error,
+                            double{level.normal_error} * 180 / std::numbers::pi, level.uv_error);
+    }
     const double clusters = mesh.clusters == 0 ? 1 : mesh.clusters;
     text += fmt::format(
         "  groups: {}; clusters: {}, on average {:.1f} triangles and {:.1f} vertices ({:.0f} % full)\n",

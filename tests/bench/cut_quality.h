@@ -12,8 +12,11 @@ struct CutSurface
 {
     std::vector<Float3> positions;
     std::vector<Float3> normals;     ///< for each position; empty where the mesh has none
+    std::vector<Float3> uvs;         ///< the same of set 0, z = 0
     std::vector<uint32_t> triangles; ///< three positions for each
     double stored_error = 0;         ///< largest error of its clusters
+    double stored_normal_rms = 0;    ///< radians: over the area of its clusters
+    double stored_uv_rms = 0;        ///< object space
 
     size_t triangleCount() const { return triangles.size() / 3; }
 };
@@ -32,7 +35,10 @@ struct CutQuality
     double rms = 0;            ///< object space
     double max = 0;            ///< of the points and all corners
     double normal_rms_deg = 0; ///< of points on the cut against the source; 0 without normals
+    double uv_rms = 0;         ///< the same of UVs, as lengths on the surface
     double stored_error = 0;
+    double stored_normal_rms_deg = 0;
+    double stored_uv_rms = 0;
 };
 
 class CutMeter

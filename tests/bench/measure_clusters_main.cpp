@@ -144,18 +144,19 @@ void printRatio(const char* what, std::optional<double> triangles, double of_pee
 void printQuality(const bench::PeerFigures* peer, std::span<const bench::CutQuality> cuts, double diagonal,
                   size_t source_triangles)
 {
-    std::printf("  %9s %7s %10s %10s %9s %12s\n", "triangles", "share", "rms 1e-4", "max 1e-4", "normal",
-                "max / stored");
+    std::printf("  %9s %7s %10s %10s %12s %18s %20s\n", "triangles", "share", "rms 1e-4", "max 1e-4",
+                "max / stored", "normal, stored", "UV 1e-4, stored");
     std::vector<double> tightness;
     size_t broken = 0;
     for (const auto& cut : cuts)
     {
         tightness.push_back(cut.max / cut.stored_error);
         broken += cut.max > cut.stored_error + 1e-6 * diagonal ? 1 : 0;
-        std::printf("  %9zu %6.1f%% %10.3f %10.2f %8.2f%s %12.2f\n", cut.triangles,
+        std::printf("  %9zu %6.1f%% %10.3f %10.2f %12.2f %8.2f%s %8.2f%s %9.3f %10.3f\n", cut.triangles,
                     100.0 * static_cast<double>(cut.triangles) / static_cast<double>(source_triangles),
-                    cut.rms / diagonal * 1e4, cut.max / diagonal * 1e4, cut.normal_rms_deg, "\u00b0",
-                    tightness.back());
+                    cut.rms / diagonal * 1e4, cut.max / diagonal * 1e4, tightness.back(), cut.normal_rms_deg,
+                    "\u00b0", cut.stored_normal_rms_deg, "\u00b0", cut.uv_rms / diagonal * 1e4,
+                    cut.stored_uv_rms / diagonal * 1e4);
     }
     if (tightness.empty())
         return;

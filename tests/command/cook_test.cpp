@@ -40,6 +40,7 @@ cp "PARTS.textures.part" "$3"
 constexpr const char* kClusters = R"(#!/bin/sh
 if [ "$4" = "--profile" ]; then echo "$5|line 1, here: error: is bad [E1501] hint: mend it" >&2; exit 65; fi
 if [ -e ./clusters-lie ]; then exit 0; fi
+if [ "$4" = "--stats" ]; then echo '{"meshes": [{"name": "strip"}], "totals": {"triangles": 8}}' > "$5"; fi
 cp "PARTS.clusters.part" "$3"
 )";
 
@@ -263,6 +264,8 @@ TEST_F(Cook, reportsWhatItDid)
     EXPECT_EQ(report["totals"]["bytes_in"], 100);
     EXPECT_EQ(report["assets"][0]["source"], "warning.gltf");
     EXPECT_EQ(report["assets"][0]["stages"].size(), 3u);
+    EXPECT_EQ(report["assets"][0]["clusters"]["meshes"][0]["name"], "strip");
+    EXPECT_EQ(report["assets"][0]["clusters"]["totals"]["triangles"], 8);
     EXPECT_EQ(report["link"]["stage"], "link");
     EXPECT_EQ(report["dropped"][0], "extras");
 }

@@ -66,10 +66,18 @@ TEST_F(Inspect, countsWhatEachMeshHas)
     EXPECT_EQ(strip["attributes"], "position normal tangent uv0 color");
     EXPECT_EQ(strip["source"], (Json{{"triangles", 8}, {"vertices", 24}, {"faces", 8}}));
     ASSERT_EQ(strip["levels"].size(), 2u);
-    EXPECT_EQ(strip["levels"][0], (Json{{"clusters", 4}, {"triangles", 8}, {"max_error", 0.0}}));
+    EXPECT_EQ(strip["levels"][0], (Json{{"clusters", 4},
+                                        {"triangles", 8},
+                                        {"max_error", 0.0},
+                                        {"position_error", 0.0},
+                                        {"normal_error", 0.0},
+                                        {"uv_error", 0.0}}));
     EXPECT_EQ(strip["levels"][1]["clusters"], 2);
     EXPECT_EQ(strip["levels"][1]["triangles"], 4);
     EXPECT_FLOAT_EQ(strip["levels"][1]["max_error"].get<float>(), 0.1f);
+    EXPECT_FLOAT_EQ(strip["levels"][1]["position_error"].get<float>(), 0.05f);
+    EXPECT_EQ(strip["levels"][1]["normal_error"], 0.25);
+    EXPECT_FLOAT_EQ(strip["levels"][1]["uv_error"].get<float>(), 0.1f);
     EXPECT_EQ(strip["groups"], 3);
     EXPECT_EQ(strip["pages"], 3);
     EXPECT_DOUBLE_EQ(strip["fill"]["triangles_per_cluster"].get<double>(), 2.0);
@@ -78,7 +86,7 @@ TEST_F(Inspect, countsWhatEachMeshHas)
     EXPECT_EQ(strip["bytes"]["vertices"], 6 * (4 * 5 + 2) * 4);
     EXPECT_EQ(strip["bytes"]["indices"], 6 * 8);
     EXPECT_EQ(strip["bytes"]["pages"], 6 * ((4 * 5 + 2) * 4 + 8));
-    EXPECT_EQ(strip["bytes"]["records"], 104 + 2 * 16 + 3 * 48 + 6 * 48 + 3 * 56 + 2 * 4);
+    EXPECT_EQ(strip["bytes"]["records"], 104 + 2 * 16 + 3 * 64 + 6 * 48 + 3 * 56 + 2 * 4);
 
     EXPECT_TRUE(json["meshes"][1]["levels"].empty());
     EXPECT_EQ(json["meshes"][2]["morph_targets"], 1);

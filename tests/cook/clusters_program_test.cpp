@@ -103,6 +103,20 @@ TEST_F(ClustersProgram, writesStatisticsThatDoNotDifferFromRunToRun)
         EXPECT_LE(levels[l].at("mean_error"), levels[l].at("max_error"));
         EXPECT_LT(levels[l].at("triangles"), levels[l - 1].at("triangles"));
     }
+    for (const char* error : {"position_error", "normal_error"})
+    {
+        EXPECT_EQ(levels.at(0).at(error).at("max"), 0.0);
+        EXPECT_GT(levels.at(1).at(error).at("mean"), 0.0);
+        EXPECT_LE(levels.at(1).at(error).at("mean"), levels.at(1).at(error).at("max"));
+    }
+    EXPECT_EQ(levels.at(1).at("uv_error").at("max"), 0.0) << "the source has no UVs";
+    const Json& manual = mesh.at("manual_lods");
+    EXPECT_EQ(manual.at("lods").at(0).at("triangles"), 3072);
+    EXPECT_EQ(manual.at("hierarchy_of_bytes"),
+              manual.at("hierarchy_bytes").get<double>() / manual.at("bytes").get<double>());
+    EXPECT_GT(manual.at("hierarchy_bytes"), mesh.at("bytes").at("pages_stored"));
+    EXPECT_EQ(json.at("totals").at("triangles"), 3072);
+    EXPECT_EQ(json.at("totals").at("manual_lods").at("bytes"), manual.at("bytes"));
     const Json& bytes = mesh.at("bytes");
     EXPECT_GT(bytes.at("pages"), bytes.at("pages_stored"));
     EXPECT_EQ(bytes.at("pages_per_triangle"), bytes.at("pages").get<double>() / 3072);
@@ -127,6 +141,42 @@ TEST_F(ClustersProgram, followsAProfile)
     EXPECT_EQ(bad.exit_code, 65);
     EXPECT_NE(bad.err.find("bad.toml|line 2, clusters.levels[0].keep: error:"), std::string::npos) << bad.err;
     EXPECT_FALSE(sandbox_.has("bad.part"));
+}
+
+TEST_F(ClustersProgram, codesNormalsAsAProfileSays)
+{
+    const auto isFine = [&](int bits)
+    {
+        sandbox_.write("house.toml",
+                       "[[clusters.mesh]]\nname = 'rock'\nnormal_bits = " + std::to_string(bits) + "\n");
+        EXPECT_EQ(run({"rock.obj", "-o", "rock.part", "--profile", "house.toml"}).exit_code, 0);
+        auto reader = formats::ContainerReader::open(sandbox_ / "rock.part");
+        EXPECT_TRUE(reader.ok());
+        const auto view = formats::PackView::read(std::move(*reader));
+        EXPECT_TRUE(view.ok());
+        return (view->meshes()[0].attributes & formats::kVertexFineNormal) != 0;
+    };
+    EXPECT_FALSE(isFine(8));
+    EXPECT_TRUE(isFine(16));
+}
+
+TEST_F(ClustersProgram, takesLevelsMadeByHandAsTheImportDoes)
+{
+    sandbox_.write("low.obj", objOf(shapes::rock(8, 0.3f)));
+    ASSERT_EQ(run({"rock.obj", "--lod", "1=low.obj", "-o", "direct.part"}).exit_code, 0);
+    ASSERT_EQ(
+        sandbox_.run({HEARTH_BIN "/hearth-import", "rock.obj", "--lod", "1=low.obj", "-o", "import.part"})
+            .exit_code,
+        0);
+    ASSERT_EQ(run({"import.part", "-o", "two-steps.part"}).exit_code, 0);
+    EXPECT_EQ(sandbox_.read("direct.part"), sandbox_.read("two-steps.part"));
+    ASSERT_EQ(run({"rock.obj", "-o", "plain.part"}).exit_code, 0);
+    EXPECT_NE(sandbox_.read("direct.part"), sandbox_.read("plain.part"));
+
+    const test::ProgramEnd late = run({"import.part", "--lod", "1=low.obj", "-o", "out.part"});
+    EXPECT_EQ(late.exit_code, 2);
+    EXPECT_NE(late.err.find("--lod"), std::string::npos) << late.err;
+    EXPECT_FALSE(sandbox_.has("out.part"));
 }
 
 TEST_F(ClustersProgram, findsTheMaterialsOfAProfileByName)

@@ -57,7 +57,7 @@ levels = [{ keep = 0.9 }]
     ASSERT_TRUE(profile.ok()) << formatMessage(profile.error());
     const std::vector<std::string> materials{"skin", "face2", "face"};
 
-    const auto hero = clusters::reductionOf(*profile, "hero_01", materials);
+    const auto hero = clusters::configOf(*profile, "hero_01", materials).reduction;
     ASSERT_EQ(hero.curve.size(), 1u);
     EXPECT_EQ(hero.curve[0].keep, 0.5f) << "what a step does not set is the default";
     EXPECT_EQ(hero.curve[0].error_weight, 4.5f);
@@ -67,7 +67,7 @@ levels = [{ keep = 0.9 }]
     ASSERT_EQ(hero.curve_of_material.size(), 1u);
     EXPECT_EQ(hero.curve_of_material.at(1)[0].keep, 0.9f);
 
-    const auto other = clusters::reductionOf(*profile, "crate", materials);
+    const auto other = clusters::configOf(*profile, "crate", materials).reduction;
     ASSERT_EQ(other.curve.size(), 2u) << "a rule without levels leaves those of all meshes";
     EXPECT_EQ(other.curve[0].keep, 0.6f);
     EXPECT_EQ(other.curve[1].error_weight, 2.0f);
@@ -75,11 +75,53 @@ levels = [{ keep = 0.9 }]
     EXPECT_EQ(other.targets[0].triangles, 90u);
 }
 
+TEST_F(ProfileFile, setsNormalBitsAndErrorWeightsForAllMeshesAndForSome)
+{
+    const auto profile = read(R"(
+[clusters]
+normal_bits = 16
+uv_error_weight = 2
+[[clusters.mesh]]
+name = "crate"
+normal_bits = 8
+normal_error_weight = 0
+)");
+    ASSERT_TRUE(profile.ok()) << formatMessage(profile.error());
+    const clusters::Config usual;
+    const auto crate = clusters::configOf(*profile, "crate", {});
+    EXPECT_EQ(crate.normal_bits, 8u);
+    EXPECT_EQ(crate.normal_error_weight, 0.0f);
+    EXPECT_EQ(crate.uv_error_weight, 2.0f) << "what a rule does not set is as for all";
+    const auto other = clusters::configOf(*profile, "mirror", {});
+    EXPECT_EQ(other.normal_bits, 16u);
+    EXPECT_EQ(other.normal_error_weight, usual.normal_error_weight);
+    EXPECT_EQ(other.uv_error_weight, 2.0f);
+}
+
+TEST_F(ProfileFile, refusesSettingsOutOfRange)
+{
+    const auto setting = [&](const std::string& line, const std::string& key)
+    {
+        expectRefused("[clusters]\n" + line + "\n", Issue::profile_value, "line 2, clusters." + key,
+                      "must be");
+        expectRefused("[[clusters.mesh]]\nname = 'a'\n" + line + "\n", Issue::profile_value,
+                      "line 3, clusters.mesh[0]." + key, "must be");
+    };
+    setting("normal_bits = 12", "normal_bits");
+    setting("normal_bits = 0", "normal_bits");
+    setting("normal_bits = 8.0", "normal_bits");
+    setting("normal_error_weight = -1", "normal_error_weight");
+    setting("uv_error_weight = inf", "uv_error_weight");
+    setting("uv_error_weight = '1'", "uv_error_weight");
+    expectRefused("[clusters]\nnormal_bit = 8\n", Issue::profile_key, "line 2, clusters.normal_bit",
+                  "'normal_bits'");
+}
+
 TEST_F(ProfileFile, mayBeEmpty)
 {
     const auto profile = read("");
     ASSERT_TRUE(profile.ok());
-    const auto reduction = clusters::reductionOf(*profile, "any", {});
+    const auto reduction = clusters::configOf(*profile, "any", {}).reduction;
     ASSERT_EQ(reduction.curve.size(), 1u);
     EXPECT_EQ(reduction.curve[0].keep, 0.5f);
     EXPECT_TRUE(reduction.targets.empty());

@@ -47,6 +47,17 @@ TEST_F(Validate, findsErrorsThatFall)
               Issue::meaning_monotone);
 }
 
+TEST_F(Validate, findsPartsOfErrorsThatFall)
+{
+    const auto finer = [this](Hierarchy& h) -> formats::GroupRecord&
+    { return h.groups[h.clusters[firstOfLevel(h, 1)].refined_group]; };
+    ASSERT_TRUE(
+        std::isfinite(hierarchy_.groups[hierarchy_.clusters[firstOfLevel(hierarchy_, 1)].group].error));
+    EXPECT_EQ(after([&](Hierarchy& h) { finer(h).normal_error = 3; }), Issue::meaning_monotone);
+    EXPECT_EQ(after([&](Hierarchy& h) { finer(h).uv_error = 1e9f; }), Issue::meaning_monotone);
+    EXPECT_EQ(after([&](Hierarchy& h) { finer(h).position_error = 1e9f; }), Issue::meaning_monotone);
+}
+
 TEST_F(Validate, findsSpheresThatAreLeft)
 {
     EXPECT_EQ(
@@ -96,7 +107,12 @@ TEST_F(Validate, findsTrianglesThatAreMissing)
 
 TEST_F(Validate, findsRootsThatAreReplaced)
 {
-    EXPECT_EQ(after([&](Hierarchy& h) { h.groups.front().error = 1e9f; }), Issue::meaning_tree);
+    const auto replace = [](formats::GroupRecord& group)
+    {
+        group.error = group.position_error = group.uv_error = 1e9f;
+        group.normal_error = 3;
+    };
+    EXPECT_EQ(after([&](Hierarchy& h) { replace(h.groups.front()); }), Issue::meaning_tree);
 }
 
 TEST_F(Validate, seesTheCracksOfACutThatIsNotClosed)

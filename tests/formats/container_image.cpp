@@ -2,6 +2,7 @@
 #include "tests/formats/container_image.h"
 
 #include "formats/byte_reader.h"
+#include "formats/chunk_list.h"
 #include "formats/container_reader.h"
 #include "formats/mesh.h"
 
@@ -78,7 +79,7 @@ ChunkImage plainChunk(uint32_t type, uint32_t index, uint32_t element_size, std:
     ChunkImage chunk;
     chunk.entry.type = type;
     chunk.entry.index = index;
-    chunk.entry.version = 1;
+    chunk.entry.version = chunkVersion(type);
     chunk.entry.element_size = element_size;
     chunk.entry.size = bytes.size();
     chunk.stored.assign(bytes.begin(), bytes.end());

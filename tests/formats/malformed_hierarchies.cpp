@@ -30,6 +30,13 @@ void poke(PackModel& pack, size_t page, size_t byte, T value)
     std::memcpy(pack.decoded_pages[page].data() + byte, &value, sizeof(T));
 }
 
+/// All errors as of a group that something replaces.
+void setErrors(GroupRecord& group, float error)
+{
+    group.error = group.position_error = group.uv_error = error;
+    group.normal_error = 1;
+}
+
 std::vector<MalformedPack> malformedTables()
 {
     return {
@@ -101,6 +108,14 @@ std::vector<MalformedPack> malformedTables()
         {"groupRadiusNegative", Issue::meaning_value, "group 0",
          [](PackModel& p) { p.groups[0].sphere_radius = -1; }},
         {"groupErrorNaN", Issue::meaning_value, "group 1", [](PackModel& p) { p.groups[1].error = kNaN; }},
+        {"groupPositionErrorInfinite", Issue::meaning_value, "group 0",
+         [](PackModel& p) { p.groups[0].position_error = kInfinity; }},
+        {"groupPositionErrorExceedsError", Issue::meaning_value, "group 1",
+         [](PackModel& p) { p.groups[1].position_error = 2 * p.groups[1].error; }},
+        {"groupNormalErrorNegative", Issue::meaning_value, "group 1",
+         [](PackModel& p) { p.groups[1].normal_error = -1; }},
+        {"groupUvErrorNaN", Issue::meaning_value, "group 1",
+         [](PackModel& p) { p.groups[1].uv_error = kNaN; }},
         {"groupPage", Issue::meaning_reference, "group 1", [](PackModel& p) { p.groups[1].page = 3; }},
         {"groupReserved", Issue::meaning_padding, "group 1",
          [](PackModel& p) { p.groups[1].reserved[1] = 1; }},
@@ -108,7 +123,7 @@ std::vector<MalformedPack> malformedTables()
          [](PackModel& p) { p.clusters[3].group = 2; }},
         {"groupLevel", Issue::meaning_reference, "group 1", [](PackModel& p) { p.groups[1].level = 1; }},
         {"groupRootWithFiniteError", Issue::meaning_tree, "group 0",
-         [](PackModel& p) { p.groups[0].error = 5; }},
+         [](PackModel& p) { setErrors(p.groups[0], 5); }},
         {"groupThatNothingReplaces", Issue::meaning_tree, "group 2",
          [](PackModel& p) { p.clusters[1].refined_group = 1; }},
 
@@ -118,6 +133,13 @@ std::vector<MalformedPack> malformedTables()
          [](PackModel& p) { p.groups[2].set_offset = 2; }},
         {"groupSetOfUnlike", Issue::meaning_value, "group 2",
          [](PackModel& p) { p.groups[2].set_offset = 1; }},
+        {"groupSetOfUnlikeUvErrors", Issue::meaning_value, "group 2",
+         [](PackModel& p)
+         {
+             p.groups[2].set_offset = 1;
+             p.groups[2].sphere_center = p.groups[1].sphere_center;
+             p.groups[2].uv_error = 0;
+         }},
         {"groupSetNotNamedByItsFirst", Issue::meaning_reference, "cluster 1",
          [](PackModel& p)
          {
@@ -129,7 +151,7 @@ std::vector<MalformedPack> malformedTables()
          {
              p.groups[2].set_offset = 1;
              p.groups[2].sphere_center = p.groups[1].sphere_center;
-             p.groups[0].error = 5;
+             setErrors(p.groups[0], 5);
              p.clusters[1].refined_group = 1;
          }},
 
@@ -162,6 +184,12 @@ std::vector<MalformedPack> malformedTables()
          [](PackModel& p) { p.groups[1].error = kInfinity; }},
         {"clusterErrorGrows", Issue::meaning_monotone, "cluster 0",
          [](PackModel& p) { p.groups[0].error = 0.05f; }},
+        {"clusterNormalErrorFalls", Issue::meaning_monotone, "cluster 0",
+         [](PackModel& p)
+         {
+             setErrors(p.groups[0], 5);
+             p.groups[0].normal_error = 0.125f;
+         }},
         {"clusterSphereGrows", Issue::meaning_monotone, "cluster 0",
          [](PackModel& p) { p.groups[0].sphere_radius = 2.4f; }},
         {"clusterMaterial", Issue::meaning_reference, "cluster 0",

@@ -132,6 +132,12 @@ void beginGroup(PackModel& pack, uint32_t level, Float3 center, float radius, fl
     group.sphere_center = center;
     group.sphere_radius = radius;
     group.error = error;
+    if (std::isfinite(error))
+    {
+        group.position_error = error / 2;
+        group.normal_error = 0.25f;
+        group.uv_error = error;
+    }
     group.level = level;
     group.clusters = {first_cluster, 0};
     group.page = static_cast<uint32_t>(pack.pages.size());

@@ -1,0 +1,297 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/clusters/attribute_error.h"
+
+#include "cook/clusters/bounds.h"
+#include "cook/clusters/facet.h"
+#include "cook/clusters/reduce.h"
+#include "cook/clusters/surface.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace hearth::clusters
+{
+
+namespace
+{
+
+// Differences of UVs beyond this, in lengths of the group's mesh, are all alike: their squares stay numbers.
+constexpr float kFarthestUv = 1e6f;
+
+float dot(Float2 a, Float2 b)
+{
+    return a.x * b.x + a.y * b.y;
+}
+
+/// NaN becomes the limit as well.
+float limited(float length)
+{
+    return length > -kFarthestUv && length < kFarthestUv ? length : kFarthestUv;
+}
+
+struct Difference
+{
+    Float3 normal;
+    Float2 uv; ///< local lengths
+    float normal2 = 0;
+    float uv2 = 0;
+};
+
+/// A point of a facet: (1 - v - w) * corner 0 + v * corner 1 + w * corner 2.
+struct FacetPoint
+{
+    uint32_t facet = 0;
+    float v = 0, w = 0;
+};
+
+class AttributeMeasure
+{
+public:
+    AttributeMeasure(const GroupMesh& group, const NewSurface& after)
+        : group_(group),
+          after_(after),
+          simplified_(after.simplified),
+          facets_(after.surface.index.facets()),
+          has_normals_(!after.mesh.normals.empty()),
+          has_uvs_(!after.mesh.uvs[0].empty() && group.uv_length > 0),
+          differences_(group.vertex_of_wedge.size())
+    {
+    }
+
+    AttributeStep run()
+    {
+        if (!has_normals_ && !has_uvs_)
+            return {};
+        findSeams();
+        std::vector<uint32_t> targets;
+        targets.reserve(differences_.size());
+        for (const uint32_t position : group_.position_of_wedge)
+            targets.push_back(simplified_.target_of_position[position]);
+        const auto wedges_of_target = NumberLists::byKey<1>(group_.positions.size(), targets);
+        for (uint32_t target = 0; target < group_.positions.size(); ++target)
+            measureAround(target, wedges_of_target.of(target));
+        return {meanOfDifferences(), edgeLength()};
+    }
+
+private:
+    void findSeams()
+    {
+        constexpr uint32_t kNoWedge = 0xFFFFFFFFu;
+        on_seam_.assign(group_.positions.size(), 0);
+        if (group_.positions.size() == group_.vertex_of_wedge.size())
+            return;
+        std::vector<uint32_t> wedge_at(group_.positions.size(), kNoWedge);
+        for (const uint32_t wedge : simplified_.corners)
+        {
+            uint32_t& first = wedge_at[group_.position_of_wedge[wedge]];
+            if (first == kNoWedge)
+                first = wedge;
+            else if (first != wedge)
+                on_seam_[group_.position_of_wedge[wedge]] = 1;
+        }
+    }
+
+    /// The wedges of all positions that went to one, against the facets around it.
+    void measureAround(uint32_t target, std::span<const uint32_t> wedges)
+    {
+        fan_ = after_.surface.facets_at.of(target);
+        if (fan_.empty())
+            return;
+        loadBlocks();
+        for (const uint32_t wedge : wedges)
+        {
+            const uint32_t position = group_.position_of_wedge[wedge];
+            if (position == target && simplified_.placement.remade[target] == 0)
+                continue;
+            // inside a chart all of the fan goes on from facet to facet
+            differences_[wedge] =
+                differenceAt(wedge, on_seam_[target] != 0 ? likeliestPoint(wedge)
+                                                          : nearestPoint(group_.positions[position]));
+        }
+    }
+
+    /// Four facets of the fan in a block; behind the last, that again.
+    void loadBlocks()
+    {
+        blocks_.clear();
+        for (size_t first = 0; first < fan_.size(); first += kLanes)
+        {
+            std::array<const Facet*, kLanes> block;
+            for (size_t i = 0; i < kLanes; ++i)
+                block[i] = &facets_[fan_[std::min(first + i, fan_.size() - 1)]];
+            blocks_.push_back(makeBlock(block));
+        }
+    }
+
+    FacetPoint nearestPoint(Float3 place) const
+    {
+        Lanes least = allLanes(std::numeric_limits<float>::infinity());
+        Lanes v{}, w{};
+        LaneMask blocks{};
+        for (size_t block = 0; block < blocks_.size(); ++block)
+        {
+            const FacetBlock::Nearest nearest = blocks_[block].nearest(place);
+            const LaneMask nearer = nearest.distance2 < least;
+            least = nearer ? nearest.distance2 : least;
+            v = nearer ? nearest.v : v;
+            w = nearer ? nearest.w : w;
+            blocks = nearer ? LaneMask{} + static_cast<int32_t>(block) : blocks;
+        }
+        size_t lane = 0;
+        for (size_t i = 1; i < kLanes; ++i)
+            if (least[i] < least[lane])
+                lane = i;
+        const size_t found = static_cast<size_t>(blocks[lane]) * kLanes + lane;
+        return {fan_[std::min(found, fan_.size() - 1)], v[lane], w[lane]};
+    }
+
+    /// The nearest point on each of the facets, and of these the nearest one with regard to the attributes as well: at a
+    /// seam, that is on the wedge's own side.
+    FacetPoint likeliestPoint(uint32_t wedge) const
+    {
+        const Float3 place = group_.positions[group_.position_of_wedge[wedge]];
+        FacetPoint best{fan_.front()};
+        float least = std::numeric_limits<float>::infinity();
+        for (size_t block = 0; block < blocks_.size(); ++block)
+        {
+            const FacetBlock::Nearest nearest = blocks_[block].nearest(place);
+            for (size_t i = 0; i < std::min(kLanes, fan_.size() - block * kLanes); ++i)
+            {
+                const FacetPoint point{fan_[block * kLanes + i], nearest.v[i], nearest.w[i]};
+                const float cost = nearest.distance2[i] + attributeDistance2(wedge, point);
+                if (cost < least)
+                {
+                    least = cost;
+                    best = point;
+                }
+            }
+        }
+        return best;
+    }
+
+    /// What the new surface has in place of a wedge's attributes, less these.
+    Difference differenceAt(uint32_t wedge, const FacetPoint& point) const
+    {
+        const uint32_t vertex = group_.vertex_of_wedge[wedge];
+        const mesh::SourceMesh& mesh = after_.mesh;
+        Difference difference;
+        if (has_normals_)
+            difference.normal =
+                normalizeOr(valueAt(point, mesh.normals, after_.made.normals), {}) - mesh.normals[vertex];
+        if (has_uvs_)
+        {
+            const Float2 away = valueAt(point, mesh.uvs[0], after_.made.uvs[0]) - mesh.uvs[0][vertex];
+            difference.uv = {limited(away.x * group_.uv_length), limited(away.y * group_.uv_length)};
+        }
+        difference.normal2 = hearth::dot(difference.normal, difference.normal);
+        difference.uv2 = dot(difference.uv, difference.uv);
+        return difference;
+    }
+
+    float attributeDistance2(uint32_t wedge, const FacetPoint& point) const
+    {
+        const Lanes* before = group_.attributesOf(wedge);
+        const Lanes* rows[3];
+        for (size_t k = 0; k < 3; ++k)
+            rows[k] = simplified_.placement.attributes.data() +
+                      size_t{simplified_.corners[point.facet * 3 + k]} * group_.attribute_rows;
+        const Lanes v = allLanes(point.v), w = allLanes(point.w), u = allLanes(1 - point.v - point.w);
+        Lanes sum{};
+        for (size_t row = 0; row < group_.attribute_rows; ++row)
+        {
+            const Lanes away = rows[0][row] * u + rows[1][row] * v + rows[2][row] * w - before[row];
+            sum += away * away;
+        }
+        return sumOfLanes(sum);
+    }
+
+    /// The new surface's value at a point, of those that the vertices have.
+    template <typename Value>
+    Value valueAt(const FacetPoint& point, const std::vector<Value>& of_mesh,
+                  const std::vector<Value>& of_made) const
+    {
+        const auto corner = [&](size_t k)
+        {
+            const uint32_t vertex = after_.vertex_of_wedge[simplified_.corners[point.facet * 3 + k]];
+            return vertex < kMadeVertex ? of_mesh[vertex] : of_made[vertex - kMadeVertex];
+        };
+        return corner(0) * (1 - point.v - point.w) + corner(1) * point.v + corner(2) * point.w;
+    }
+
+    bool isPruned(size_t triangle) const
+    {
+        const auto gone = [&](size_t corner)
+        { return simplified_.target_of_position[group_.positionAt(corner)] == kPruned; };
+        return simplified_.pruned && (gone(triangle * 3) || gone(triangle * 3 + 1) || gone(triangle * 3 + 2));
+    }
+
+    /// The mean square of what is linear on a triangle is that of its corners and their sum, by 12.
+    AttributeError meanOfDifferences() const
+    {
+        double area = 0, normal2 = 0, uv2 = 0;
+        for (size_t t = 0; t < group_.triangleCount(); ++t)
+        {
+            if (isPruned(t))
+                continue;
+            const Float3 a = group_.positions[group_.positionAt(t * 3)];
+            const auto own = double{length(cross(group_.positions[group_.positionAt(t * 3 + 1)] - a,
+                                                 group_.positions[group_.positionAt(t * 3 + 2)] - a))};
+            const Difference& d0 = differences_[group_.corners[t * 3]];
+            const Difference& d1 = differences_[group_.corners[t * 3 + 1]];
+            const Difference& d2 = differences_[group_.corners[t * 3 + 2]];
+            const Float3 normal = d0.normal + d1.normal + d2.normal;
+            area += own;
+            normal2 += own * double{d0.normal2 + d1.normal2 + d2.normal2 + hearth::dot(normal, normal)};
+            if (!has_uvs_)
+                continue;
+            const Float2 uv = d0.uv + d1.uv + d2.uv;
+            uv2 += own * double{d0.uv2 + d1.uv2 + d2.uv2 + dot(uv, uv)};
+        }
+        if (!(area > 0))
+            return {};
+        return {static_cast<float>(angleOfChord(std::sqrt(normal2 / (12 * area)))),
+                roundUp(std::sqrt(uv2 / (12 * area)) * group_.scale)};
+    }
+
+    float edgeLength() const
+    {
+        double sum = 0;
+        for (const Facet& facet : facets_)
+            sum += double{facet.ab_ab + facet.ac_ac - facet.ab_ac};
+        return roundUp(group_.scale * std::sqrt(sum * 2 / (3 * static_cast<double>(facets_.size()))));
+    }
+
+    const GroupMesh& group_;
+    const NewSurface& after_;
+    const Simplified& simplified_;
+    std::span<const Facet> facets_;
+    bool has_normals_;
+    bool has_uvs_;
+    std::vector<uint8_t> on_seam_;        ///< for each position: several wedges are left at it
+    std::vector<Difference> differences_; ///< for each wedge of the group
+
+    // around one position
+    std::span<const uint32_t> fan_;
+    std::vector<FacetBlock> blocks_;
+};
+
+} // namespace
+
+AttributeStep measureAttributes(const GroupMesh& group, const NewSurface& after)
+{
+    return AttributeMeasure(group, after).run();
+}
+
+double angleOfChord(double chord)
+{
+    // the sine of half the angle, halved twice: then five terms of the series of asin are exact to 1e-7
+    const auto halve = [](double sine) { return sine / std::sqrt(2 * (1 + std::sqrt(1 - sine * sine))); };
+    const double x = halve(halve(std::min(chord / 2, 1.0)));
+    const double x2 = x * x;
+    return 8 * x * (1 + x2 * (1.0 / 6 + x2 * (3.0 / 40 + x2 * (15.0 / 336 + x2 * (105.0 / 3456)))));
+}
+
+} // namespace hearth::clusters
