@@ -77,7 +77,7 @@ void TriangleWalk::follow(uint32_t triangle)
 }
 
 /// The first of those with the most vertices that need not be stored.
-uint32_t TriangleWalk::bestStart(std::span<const uint8_t> known) const
+uint32_t TriangleWalk::bestStart(std::span<const uint16_t> known) const
 {
     uint32_t best = 0;
     int best_count = -1;
@@ -97,7 +97,8 @@ uint32_t TriangleWalk::bestStart(std::span<const uint8_t> known) const
     return best;
 }
 
-std::span<const WalkStep> TriangleWalk::walk(std::span<const uint8_t> indices, std::span<const uint8_t> known)
+std::span<const WalkStep> TriangleWalk::walk(std::span<const uint8_t> indices,
+                                             std::span<const uint16_t> known)
 {
     indices_ = indices;
     visited_ = {};

@@ -29,12 +29,12 @@ public:
 
     /// Each triangle once, turned so that it begins with its edge.
     /// known  of each vertex: not 0 where an earlier cluster has it; the walk begins there
-    std::span<const WalkStep> walk(std::span<const uint8_t> indices, std::span<const uint8_t> known);
+    std::span<const WalkStep> walk(std::span<const uint8_t> indices, std::span<const uint16_t> known);
 
 private:
     void linkEdges();
     void follow(uint32_t triangle);
-    uint32_t bestStart(std::span<const uint8_t> known) const;
+    uint32_t bestStart(std::span<const uint16_t> known) const;
     bool free(uint32_t triangle) const { return triangle != 0 && visited_[triangle - 1] == 0; }
     uint32_t across(uint8_t from, uint8_t to) const { return across_[size_t{from} << 8 | to]; }
     std::array<uint8_t, 3> cornersOf(uint32_t triangle) const

@@ -87,7 +87,9 @@ std::vector<std::byte> packed(std::span<const std::byte> content)
 std::vector<std::byte> unpacked(std::span<const std::byte> stored)
 {
     std::vector<std::byte> content(ZSTD_getFrameContentSize(stored.data(), stored.size()));
-    EXPECT_EQ(ZSTD_decompress(content.data(), content.size(), stored.data(), stored.size()), content.size());
+    const size_t frame = ZSTD_findFrameCompressedSize(stored.data(), stored.size());
+    EXPECT_EQ(ZSTD_decompress(content.data(), content.size(), stored.data(), frame), content.size());
+    content.insert(content.end(), stored.begin() + static_cast<ptrdiff_t>(frame), stored.end());
     return content;
 }
 
