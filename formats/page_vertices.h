@@ -83,7 +83,7 @@ private:
         plan.second = streams_.second[lane];
         plan.low_bits = streams_.header.low_bits[lane];
         plan.first_low_bit = first_low_bit;
-        plan.low_mask = Halves{} + static_cast<uint16_t>((1u << plan.low_bits) - 1);
+        plan.low_mask = allHalves(static_cast<uint16_t>((1u << plan.low_bits) - 1));
         if (lanes.kinds[lane] == LaneKind::bytes)
             plan.form = (streams_.header.planes[lane] & kPlaneNibbles) ? Form::nibbles : Form::bytes;
         if (sharesMainByte(lanes, lane))

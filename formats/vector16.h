@@ -31,6 +31,11 @@ inline Bytes loadBytes(const uint8_t* from)
     return bytes;
 }
 
+inline Halves allHalves(uint16_t half)
+{
+    return Halves{half, half, half, half, half, half, half, half};
+}
+
 inline bool anyBit(Halves halves)
 {
     const auto words = std::bit_cast<std::array<uint64_t, 2>>(halves);
