@@ -99,16 +99,15 @@ private:
     {
         for (size_t block = 0; block < Blocks; ++block)
         {
-            Group group{};
             const Fields fields = readFields(block);
             for (const LanePlan& plan : std::span(plans_[block]).first(plan_counts_[block]))
-                readLane(plan, fields, group);
-            for (size_t half = 0; half < 2; ++half)
+                readLane(plan, fields, groups_[block]);
+            Slot<Blocks>* rows = rows_.data() + ready_;
+            for (std::array<Halves, kHalves> square : groups_[block])
             {
-                transpose(group[half]);
-                Slot<Blocks>* const rows = rows_.data() + ready_ + half * kHalves;
-                for (size_t v = 0; v < kHalves; ++v)
-                    rows[v][block] = group[half][v];
+                transpose(square);
+                for (const Halves row : square)
+                    (*rows++)[block] = row;
             }
         }
         ready_ += kGroup;
@@ -118,21 +117,20 @@ private:
     void readLane(const LanePlan& plan, const Fields& fields, Group& group)
     {
         const Bytes main = bytesAt(plan.main);
-        const Bytes second = bytesAt(plan.second);
-        switch (plan.form)
+        if (plan.form == Form::number)
         {
-        case Form::number:
             readNumbers(plan, fields, main, group);
-            break;
-        case Form::bytes:
+            return;
+        }
+        const Bytes second = bytesAt(plan.second);
+        if (plan.form == Form::bytes)
             put(group, plan.lane, main, second);
-            break;
-        case Form::nibbles:
+        else
+        {
             const Halves upper = asHalves(main);
             const Halves lower = asHalves(second);
             put(group, plan.lane, asBytes((upper << 4 & 0xF0F0) | (lower & 0x0F0F)),
                 asBytes((upper & 0xF0F0) | (lower >> 4 & 0x0F0F)));
-            break;
         }
     }
 
@@ -202,6 +200,7 @@ private:
     std::array<std::array<LanePlan, kHalves>, Blocks> plans_{};
     std::array<size_t, Blocks> low_planes_{};
     std::array<size_t, Blocks> plan_counts_{};
+    std::array<Group, Blocks> groups_{}; ///< lanes without a plan stay 0
     std::array<Slot<Blocks>, kClusterMaxVertices + kGroup> rows_;
     uint32_t used_ = 0, ready_ = 0; ///< of the rows
     uint32_t position_ = 0;         ///< vertices that are read
