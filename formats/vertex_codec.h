@@ -148,8 +148,15 @@ using FourFloats = float __attribute__((vector_size(16)));
 /// Of four points of the square, the squared length of directionFromOctahedral less `unit`, to the same bits.
 inline FourFloats distance2ToOctahedral(FourFloats x, FourFloats y, Float3 unit)
 {
-    const auto magnitude = [](FourFloats v) { return v < 0 ? -v : v; };
-    const auto towards = [](FourFloats v, FourFloats sign) { return sign < 0 ? -v : v; };
+    using FourWords = uint32_t __attribute__((vector_size(16)));
+    constexpr uint32_t kSign = 1u << 31;
+    const auto magnitude = [](FourFloats v)
+    { return std::bit_cast<FourFloats>(std::bit_cast<FourWords>(v) & ~kSign); };
+    // neither code is the zero below 0
+    const auto towards = [](FourFloats v, FourFloats sign) {
+        return std::bit_cast<FourFloats>(std::bit_cast<FourWords>(v) ^
+                                         (std::bit_cast<FourWords>(sign) & kSign));
+    };
     const FourFloats z = 1.0f - magnitude(x) - magnitude(y);
     const FourFloats folded_x = z < 0 ? towards(1.0f - magnitude(y), x) : x;
     const FourFloats folded_y = z < 0 ? towards(1.0f - magnitude(x), y) : y;

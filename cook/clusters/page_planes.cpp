@@ -252,12 +252,20 @@ void PagePlanes::addLowBits(size_t block, const PageHeader& header)
 void PagePlanes::collectEscapes(PageHeader& header)
 {
     constexpr size_t kGroup = 16;
+    const auto leastEscape = [&](size_t lane) { return escapeOf(lane) << header.low_bits[lane]; };
+    std::vector<size_t> lanes;
+    for (size_t lane = 0; lane < lanes_.count; ++lane)
+    {
+        uint16_t most = 0;
+        for (const uint16_t value : values_[lane])
+            most = std::max(most, value);
+        if (lanes_.kinds[lane] != LaneKind::bytes && most >= leastEscape(lane))
+            lanes.push_back(lane);
+    }
     for (size_t first = 0; first < rows_.size(); first += kGroup)
-        for (size_t lane = 0; lane < lanes_.count; ++lane)
+        for (const size_t lane : lanes)
         {
-            if (lanes_.kinds[lane] == LaneKind::bytes)
-                continue;
-            const uint32_t least = escapeOf(lane) << header.low_bits[lane];
+            const uint32_t least = leastEscape(lane);
             for (size_t v = first; v < std::min(first + kGroup, rows_.size()); ++v)
                 if (const uint32_t value = values_[lane][v]; value >= least)
                 {
