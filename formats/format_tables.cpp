@@ -129,7 +129,7 @@ std::vector<ValueTable> valueTables()
         {"PageCodec",
          {value("none", PageCodec::none, "the decoded bytes"),
           value("zstd", PageCodec::zstd, "one zstd frame of them"),
-          value("clusters", PageCodec::clusters, "one zstd frame of a PageHeader and streams")}},
+          value("clusters", PageCodec::clusters, "a PageHeader and streams, the first of them in a zstd frame")}},
         {"SourceSemantic",
          {value("position", SourceSemantic::position, "f32[3]"),
           value("normal", SourceSemantic::normal, "f32[3], unit"),

@@ -51,45 +51,56 @@ constexpr VertexLanes vertexLanes(uint32_t layout)
     return lanes;
 }
 
-/// At the start of the content of a page's frame; behind it the streams, in this order:
-///     codes        for each cluster, 4 bits a triangle, the first in the low ones, padded to a byte
-///     restarts     a byte for each triangle with code kCodeRestart
-///     reuses       a byte for each corner that is a vertex of the same cluster
+/// Whether the lane is a number whose word has another one in its other half: their main bits share bytes.
+constexpr bool sharesMainByte(const VertexLanes& lanes, size_t lane)
+{
+    return lanes.kinds[lane] != LaneKind::bytes && lanes.kinds[lane ^ 1] != LaneKind::bytes;
+}
+
+/// At the start of the content of a page; behind it the streams, in this order:
+///     codes        for each cluster, 4 bits a triangle but the first, the first of them in the low ones, padded to a byte
+///     restarts     a byte for the first triangle of each cluster and for each with code kCodeRestart: of the clusters at
+///                  even places in the page, then of those at odd places
+///     reuses       a byte for each corner that is a vertex of the same cluster: the same
 ///     references   two planes (low bytes, high bytes) of numbers: vertices that are one of an earlier cluster
 ///     uv_bases     the words in front of the clusters' vertices
 ///     wide         the vertices of wide clusters, as they are
-///     escapes      two bytes for each 16-bit lane of a new vertex whose main byte is kEscape: its number. By cluster,
-///                  in it by block of eight lanes, in it by vertex
-///     planes       of the new vertices, a byte each: the main bytes of each lane that has any, then the second bytes of
-///                  each, then for each block of eight lanes the bytes of its low bits
-/// A lane of two bytes is its main byte and its second byte. One of 16 bits is a number (zigzag16): its bits above
-/// low_bits are the main byte, the others the second byte if they are 8, else a field of the low bits of the block: the
-/// fields of the block's lanes, one above the other, together at most 16 bits.
+///     escapes      two bytes for each number of a new vertex whose main bits are all set: the number. By sixteen
+///                  vertices, in them by lane, in it by vertex
+///     planes       of the new vertices, a byte each: the main bytes of numbers, then of lanes of two bytes; the second
+///                  bytes of those; then for each block of eight lanes the bytes of its low bits
+/// A lane of 16 bits is a number (zigzag16): its low bits lie in the field of its block, the fields of the block's lanes
+/// one behind the other. The bits above are its main byte; where both halves of a word are numbers, the four main bits of
+/// the second one lie above those of the first one in the main byte of the first one.
+/// A lane of two bytes is its main byte and its second byte, or (kPlaneNibbles) the upper halves of both, then the lower.
 struct PageHeader
 {
-    uint16_t restarts;
-    uint16_t reuses;
+    uint16_t restarts[2];
+    uint16_t reuses[2];
     uint16_t references;
     uint16_t new_vertices;
     uint32_t escapes;
     uint8_t planes[kMaxLanes];
     uint8_t low_bits[kMaxLanes];
-    uint8_t reserved[4];
 };
 
-inline constexpr uint8_t kEscape = 255;
+inline constexpr uint32_t kEscape = 255;
+inline constexpr uint32_t kEscapeOfFour = 15; ///< where main bytes are shared
 
 inline constexpr uint8_t kPlaneMain = 1; ///< of PageHeader::planes: else all are 0
 inline constexpr uint8_t kPlaneSecond = 2;
+inline constexpr uint8_t kPlaneNibbles = 4; ///< of a lane of two bytes
 inline constexpr uint32_t kLanesOfBlock = 8;
-inline constexpr uint32_t kMaxFieldBits = 16;
+
+/// Most bits below main bytes, and below four main bits.
+inline constexpr uint32_t kMaxLowBits = 8;
+inline constexpr uint32_t kMaxLowBitsOfFour = 12;
 
 /// Where the low bits of a block's lanes lie.
 struct LowBitFields
 {
     std::array<uint32_t, kLanesOfBlock> first{};
-    std::array<uint32_t, kLanesOfBlock> mask{}; ///< 0 where a lane has none there
-    uint32_t bits = 0;                          ///< of all; more than kMaxFieldBits is not legal
+    uint32_t bits = 0; ///< of all
     uint32_t planes() const { return (bits + 7) / 8; }
 };
 
@@ -97,12 +108,10 @@ constexpr LowBitFields lowBitFields(const PageHeader& header, size_t block)
 {
     LowBitFields fields;
     for (size_t i = 0; i < kLanesOfBlock && block * kLanesOfBlock + i < kMaxLanes; ++i)
-        if (const uint32_t bits = header.low_bits[block * kLanesOfBlock + i]; bits < 8)
-        {
-            fields.first[i] = fields.bits;
-            fields.mask[i] = (1u << bits) - 1;
-            fields.bits += bits;
-        }
+    {
+        fields.first[i] = fields.bits;
+        fields.bits += header.low_bits[block * kLanesOfBlock + i];
+    }
     return fields;
 }
 
@@ -119,6 +128,16 @@ inline constexpr uint32_t kCornerReuse = 2;
 inline constexpr uint32_t kCodeRestart =
     15; ///< three corners: bits 0..1, 2..3 and 4..5 of a byte of restarts
 
+/// Codes of a cluster: none for its first triangle, which is a restart.
+constexpr uint32_t codeCount(uint32_t triangle_count)
+{
+    return triangle_count == 0 ? 0 : triangle_count - 1;
+}
+constexpr size_t codeBytes(uint32_t triangle_count)
+{
+    return (codeCount(triangle_count) + size_t{1}) / 2;
+}
+
 /// Small numbers of either sign as small numbers.
 constexpr uint16_t zigzag16(uint16_t value)
 {
@@ -131,13 +150,14 @@ constexpr uint16_t unzigzag16(uint16_t value)
 } // namespace hearth::formats
 
 HEARTH_RECORD(hearth::formats::PageHeader, 72,
-              HEARTH_FIELD(hearth::formats::PageHeader, restarts, "bytes of stream restarts"),
-              HEARTH_FIELD(hearth::formats::PageHeader, reuses, "bytes of stream reuses"),
+              HEARTH_FIELD(hearth::formats::PageHeader, restarts,
+                           "bytes of stream restarts: of clusters at even places, of those at odd places"),
+              HEARTH_FIELD(hearth::formats::PageHeader, reuses, "bytes of stream reuses, the same"),
               HEARTH_FIELD(hearth::formats::PageHeader, references, "numbers in stream references"),
               HEARTH_FIELD(hearth::formats::PageHeader, new_vertices, "bytes of each plane"),
               HEARTH_FIELD(hearth::formats::PageHeader, escapes, "numbers in stream escapes"),
               HEARTH_FIELD(hearth::formats::PageHeader, planes,
-                           "of each lane: bit 0 main bytes, bit 1 second bytes; 0 where all are 0"),
+                           "of each lane: bit 0 main bytes, bit 1 second bytes, 0 where all are 0; bit 2 "
+                           "bytes are cut in halves"),
               HEARTH_FIELD(hearth::formats::PageHeader, low_bits,
-                           "of each lane of 16 bits: how many are below the main byte, 0 to 8"),
-              HEARTH_FIELD(hearth::formats::PageHeader, reserved, "0"));
+                           "of each lane of 16 bits: how many are below the main ones, 0 to 8, or to 12"));

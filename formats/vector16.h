@@ -31,41 +31,15 @@ inline Bytes loadBytes(const uint8_t* from)
     return bytes;
 }
 
-/// Where the mask has bits `yes`, else `no`.
-inline Halves select(Halves mask, Halves yes, Halves no)
-{
-    return (yes & mask) | (no & ~mask);
-}
-
 inline Halves allHalves(uint16_t half)
 {
     return Halves{half, half, half, half, half, half, half, half};
-}
-
-/// Shifts each half to the right by a number of its own, 1 to 16, given as 2 to the power of 16 less that.
-inline Halves shiftRight(Halves halves, Halves power)
-{
-#if defined(__SSE2__)
-    // shifts by different numbers came later; the upper half of a product is as old as MMX
-    using Signed = int16_t __attribute__((vector_size(16)));
-    return std::bit_cast<Halves>(
-        __builtin_ia32_pmulhuw128(std::bit_cast<Signed>(halves), std::bit_cast<Signed>(power)));
-#else
-    using Words = uint32_t __attribute__((vector_size(32)));
-    return __builtin_convertvector(
-        (__builtin_convertvector(halves, Words) * __builtin_convertvector(power, Words)) >> 16, Halves);
-#endif
 }
 
 inline bool anyBit(Halves halves)
 {
     const auto words = std::bit_cast<std::array<uint64_t, 2>>(halves);
     return (words[0] | words[1]) != 0;
-}
-
-inline Halves addBytes(Halves a, Halves b)
-{
-    return asHalves(asBytes(a) + asBytes(b));
 }
 
 /// Bytes of a and b in turns: the first halves of both, or the second.
@@ -78,16 +52,16 @@ inline Bytes interleaveHigh(Bytes a, Bytes b)
     return __builtin_shufflevector(a, b, 8, 24, 9, 25, 10, 26, 11, 27, 12, 28, 13, 29, 14, 30, 15, 31);
 }
 
-/// Byte j of row i changes places with byte i of row j.
-inline void transpose(std::array<Bytes, 16>& rows)
+/// Half j of row i changes places with half i of row j.
+inline void transpose(std::array<Halves, kHalves>& rows)
 {
-    for (int round = 0; round < 4; ++round)
+    for (int round = 0; round < 3; ++round)
     {
-        std::array<Bytes, 16> mixed;
-        for (size_t i = 0; i < 8; ++i)
+        std::array<Halves, kHalves> mixed;
+        for (size_t i = 0; i < 4; ++i)
         {
-            mixed[2 * i] = interleaveLow(rows[i], rows[i + 8]);
-            mixed[2 * i + 1] = interleaveHigh(rows[i], rows[i + 8]);
+            mixed[2 * i] = __builtin_shufflevector(rows[i], rows[i + 4], 0, 8, 1, 9, 2, 10, 3, 11);
+            mixed[2 * i + 1] = __builtin_shufflevector(rows[i], rows[i + 4], 4, 12, 5, 13, 6, 14, 7, 15);
         }
         rows = mixed;
     }

@@ -143,6 +143,32 @@ inline Float3 directionFromOctahedral(Float2 p)
     return d / length(d); // |d| >= 1/sqrt(3): never zero
 }
 
+using FourFloats = float __attribute__((vector_size(16)));
+
+/// Of four points of the square, the squared length of directionFromOctahedral less `unit`, to the same bits.
+inline FourFloats distance2ToOctahedral(FourFloats x, FourFloats y, Float3 unit)
+{
+    using FourWords = uint32_t __attribute__((vector_size(16)));
+    constexpr uint32_t kSign = 1u << 31;
+    const auto magnitude = [](FourFloats v)
+    { return std::bit_cast<FourFloats>(std::bit_cast<FourWords>(v) & ~kSign); };
+    // neither code is the zero below 0
+    const auto towards = [](FourFloats v, FourFloats sign) {
+        return std::bit_cast<FourFloats>(std::bit_cast<FourWords>(v) ^
+                                         (std::bit_cast<FourWords>(sign) & kSign));
+    };
+    const FourFloats z = 1.0f - magnitude(x) - magnitude(y);
+    const FourFloats folded_x = z < 0 ? towards(1.0f - magnitude(y), x) : x;
+    const FourFloats folded_y = z < 0 ? towards(1.0f - magnitude(x), y) : y;
+    const FourFloats length2 = folded_x * folded_x + folded_y * folded_y + z * z;
+    const FourFloats length{std::sqrt(length2[0]), std::sqrt(length2[1]), std::sqrt(length2[2]),
+                            std::sqrt(length2[3])};
+    const FourFloats off_x = folded_x / length - unit.x;
+    const FourFloats off_y = folded_y / length - unit.y;
+    const FourFloats off_z = z / length - unit.z;
+    return off_x * off_x + off_y * off_y + off_z * off_z;
+}
+
 /// Normal codes of B = 8 or 16 bits for x and for y: 2B bits, x in the low half.
 template <int B>
 struct NormalCode
@@ -170,23 +196,21 @@ struct NormalCode
         const Float2 p = octahedralFromDirection(normal);
         const Float3 unit = normal / length(normal);
         const auto below = [](float value)
-        { return std::clamp(static_cast<int32_t>(std::floor(value * kMost)), -kMost, kMost - 1); };
+        {
+            const auto nearer_to_0 = static_cast<int32_t>(value * kMost);
+            return std::clamp(nearer_to_0 - (value < 0 ? 1 : 0), -kMost, kMost - 1);
+        };
         const int32_t low_x = below(p.x);
         const int32_t low_y = below(p.y);
-        uint32_t best = 0;
-        float best_distance2 = 5;
-        for (int32_t corner = 0; corner < 4; ++corner)
-        {
-            const uint32_t code = pack(low_x + (corner & 1), low_y + (corner >> 1));
-            // the chord: unlike the cosine, floats tell it for the smallest angles
-            const Float3 off = decode(code) - unit;
-            if (const float distance2 = dot(off, off); distance2 < best_distance2)
-            {
-                best = code;
-                best_distance2 = distance2;
-            }
-        }
-        return best;
+        const auto x0 = static_cast<float>(low_x), y0 = static_cast<float>(low_y);
+        // the chord: unlike the cosine, floats tell it for the smallest angles
+        const FourFloats distance2 =
+            distance2ToOctahedral(FourFloats{x0, x0 + 1, x0, x0 + 1} / static_cast<float>(kMost),
+                                  FourFloats{y0, y0, y0 + 1, y0 + 1} / static_cast<float>(kMost), unit);
+        int32_t best = 0;
+        for (int32_t corner = 1; corner < 4; ++corner)
+            best = distance2[corner] < distance2[best] ? corner : best;
+        return pack(low_x + (best & 1), low_y + (best >> 1));
     }
 };
 

@@ -54,10 +54,6 @@ double length(Double3 a)
 {
     return std::sqrt(dot(a, a));
 }
-Double3 cross(Double3 a, Double3 b)
-{
-    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
 Float3 narrow(Double3 a)
 {
     return {static_cast<float>(a.x), static_cast<float>(a.y), static_cast<float>(a.z)};
@@ -173,60 +169,124 @@ double radiusAround(Float3 center, std::span<const Sphere> spheres)
     return radius;
 }
 
-struct Plane
+using Pair = double __attribute__((vector_size(2 * sizeof(double))));
+
+/// Two vectors side by side.
+struct PairVector
 {
-    Double3 normal; ///< unit
-    Double3 point;
+    Pair x, y, z;
+};
+PairVector operator-(const PairVector& a, const PairVector& b)
+{
+    return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+Pair dot(const PairVector& a, const PairVector& b)
+{
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+PairVector cross(const PairVector& a, const PairVector& b)
+{
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+PairVector pairOf(Float3 a, Float3 b)
+{
+    return {Pair{a.x, b.x}, Pair{a.y, b.y}, Pair{a.z, b.z}};
+}
+PairVector pairOf(Double3 a)
+{
+    return {Pair{a.x, a.x}, Pair{a.y, a.y}, Pair{a.z, a.z}};
+}
+
+/// The planes of two triangles.
+struct PlanePair
+{
+    PairVector normal; ///< unit
+    PairVector point;
 };
 
-/// Planes of the triangles that have a normal in double arithmetic.
-std::vector<Plane> planesOf(std::span<const Float3> places)
+/// Planes of the triangles; the last one twice where their number is odd. Empty if one has no normal in double
+/// arithmetic.
+std::vector<PlanePair> planesOf(std::span<const Float3> places)
 {
-    std::vector<Plane> planes;
-    planes.reserve(places.size() / 3);
-    for (size_t i = 0; i + 2 < places.size(); i += 3)
+    std::vector<PlanePair> planes((places.size() / 3 + 1) / 2);
+    for (size_t i = 0; i < planes.size(); ++i)
     {
-        const Double3 a = widen(places[i]);
-        const Double3 normal = cross(widen(places[i + 1]) - a, widen(places[i + 2]) - a);
-        if (const double area = length(normal); area > 0)
-            planes.push_back({normal * (1 / area), a});
+        const Float3* const first = &places[6 * i];
+        const Float3* const second = &places[std::min(6 * i + 3, places.size() - 3)];
+        const PairVector a = pairOf(first[0], second[0]);
+        const PairVector normal = cross(pairOf(first[1], second[1]) - a, pairOf(first[2], second[2]) - a);
+        const Pair area2 = dot(normal, normal);
+        const Pair area{std::sqrt(area2[0]), std::sqrt(area2[1])};
+        if (!(area[0] > 0 && area[1] > 0))
+            return {};
+        planes[i] = {{normal.x / area, normal.y / area, normal.z / area}, a};
     }
     return planes;
 }
 
+/// Normals, four side by side: floats are good enough to look for an axis. Lanes that are left over repeat the last.
+std::vector<LaneVector> normalsOf(std::span<const PlanePair> planes)
+{
+    std::vector<LaneVector> blocks((planes.size() + 1) / 2);
+    for (size_t i = 0; i < blocks.size(); ++i)
+    {
+        const PairVector& first = planes[2 * i].normal;
+        const PairVector& second = planes[std::min(2 * i + 1, planes.size() - 1)].normal;
+        const auto four = [](Pair a, Pair b)
+        {
+            return Lanes{static_cast<float>(a[0]), static_cast<float>(a[1]), static_cast<float>(b[0]),
+                         static_cast<float>(b[1])};
+        };
+        blocks[i] = {four(first.x, second.x), four(first.y, second.y), four(first.z, second.z)};
+    }
+    return blocks;
+}
+
 struct LeastCosine
 {
-    double cosine = 1;
-    Double3 normal; ///< the one farthest from the axis
+    float cosine = 1;
+    Float3 normal; ///< the one farthest from the axis
 };
 
-LeastCosine leastCosine(Double3 axis, std::span<const Plane> planes)
+LeastCosine leastCosine(Float3 axis, std::span<const LaneVector> normals)
 {
-    LeastCosine least{dot(axis, planes.front().normal), planes.front().normal};
-    for (const Plane& plane : planes.subspan(1))
-        if (const double cosine = dot(axis, plane.normal); cosine < least.cosine)
-            least = {cosine, plane.normal};
-    return least;
+    const LaneVector axes = allLanes(axis);
+    Lanes least = allLanes(2);
+    LaneMask block_of_least{};
+    for (size_t b = 0; b < normals.size(); ++b)
+    {
+        const Lanes cosine = dot(axes, normals[b]);
+        const LaneMask less = cosine < least;
+        const auto number = static_cast<int32_t>(b);
+        least = less ? cosine : least;
+        block_of_least = less ? LaneMask{number, number, number, number} : block_of_least;
+    }
+    size_t lane = 0;
+    for (size_t k = 1; k < kLanes; ++k)
+        if (least[k] < least[lane])
+            lane = k;
+    const LaneVector& block = normals[static_cast<size_t>(block_of_least[lane])];
+    return {least[lane], {block.x[lane], block.y[lane], block.z[lane]}};
 }
 
 /// An axis near the one with the narrowest cone: the mean normal, then steps towards the farthest normal.
-Double3 coneAxis(std::span<const Plane> planes)
+Float3 coneAxis(std::span<const LaneVector> normals)
 {
-    Double3 axis;
-    for (const Plane& plane : planes)
-        axis = axis + plane.normal;
-    const double sum = length(axis);
-    if (!(sum > 1e-6))
+    LaneVector sums{};
+    for (const LaneVector& block : normals)
+        sums = sums + block;
+    const Float3 sum{sumOfLanes(sums.x), sumOfLanes(sums.y), sumOfLanes(sums.z)};
+    if (!(length(sum) > 1e-4f))
         return {};
-    axis = axis * (1 / sum);
-    Double3 best = axis;
-    LeastCosine least = leastCosine(axis, planes);
-    double best_cosine = least.cosine;
+    Float3 axis = sum / length(sum);
+    Float3 best = axis;
+    LeastCosine least = leastCosine(axis, normals);
+    float best_cosine = least.cosine;
     for (int step = 1; step <= 6; ++step)
     {
-        axis = axis + (least.normal - axis) * (0.5 / (step + 1));
-        axis = axis * (1 / length(axis));
-        least = leastCosine(axis, planes);
+        axis += (least.normal - axis) * (0.5f / static_cast<float>(step + 1));
+        axis = axis / length(axis);
+        least = leastCosine(axis, normals);
         if (least.cosine > best_cosine)
         {
             best = axis;
@@ -309,28 +369,38 @@ void growToHold(Sphere& sphere, std::span<const Float3> points)
 NormalCone coneOfTriangles(std::span<const Float3> places, Float3 middle)
 {
     NormalCone cone;
-    const std::vector<Plane> planes = planesOf(places);
+    const std::vector<PlanePair> planes = planesOf(places);
     // a triangle too thin for a normal in double could face anywhere
-    if (planes.empty() || planes.size() * 3 != places.size())
+    if (planes.empty())
         return cone;
-    const Double3 wide_axis = coneAxis(planes);
-    if (!(length(wide_axis) > 0))
+    const Float3 near_axis = coneAxis(normalsOf(planes));
+    if (!(length(near_axis) > 0))
         return cone;
-    cone.axis = formats::NormalCode<8>::encode(narrow(wide_axis));
+    cone.axis = formats::NormalCode<8>::encode(near_axis);
     Double3 axis = widen(formats::NormalCode<8>::decode(cone.axis));
     axis = axis * (1 / length(axis));
-    const double cosine = std::min(1.0, leastCosine(axis, planes).cosine);
+
+    Pair cosines{1, 1};
+    Pair reaches2{};
+    Pair backs{};
+    const PairVector axes = pairOf(axis);
+    const PairVector middles = pairOf(widen(middle));
+    for (const PlanePair& plane : planes)
+    {
+        const PairVector away = middles - plane.point;
+        const Pair cosine = dot(axes, plane.normal);
+        const Pair reach2 = dot(away, away);
+        // says nothing where the cosine is not above 0, but then there is no cone
+        const Pair back = dot(away, plane.normal) / cosine;
+        cosines = cosine < cosines ? cosine : cosines;
+        reaches2 = reach2 > reaches2 ? reach2 : reaches2;
+        backs = back > backs ? back : backs;
+    }
+    const double cosine = std::min(cosines[0], cosines[1]);
+    const double back = std::max(backs[0], backs[1]);
     if (cosine <= kMinConeCosine)
         return cone;
-
-    double reach = 0;
-    double back = 0;
-    for (const Plane& plane : planes)
-    {
-        const Double3 away = widen(middle) - plane.point;
-        reach = std::max(reach, length(away));
-        back = std::max(back, dot(away, plane.normal) / dot(axis, plane.normal));
-    }
+    const double reach = std::sqrt(std::max(reaches2[0], reaches2[1]));
     // room for the runtime's arithmetic
     const double magnitude = length(widen(middle)) + reach + back;
     cone.back = back + 1e-5 * (reach + back) + magnitude * 4e-7 / cosine;

@@ -70,7 +70,7 @@ class ClusterCoder
 {
 public:
     ClusterCoder(const PreparedMesh& mesh, std::span<const uint32_t> vertices, uint32_t mesh_layout)
-        : source_(mesh.vertices), step_(mesh.grid.step), vertices_(vertices), layout_(mesh_layout)
+        : source_(mesh.vertices), steps_(1 / mesh.grid.step), vertices_(vertices), layout_(mesh_layout)
     {
     }
 
@@ -97,30 +97,33 @@ public:
     CodedCluster code(const ClusterRecord& record, std::span<const uint8_t> indices)
     {
         layout_ = layoutOf(record, layout_);
+        vertex_words_ = vertexWords(layout_);
         CodedCluster cluster;
+        cluster.words.resize(uvBaseWords(layout_) + vertices_.size() * vertex_words_);
+        uint32_t* word = cluster.words.data();
         for (uint32_t set = 0; set < kUvSets; ++set)
             if (uvFractionBits(layout_, set) != 0)
                 for (const int32_t base : uv_base_[set])
-                    cluster.words.push_back(static_cast<uint32_t>(base));
+                    *word++ = static_cast<uint32_t>(base);
         std::array<uint8_t, kClusterMaxVertices> new_of_old;
         for (size_t i = 0; i < vertices_.size(); ++i)
-            new_of_old[i] = static_cast<uint8_t>(findOrAppend(record, vertices_[i], cluster.words));
-        cluster.indices.reserve(indices.size());
-        for (const uint8_t index : indices)
-            cluster.indices.push_back(new_of_old[index]);
+            new_of_old[i] = static_cast<uint8_t>(findOrAppend(record, vertices_[i], word));
+        cluster.words.resize(uvBaseWords(layout_) + count_ * vertex_words_);
+        cluster.indices.resize(indices.size());
+        for (size_t i = 0; i < indices.size(); ++i)
+            cluster.indices[i] = new_of_old[indices[i]];
         return cluster;
     }
 
 private:
-    /// Number of the vertex among those of `words`, where it is put unless an equal one is there.
-    size_t findOrAppend(const ClusterRecord& record, uint32_t vertex, std::vector<uint32_t>& words)
+    /// Number of the vertex among those at `words`, where it is put unless an equal one is there.
+    size_t findOrAppend(const ClusterRecord& record, uint32_t vertex, uint32_t* words)
     {
-        const size_t first = words.size();
-        appendVertex(record, vertex, words);
-        const size_t size = words.size() - first;
+        uint32_t* const added = words + count_ * vertex_words_;
+        writeVertex(record, vertex, added);
         uint64_t hash = 0;
-        for (size_t i = first; i < words.size(); ++i)
-            hash = (hash ^ words[i]) * 0x9E3779B97F4A7C15u;
+        for (size_t i = 0; i < vertex_words_; ++i)
+            hash = (hash ^ added[i]) * 0x9E3779B97F4A7C15u;
         for (size_t slot = hash >> 55;; slot = (slot + 1) % slots_.size())
         {
             if (slots_[slot] == 0)
@@ -128,65 +131,69 @@ private:
                 slots_[slot] = static_cast<uint16_t>(++count_);
                 return count_ - 1;
             }
-            const auto other =
-                words.begin() + static_cast<ptrdiff_t>(uvBaseWords(layout_) + (slots_[slot] - 1) * size);
-            if (std::equal(other, other + static_cast<ptrdiff_t>(size),
-                           words.end() - static_cast<ptrdiff_t>(size)))
-            {
-                words.resize(first);
+            const uint32_t* const other = words + (slots_[slot] - 1) * vertex_words_;
+            if (std::equal(other, other + vertex_words_, added))
                 return slots_[slot] - size_t{1};
-            }
         }
     }
 
-    void appendVertex(const ClusterRecord& record, uint32_t vertex, std::vector<uint32_t>& words) const
+    void writeVertex(const ClusterRecord& record, uint32_t vertex, uint32_t* words) const
     {
         uint32_t offset[3];
         for (int axis = 0; axis < 3; ++axis)
             offset[axis] = static_cast<uint32_t>(
-                static_cast<int32_t>(source_.positions[vertex][axis] / step_) - record.base[axis]);
+                static_cast<int32_t>(source_.positions[vertex][axis] * steps_) - record.base[axis]);
         const uint32_t normal =
             (layout_ & kVertexNormal) ? encodeNormal(layout_, source_.normals[vertex]) : 0;
         const bool shared_word = attributeWord(layout_, kVertexNormal) == 1;
         if (layout_ & kVertexWide)
-            words.insert(words.end(), {offset[0], offset[1], offset[2]});
+            words = std::copy_n(offset, 3, words);
         else
-            words.insert(words.end(),
-                         {offset[0] | offset[1] << 16, offset[2] | (shared_word ? normal << 16 : 0)});
+        {
+            *words++ = offset[0] | offset[1] << 16;
+            *words++ = offset[2] | (shared_word ? normal << 16 : 0);
+        }
         if ((layout_ & kVertexNormal) && !shared_word)
-            words.push_back(normal);
+            *words++ = normal;
         if (layout_ & kVertexTangent)
-            words.push_back(encodeTangent(layout_, source_.tangents[vertex], decodeNormal(layout_, normal)));
+            *words++ = encodeTangent(layout_, source_.tangents[vertex], decodeNormal(layout_, normal));
         for (uint32_t set = 0; set < kUvSets; ++set)
             if (layout_ & kVertexUv0 << set)
-                appendUv(set, source_.uvs[set][vertex], words);
+                words = writeUv(set, source_.uvs[set][vertex], words);
         if (layout_ & kVertexColor)
         {
             const std::array<uint32_t, 2> color = encodeColor(layout_, source_.colors[vertex]);
-            words.insert(words.end(), color.begin(), color.begin() + ((layout_ & kVertexFineColor) ? 2 : 1));
+            std::copy_n(color.begin(), (layout_ & kVertexFineColor) ? 2 : 1, words);
         }
     }
 
-    void appendUv(uint32_t set, Float2 uv, std::vector<uint32_t>& words) const
+    /// Returns what is behind it.
+    uint32_t* writeUv(uint32_t set, Float2 uv, uint32_t* words) const
     {
         const uint32_t bits = uvFractionBits(layout_, set);
         if (bits == 0)
         {
-            words.insert(words.end(), {std::bit_cast<uint32_t>(uv.x), std::bit_cast<uint32_t>(uv.y)});
-            return;
+            *words++ = std::bit_cast<uint32_t>(uv.x);
+            *words++ = std::bit_cast<uint32_t>(uv.y);
+            return words;
         }
         const auto u = static_cast<uint32_t>(uvPoint(uv.x, bits) - uv_base_[set][0]);
         const auto v = static_cast<uint32_t>(uvPoint(uv.y, bits) - uv_base_[set][1]);
         if (layout_ & kVertexWide)
-            words.insert(words.end(), {u, v});
+        {
+            *words++ = u;
+            *words++ = v;
+        }
         else
-            words.push_back(u | v << 16);
+            *words++ = u | v << 16;
+        return words;
     }
 
     const mesh::SourceMesh& source_;
-    double step_;
+    double steps_; ///< of the grid in a unit; a power of two
     std::span<const uint32_t> vertices_;
     uint32_t layout_;
+    size_t vertex_words_ = 0;
     std::array<std::array<int32_t, 2>, kUvSets> uv_base_{};
     bool spread_ = false;
     std::array<uint16_t, 512> slots_{}; ///< 1 + number of a vertex, found by its hash; 0: free
@@ -222,12 +229,13 @@ uint32_t chooseLayout(const PreparedMesh& mesh, const Config& config)
 CodedCluster codeCluster(const PreparedMesh& mesh, const ClusterStore& store, const ClusterShape& shape,
                          uint32_t layout, ClusterRecord& record)
 {
-    std::vector<Float3> points;
-    for (const uint32_t vertex : store.verticesOf(shape))
-        points.push_back(mesh.vertices.positions[vertex]);
-    std::vector<Float3> places;
-    for (const uint8_t index : store.indicesOf(shape))
-        places.push_back(points[index]);
+    const auto vertices = store.verticesOf(shape);
+    const auto indices = store.indicesOf(shape);
+    std::vector<Float3> points(vertices.size()), places(indices.size());
+    for (size_t i = 0; i < vertices.size(); ++i)
+        points[i] = mesh.vertices.positions[vertices[i]];
+    for (size_t i = 0; i < indices.size(); ++i)
+        places[i] = points[indices[i]];
     ClusterCoder coder(mesh, store.verticesOf(shape), layout);
     setBounds(record, mesh.grid.step, points, places, coder.spreadsUvs());
     CodedCluster cluster = coder.code(record, store.indicesOf(shape));

@@ -11,7 +11,7 @@ namespace hearth::clusters
 {
 
 /// Put the groups, in their order, into pages, each page filled before the next is begun; write the vertex and index
-/// data, compress each page where it gains more than 5 %, and link each page to those that it refines.
+/// data as PageCodec::clusters, and link each page to those that it refines. The same bytes for any number of threads.
 ///
 /// hierarchy  groups and clusters say how they belong together; bounds, counts and pages of clusters, the pages of groups,
 ///            the layout and the grid of the mesh are filled here with the page tables

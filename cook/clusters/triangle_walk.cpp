@@ -12,31 +12,33 @@ void TriangleWalk::linkEdges()
 {
     for (uint32_t t = 0; t < indices_.size() / 3; ++t)
     {
-        const auto corners = cornersOf(t);
-        for (size_t i = 0; i < 3; ++i)
+        const auto [a, b, c] = cornersOf(t);
+        // of several triangles at one edge the first is met across it
+        const auto link = [&](uint8_t from, uint8_t to, uint32_t opposite)
         {
-            uint8_t& other = across_[size_t{corners[i]} << 8 | corners[(i + 1) % 3]];
-            // of several triangles at one edge the first is met across it
-            if (other == 0)
-                other = static_cast<uint8_t>(t + 1);
-        }
+            uint16_t& other = across_[size_t{from} << 8 | to];
+            if (other == kNothing)
+                other = static_cast<uint16_t>(4 * t + opposite);
+        };
+        link(a, b, 2);
+        link(b, c, 0);
+        link(c, a, 1);
     }
-}
-
-std::array<uint8_t, 3> TriangleWalk::turned(uint32_t triangle, uint8_t first, uint8_t second) const
-{
-    auto corners = cornersOf(triangle);
-    for (int turn = 0; turn < 2 && !(corners[0] == first && corners[1] == second); ++turn)
-        std::rotate(corners.begin(), corners.begin() + 1, corners.end());
-    return corners;
 }
 
 void TriangleWalk::visit(uint32_t triangle, const WalkStep& step)
 {
     visited_[triangle] = 1;
-    for (const uint8_t corner : step.corners)
-        placed_[corner] = 1;
-    steps_.push_back(step);
+    there_[step.corners[2]] = 1;
+    steps_[step_count_++] = step;
+}
+
+/// Go over an edge, to a triangle that is free.
+void TriangleWalk::cross(uint8_t edge, uint8_t from, uint8_t to)
+{
+    const uint32_t there = across(from, to);
+    const uint32_t triangle = there / 4;
+    visit(triangle, {edge, {from, to, indices_[3 * triangle + there % 4]}});
 }
 
 /// To the right as long as that goes, else to the left; then back to the last edge that was passed by on the left.
@@ -44,40 +46,39 @@ void TriangleWalk::follow(uint32_t triangle)
 {
     WalkStep step{kEdgeNone, cornersOf(triangle)};
     // so that the walk can go on to the right
-    for (int turn = 0; turn < 2 && !free(across(step.corners[2], step.corners[1])); ++turn)
+    for (int turn = 0; turn < 2 && !free(step.corners[2], step.corners[1]); ++turn)
         std::rotate(step.corners.begin(), step.corners.begin() + 1, step.corners.end());
+    there_[step.corners[0]] = 1;
+    there_[step.corners[1]] = 1;
     visit(triangle, step);
     while (true)
     {
-        const auto [a, b, c] = steps_.back().corners;
-        const uint32_t right = across(c, b);
-        const uint32_t left = across(a, c);
-        if (free(right))
+        const auto [a, b, c] = steps_[step_count_ - 1].corners;
+        if (free(c, b))
         {
-            if (free(left))
-                kept_.push_back({a, c, static_cast<uint32_t>(steps_.size())});
-            visit(right - 1, {kEdgeRight, turned(right - 1, c, b)});
+            if (free(a, c))
+                kept_.push_back({a, c, step_count_});
+            cross(kEdgeRight, c, b);
             continue;
         }
-        if (free(left))
+        if (free(a, c))
         {
-            visit(left - 1, {kEdgeLeft, turned(left - 1, a, c)});
+            cross(kEdgeLeft, a, c);
             continue;
         }
-        while (!kept_.empty() && !free(across(kept_.back().from, kept_.back().to)))
+        while (!kept_.empty() && !free(kept_.back().from, kept_.back().to))
             kept_.pop_back();
         if (kept_.empty())
             return;
         const Kept kept = kept_.back();
         kept_.pop_back();
         steps_[kept.step].edge = kEdgeRightKeepLeft;
-        const uint32_t next = across(kept.from, kept.to) - 1;
-        visit(next, {kEdgeKept, turned(next, kept.from, kept.to)});
+        cross(kEdgeKept, kept.from, kept.to);
     }
 }
 
 /// The first of those with the most vertices that need not be stored.
-uint32_t TriangleWalk::bestStart(std::span<const uint8_t> known) const
+uint32_t TriangleWalk::bestStart() const
 {
     uint32_t best = 0;
     int best_count = -1;
@@ -87,32 +88,38 @@ uint32_t TriangleWalk::bestStart(std::span<const uint8_t> known) const
             continue;
         int count = 0;
         for (const uint8_t corner : cornersOf(t))
-            count += placed_[corner] != 0 || known[corner] != 0 ? 1 : 0;
+            count += there_[corner];
         if (count > best_count)
         {
             best = t;
             best_count = count;
+            if (count == 3)
+                break;
         }
     }
     return best;
 }
 
-std::span<const WalkStep> TriangleWalk::walk(std::span<const uint8_t> indices, std::span<const uint8_t> known)
+std::span<const WalkStep> TriangleWalk::walk(std::span<const uint8_t> indices,
+                                             std::span<const uint16_t> known)
 {
     indices_ = indices;
     visited_ = {};
-    placed_ = {};
-    steps_.clear();
+    visited_.back() = 1;
+    there_ = {};
+    for (size_t v = 0; v < known.size(); ++v)
+        there_[v] = known[v] != 0 ? 1 : 0;
+    step_count_ = 0;
     linkEdges();
-    while (steps_.size() < indices.size() / 3)
-        follow(bestStart(known));
-    for (uint32_t t = 0; t < indices.size() / 3; ++t)
+    while (step_count_ < indices.size() / 3)
+        follow(bestStart());
+    for (const WalkStep& step : std::span(steps_).first(step_count_))
     {
-        const auto corners = cornersOf(t);
-        for (size_t i = 0; i < 3; ++i)
-            across_[size_t{corners[i]} << 8 | corners[(i + 1) % 3]] = 0;
+        const auto [a, b, c] = step.corners;
+        for (const size_t edge : {size_t{a} << 8 | b, size_t{b} << 8 | c, size_t{c} << 8 | a})
+            across_[edge] = kNothing;
     }
-    return steps_;
+    return std::span(steps_).first(step_count_);
 }
 
 } // namespace hearth::clusters

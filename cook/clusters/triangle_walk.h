@@ -25,23 +25,27 @@ struct WalkStep
 class TriangleWalk
 {
 public:
-    TriangleWalk() : across_(size_t{1} << 16, 0) {}
+    TriangleWalk() : across_(size_t{1} << 16, kNothing) {}
 
-    /// Each triangle once, turned so that it begins with its edge.
-    /// known  of each vertex: not 0 where an earlier cluster has it; the walk begins there
-    std::span<const WalkStep> walk(std::span<const uint8_t> indices, std::span<const uint8_t> known);
+    /// Each triangle once, turned so that it begins with its edge. Valid until the next walk.
+    ///
+    /// indices  three for each of at most kClusterMaxTriangles
+    /// known    of each vertex: not 0 where an earlier cluster has it; the walk begins there
+    std::span<const WalkStep> walk(std::span<const uint8_t> indices, std::span<const uint16_t> known);
 
 private:
+    static constexpr uint16_t kNothing = 4 * formats::kClusterMaxTriangles;
+
     void linkEdges();
     void follow(uint32_t triangle);
-    uint32_t bestStart(std::span<const uint8_t> known) const;
-    bool free(uint32_t triangle) const { return triangle != 0 && visited_[triangle - 1] == 0; }
+    void cross(uint8_t edge, uint8_t from, uint8_t to);
+    uint32_t bestStart() const;
+    bool free(uint8_t from, uint8_t to) const { return visited_[across(from, to) / 4] == 0; }
     uint32_t across(uint8_t from, uint8_t to) const { return across_[size_t{from} << 8 | to]; }
     std::array<uint8_t, 3> cornersOf(uint32_t triangle) const
     {
         return {indices_[triangle * 3], indices_[triangle * 3 + 1], indices_[triangle * 3 + 2]};
     }
-    std::array<uint8_t, 3> turned(uint32_t triangle, uint8_t first, uint8_t second) const;
     void visit(uint32_t triangle, const WalkStep& step);
 
     struct Kept
@@ -51,11 +55,13 @@ private:
     };
 
     std::span<const uint8_t> indices_;
-    std::vector<uint8_t> across_; ///< 1 + triangle that has the edge from << 8 | to
-    std::array<uint8_t, formats::kClusterMaxTriangles> visited_{};
-    std::array<uint8_t, formats::kClusterMaxVertices> placed_{};
+    /// 4 * triangle that has the edge from << 8 | to + its corner that is not on it
+    std::vector<uint16_t> across_;
+    std::array<uint8_t, formats::kClusterMaxTriangles + 1> visited_{}; ///< the last is that of no triangle
+    std::array<uint8_t, formats::kClusterMaxVertices> there_{};        ///< 1: placed, or known
     std::vector<Kept> kept_;
-    std::vector<WalkStep> steps_;
+    std::array<WalkStep, formats::kClusterMaxTriangles> steps_;
+    uint32_t step_count_ = 0;
 };
 
 } // namespace hearth::clusters

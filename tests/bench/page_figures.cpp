@@ -75,7 +75,7 @@ void addKinds(const PageRecord& page, std::span<const ClusterRecord> clusters, u
     for (const ClusterRecord& cluster : clusters)
     {
         const uint32_t layout = layoutOf(cluster, mesh_layout);
-        codes += (cluster.triangle_count + 1u) / 2;
+        codes += codeBytes(cluster.triangle_count);
         uv_bases += uvBaseWords(layout) * 4;
         wide += (layout & kVertexWide) ? cluster.vertex_count * vertexWords(layout) * 4 : 0;
     }
@@ -90,18 +90,25 @@ void addKinds(const PageRecord& page, std::span<const ClusterRecord> clusters, u
     };
     take("headers", sizeof(header));
     take("triangles", codes);
-    take("triangles", header.restarts);
-    take("reuses", header.reuses);
+    for (const uint16_t restarts : header.restarts)
+        take("triangles", restarts);
+    for (const uint16_t reuses : header.reuses)
+        take("reuses", reuses);
     take("references", header.references);
     take("references", header.references);
     take("UV bases", uv_bases);
     take("wide", wide);
     take("escapes", header.escapes * 2);
     const VertexLanes lanes = vertexLanes(mesh_layout);
-    for (const uint32_t part : {0u, 1u})
+    const auto takePlanes = [&](bool of_bytes, uint32_t part)
+    {
         for (size_t lane = 0; lane < lanes.count; ++lane)
-            if (header.planes[lane] >> part & 1)
+            if ((lanes.kinds[lane] == LaneKind::bytes) == of_bytes && (header.planes[lane] & part) != 0)
                 take(kindOfLane(lane, lanes, mesh_layout), header.new_vertices);
+    };
+    takePlanes(false, kPlaneMain);
+    takePlanes(true, kPlaneMain);
+    takePlanes(true, kPlaneSecond);
     for (size_t block = 0; block * kLanesOfBlock < lanes.count; ++block)
         for (uint32_t plane = 0; plane < lowBitFields(header, block).planes(); ++plane)
             take("low bits", header.new_vertices);
@@ -111,6 +118,16 @@ void addKinds(const PageRecord& page, std::span<const ClusterRecord> clusters, u
     for (const auto& [kind, bytes] : kinds)
         bytes_of_kind[kind] += bytes;
     bytes_of_kind["coding loss"] += page.stored_size - sum;
+}
+
+/// Decompress what a page has in a frame. Returns the bytes of that.
+size_t decompressFrame(ZSTD_DCtx* context, std::span<const std::byte> stored, std::span<std::byte> out)
+{
+    const size_t frame = ZSTD_findFrameCompressedSize(stored.data(), stored.size());
+    HEARTH_ASSERT(!ZSTD_isError(frame));
+    const size_t size = ZSTD_decompressDCtx(context, out.data(), out.size(), stored.data(), frame);
+    HEARTH_ASSERT(!ZSTD_isError(size));
+    return size;
 }
 
 } // namespace
@@ -124,13 +141,15 @@ PageFigures pageFiguresOf(const clusters::Hierarchy& hierarchy)
     const auto clusters = [&](const PageRecord& page)
     { return std::span(hierarchy.clusters).subspan(page.clusters.first, page.clusters.count); };
     std::vector<std::byte> content(size_t{1} << 20);
+    ZSTD_DCtx* const context = ZSTD_createDCtx();
     for (const PageRecord& page : hierarchy.pages)
     {
-        const size_t size =
-            ZSTD_decompress(content.data(), content.size(), stored(page).data(), page.stored_size);
-        HEARTH_ASSERT(!ZSTD_isError(size));
-        addKinds(page, clusters(page), hierarchy.mesh.attributes, std::span(content).first(size),
-                 bytes_of_kind);
+        const size_t size = decompressFrame(context, stored(page), content);
+        const auto rest =
+            stored(page).subspan(ZSTD_findFrameCompressedSize(stored(page).data(), page.stored_size));
+        std::copy(rest.begin(), rest.end(), content.begin() + static_cast<ptrdiff_t>(size));
+        addKinds(page, clusters(page), hierarchy.mesh.attributes,
+                 std::span(content).first(size + rest.size()), bytes_of_kind);
         figures.decoded_bytes += page.size;
     }
     bytes_of_kind["padding"] = static_cast<double>(hierarchy.page_bytes.size());
@@ -148,13 +167,11 @@ PageFigures pageFiguresOf(const clusters::Hierarchy& hierarchy)
                 HEARTH_ASSERT(decoder.decode(stored(page), clusters(page), hierarchy.mesh.attributes,
                                              std::span(out).first(page.size)));
         });
-    ZSTD_DCtx* const context = ZSTD_createDCtx();
     figures.zstd_seconds = leastSeconds(
         [&]
         {
             for (const PageRecord& page : hierarchy.pages)
-                ZSTD_decompressDCtx(context, content.data(), content.size(), stored(page).data(),
-                                    page.stored_size);
+                decompressFrame(context, stored(page), content);
         });
     ZSTD_freeDCtx(context);
     return figures;

@@ -87,7 +87,9 @@ std::vector<std::byte> packed(std::span<const std::byte> content)
 std::vector<std::byte> unpacked(std::span<const std::byte> stored)
 {
     std::vector<std::byte> content(ZSTD_getFrameContentSize(stored.data(), stored.size()));
-    EXPECT_EQ(ZSTD_decompress(content.data(), content.size(), stored.data(), stored.size()), content.size());
+    const size_t frame = ZSTD_findFrameCompressedSize(stored.data(), stored.size());
+    EXPECT_EQ(ZSTD_decompress(content.data(), content.size(), stored.data(), frame), content.size());
+    content.insert(content.end(), stored.begin() + static_cast<ptrdiff_t>(frame), stored.end());
     return content;
 }
 
@@ -148,6 +150,45 @@ TEST_P(PageCodecOfLayout, refusesEveryTruncation)
     const std::vector<std::byte> content = unpacked(stored);
     for (size_t size = 0; size < content.size(); size += 1 + size / 64)
         ASSERT_FALSE(decodes(packed(std::span(content).first(size)), page, out)) << size;
+}
+
+TEST_P(PageCodecOfLayout, takesAFrameThatEndsAnywhere)
+{
+    RandomPage page = randomPage(GetParam(), 7);
+    const std::vector<std::byte> content = unpacked(encode(page));
+    std::vector<std::byte> out(page.content().size());
+    for (const size_t coded : {content.size(), content.size() / 3, size_t{72}, size_t{1}, size_t{0}})
+    {
+        std::vector<std::byte> stored = packed(std::span(content).first(coded));
+        stored.insert(stored.end(), content.begin() + static_cast<ptrdiff_t>(coded), content.end());
+        std::fill(out.begin(), out.end(), std::byte{0xCD});
+        ASSERT_TRUE(decodes(stored, page, out)) << coded;
+        ASSERT_TRUE(out == page.content()) << coded;
+    }
+}
+
+TEST_P(PageCodecOfLayout, refusesCodesThatDoNotExist)
+{
+    std::mt19937 random(8);
+    RandomPage page;
+    page.layout = GetParam();
+    addGridCluster(page, 8, false, random);
+    const std::vector<std::byte> content = unpacked(encode(page));
+    std::vector<std::byte> out(page.content().size());
+    // a code with the edge on the left, made one of those above the last edge: its corner stays the same
+    size_t found = 0;
+    for (size_t i = 0; i < codeBytes(page.records[0].triangle_count); ++i)
+        for (const uint32_t shift : {0u, 4u})
+        {
+            std::vector<std::byte> damaged = content;
+            std::byte& codes = damaged[sizeof(PageHeader) + i];
+            if ((std::to_integer<uint32_t>(codes) >> shift & 15u) / 3 != kEdgeLeft)
+                continue;
+            codes = std::byte(std::to_integer<uint32_t>(codes) + (6u << shift));
+            EXPECT_FALSE(decodes(packed(damaged), page, out)) << i;
+            ++found;
+        }
+    EXPECT_GT(found, 0u);
 }
 
 TEST_P(PageCodecOfLayout, survivesEveryFlippedByte)
