@@ -85,9 +85,9 @@ const std::vector<Library>& libraries()
 }
 
 // POSIX: what the standard library does not give
-constexpr std::array<std::string_view, 9> kPosixHeaders{"sys/",    "malloc.h", "unistd.h", "fcntl.h",
-                                                        "poll.h",  "spawn.h",  "dirent.h", "signal.h",
-                                                        "dlfcn.h", "pthread.h"};
+constexpr std::array<std::string_view, 10> kPosixHeaders{"sys/",    "malloc.h", "unistd.h", "fcntl.h",
+                                                         "poll.h",  "spawn.h",  "dirent.h", "signal.h",
+                                                         "dlfcn.h", "pthread.h"};
 
 bool isIn(std::string_view path, const Folders& folders)
 {
