@@ -4,7 +4,10 @@
 #include "cook/mesh/free_memory.h"
 #include "formats/pack_view.h"
 
+#include <chrono>
 #include <limits>
+
+#include <tbb/parallel_for.h>
 
 namespace hearth::clusters
 {
@@ -136,19 +139,54 @@ Result<LodLists> readLodLists(const ContainerReader& part, uint32_t mesh_count)
     return lists;
 }
 
-/// The hierarchy of mesh `index`; a mesh that is a level of others is part of theirs, and has none itself.
-Result<Hierarchy> buildMesh(const ContainerReader& part, const LodLists& lods, uint32_t index,
-                            mesh::SourceMesh source, const Config& config)
+/// A mesh that is a level of others is part of theirs, and has no hierarchy itself.
+Result<BuiltMesh> buildMesh(const ContainerReader& part, const LodLists& lods, uint32_t index,
+                            const MeshConfigurer& configure)
 {
+    const auto start = std::chrono::steady_clock::now();
+    HEARTH_ASSIGN_OR_RETURN(mesh::SourceMesh source, mesh::readSourceMesh(part, index));
+    BuiltMesh built;
+    built.name = source.name;
+    if (configure)
+        built.config = configure(built.name);
     if (lods.is_lod[index] != 0)
-        return Hierarchy{};
+        return built;
     std::vector<mesh::SourceMesh> authored;
     for (const uint32_t lod : lods.of_mesh[index])
     {
         HEARTH_ASSIGN_OR_RETURN(mesh::SourceMesh level, mesh::readSourceMesh(part, lod));
         authored.push_back(std::move(level));
     }
-    return buildHierarchy(std::move(source), authored, config);
+    built.hierarchy = buildHierarchy(std::move(source), authored, built.config);
+    built.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return built;
+}
+
+/// The meshes from `first` on that are built side by side: as many as do not take more memory together than one large
+/// mesh, and at least one.
+uint32_t endOfBatch(const ContainerReader& part, uint32_t first, uint32_t mesh_count)
+{
+    constexpr uint64_t kBatchBytes = uint64_t{16} << 20;
+    uint64_t bytes = 0;
+    uint32_t end = first;
+    while (end < mesh_count)
+    {
+        bytes += part.find(kChunkSourceMesh, end)->size;
+        if (end > first && bytes > kBatchBytes)
+            break;
+        ++end;
+    }
+    return end;
+}
+
+/// Build the meshes of a batch; each has its result or its error.
+std::vector<Result<BuiltMesh>> buildBatch(const ContainerReader& part, const LodLists& lods, Range meshes,
+                                          const MeshConfigurer& configure)
+{
+    std::vector<Result<BuiltMesh>> batch(meshes.count, BuiltMesh{});
+    tbb::parallel_for(uint32_t{0}, meshes.count,
+                      [&](uint32_t i) { batch[i] = buildMesh(part, lods, meshes.first + i, configure); });
+    return batch;
 }
 
 } // namespace
@@ -162,21 +200,23 @@ Status writeClustersPart(const ContainerReader& part, const std::string& output_
     HEARTH_ASSIGN_OR_RETURN(const LodLists lods, readLodLists(part, mesh_count));
     Tables tables;
     HEARTH_TRY(writer.beginChunk({.type = kChunkPages}, 1));
-    for (uint32_t i = 0; i < mesh_count; ++i)
+    for (uint32_t first = 0; first < mesh_count;)
     {
-        HEARTH_ASSIGN_OR_RETURN(mesh::SourceMesh source, mesh::readSourceMesh(part, i));
-        const std::string name = source.name;
-        const Config config = configure ? configure(name) : Config{};
-        HEARTH_ASSIGN_OR_RETURN(Hierarchy hierarchy, buildMesh(part, lods, i, std::move(source), config));
-        if (observe)
-            HEARTH_TRY(observe(i, name, config, hierarchy));
-        const uint64_t page_offset = writer.chunkSize();
-        HEARTH_TRY(writer.append(hierarchy.page_bytes));
-        mesh::freeMemory(hierarchy.page_bytes);
-        appendTables(tables, std::move(hierarchy), page_offset, name);
-        if (!fits(tables))
-            return Error{Issue::input_too_large, part.name(), chunkName(kChunkSourceMesh, i),
-                         "more than 2^31 clusters"};
+        const uint32_t end = endOfBatch(part, first, mesh_count);
+        for (Result<BuiltMesh>& result : buildBatch(part, lods, {first, end - first}, configure))
+        {
+            HEARTH_ASSIGN_OR_RETURN(BuiltMesh built, std::move(result));
+            if (observe)
+                HEARTH_TRY(observe(first, built));
+            const uint64_t page_offset = writer.chunkSize();
+            HEARTH_TRY(writer.append(built.hierarchy.page_bytes));
+            mesh::freeMemory(built.hierarchy.page_bytes);
+            appendTables(tables, std::move(built.hierarchy), page_offset, built.name);
+            if (!fits(tables))
+                return Error{Issue::input_too_large, part.name(), chunkName(kChunkSourceMesh, first),
+                             "more than 2^31 clusters"};
+            ++first;
+        }
     }
     HEARTH_TRY(writer.endChunk());
 

@@ -1,4 +1,4 @@
-// From an import part to a clusters part: the hierarchy of every mesh, one mesh in memory at a time.
+// From an import part to a clusters part: the hierarchy of every mesh, a few in memory at a time.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -12,12 +12,19 @@
 namespace hearth::clusters
 {
 
-/// How a mesh of the part is built, by its name.
+/// How a mesh of the part is built, by its name. Called on any thread.
 using MeshConfigurer = std::function<Config(const std::string& name)>;
 
-/// Sees each mesh when it has been built, before it is written; an error ends the work.
-using MeshObserver = std::function<Status(uint32_t index, const std::string& name, const Config& config,
-                                          const Hierarchy& hierarchy)>;
+struct BuiltMesh
+{
+    std::string name;
+    Config config;
+    Hierarchy hierarchy;
+    double seconds = 0; ///< that building took, of the wall clock
+};
+
+/// Sees each mesh in order when it has been built, before it is written; an error ends the work.
+using MeshObserver = std::function<Status(uint32_t index, const BuiltMesh& mesh)>;
 
 /// The meshes that an import part has.
 uint32_t meshCount(const formats::ContainerReader& part);
@@ -26,7 +33,8 @@ uint32_t meshCount(const formats::ContainerReader& part);
 Result<std::vector<std::string>> materialNames(const formats::ContainerReader& part);
 
 /// Build the hierarchies of all meshes of an import part and write them to `output_path`. Meshes that are authored levels
-/// of others keep their numbers, but have no clusters of their own.
+/// of others keep their numbers, but have no clusters of their own. Large meshes are built one after the other on all
+/// threads, small ones side by side; the result does not depend on it.
 ///
 /// configure, observe   may be empty
 /// errors               those of readSourceMesh, meaning_reference where chunk ALOD names no mesh, those of

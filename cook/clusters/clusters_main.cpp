@@ -10,7 +10,6 @@
 
 #include <CLI/CLI.hpp>
 
-#include <chrono>
 #include <cstdio>
 #include <fmt/format.h>
 #include <malloc.h>
@@ -116,20 +115,17 @@ Status cook(const Arguments& arguments, const clusters::Profile& profile,
     const auto configure = [&](const std::string& name)
     { return clusters::configOf(profile, name, materials); };
     std::vector<clusters::MeshStatistics> meshes;
-    auto start = std::chrono::steady_clock::now();
-    const auto observe = [&](uint32_t index, const std::string& name, const clusters::Config& config,
-                             const clusters::Hierarchy& hierarchy) -> Status
+    const auto observe = [&](uint32_t index, const clusters::BuiltMesh& mesh) -> Status
     {
-        meshes.push_back(clusters::statisticsOf(hierarchy, config, index, name));
+        const clusters::Hierarchy& hierarchy = mesh.hierarchy;
+        meshes.push_back(clusters::statisticsOf(hierarchy, mesh.config, index, mesh.name));
         if (arguments.statistics_with_times)
-            meshes.back().seconds =
-                std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+            meshes.back().seconds = mesh.seconds;
         if (!arguments.statistics.empty())
             meshes.back().manual_lods = {clusters::measureManualLods(hierarchy),
                                          clusters::storedBytes(hierarchy)};
         if (!arguments.debug_output.empty() && index == arguments.debug_mesh)
             HEARTH_TRY(clusters::writeDebugMesh(hierarchy, arguments.debug_level, arguments.debug_output));
-        start = std::chrono::steady_clock::now();
         return success();
     };
     HEARTH_TRY(clusters::writeClustersPart(part, arguments.output, configure, observe));

@@ -8,7 +8,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <fstream>
+#include <iterator>
 #include <set>
+#include <string>
+
+#include <tbb/global_control.h>
 
 namespace
 {
@@ -43,12 +48,11 @@ TEST(ClustersPart, holdsTheHierarchiesOfAllMeshes)
     meshes[2].weight_sets.push_back(std::vector<Float4>(meshes[2].vertexCount(), {1, 0, 0, 0}));
     writeImportPart(import_path, meshes);
     std::vector<std::string> seen;
-    const auto observe = [&](uint32_t index, const std::string& name, const clusters::Config&,
-                             const clusters::Hierarchy& hierarchy)
+    const auto observe = [&](uint32_t index, const clusters::BuiltMesh& mesh)
     {
         EXPECT_EQ(index, seen.size());
-        EXPECT_EQ(hierarchy.mesh.source_triangles, meshes[index].triangleCount());
-        seen.push_back(name);
+        EXPECT_EQ(mesh.hierarchy.mesh.source_triangles, meshes[index].triangleCount());
+        seen.push_back(mesh.name);
         return success();
     };
     const auto import_part = formats::ContainerReader::open(import_path);
@@ -123,14 +127,37 @@ TEST(ClustersPart, refusesLevelsOfNoMesh)
     }
 }
 
+TEST(ClustersPart, isTheSameForAnyNumberOfThreads)
+{
+    const test::TemporaryFolder folder;
+    std::vector<mesh::SourceMesh> meshes;
+    for (uint32_t i = 0; i < 24; ++i)
+        meshes.push_back(i % 5 == 4 ? shapes::soup(100 + i) : shapes::rock(6 + i, 0.3f));
+    writeImportPart(folder.file("import.part"), meshes);
+    const auto import_part = formats::ContainerReader::open(folder.file("import.part"));
+    ASSERT_TRUE(import_part.ok());
+    std::string first;
+    for (const size_t threads : {size_t{1}, size_t{2}, size_t{3}, size_t{7}})
+    {
+        const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+        const std::string path = folder.file("out" + std::to_string(threads) + ".part");
+        ASSERT_EQ(messageOf(clusters::writeClustersPart(*import_part, path, {}, {})), "");
+        std::ifstream file(path, std::ios::binary);
+        const std::string bytes{std::istreambuf_iterator<char>(file), {}};
+        ASSERT_FALSE(bytes.empty());
+        if (first.empty())
+            first = bytes;
+        EXPECT_TRUE(bytes == first) << threads << " threads";
+    }
+}
+
 TEST(ClustersPart, doesNotAppearWhereTheObserverFails)
 {
     const test::TemporaryFolder folder;
     writeImportPart(folder.file("import.part"), {shapes::rock(8, 0.3f)});
     const auto import_part = formats::ContainerReader::open(folder.file("import.part"));
     ASSERT_TRUE(import_part.ok());
-    const auto fails = [](uint32_t, const std::string&, const clusters::Config&,
-                          const clusters::Hierarchy&) -> Status {
+    const auto fails = [](uint32_t, const clusters::BuiltMesh&) -> Status {
         return Error{Issue::usage, "", "", "no such level"};
     };
     const Status status = clusters::writeClustersPart(*import_part, folder.file("out.part"), {}, fails);
