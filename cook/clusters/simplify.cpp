@@ -6,6 +6,7 @@
 #include "cook/clusters/star_mesh.h"
 #include "cook/clusters/thinning.h"
 #include "cook/clusters/turning.h"
+#include "cook/clusters/wedge_map.h"
 #include "formats/assert.h"
 
 #include <algorithm>
@@ -53,6 +54,7 @@ public:
     explicit Collapser(const GroupMesh& group)
         : group_(group),
           mesh_(group),
+          wedges_(group, mesh_),
           quadrics_(initialQuadrics(group)),
           version_(group.positions.size(), 0),
           best_target_(group.positions.size(), kNoPosition),
@@ -71,7 +73,7 @@ public:
     /// positions that wedges held back have anything new to offer.
     void collapseUntil(size_t target_triangles, bool permissive)
     {
-        permissive_ = permissive;
+        wedges_.permissive = permissive;
         heap_.clear();
         for (uint32_t p = 0; p < target_.size(); ++p)
             if (target_[p] == p && group_.locked[p] == 0 && (!permissive || wedge_blocked_[p] != 0))
@@ -86,21 +88,9 @@ public:
 
 private:
     void holdEdges(uint32_t position);
-    bool mapGathered(uint32_t from, const Spoke& spoke);
-    bool mapWedges(const Spoke& spoke);
-    bool mapLayers(uint32_t from, uint32_t to);
-    void mapNearest(uint32_t to);
-    bool mapped(uint32_t wedge) const
-    {
-        return std::any_of(moves_.begin(), moves_.end(), [&](WedgeMove m) { return m.from == wedge; });
-    }
-    uint32_t chartOf(uint32_t wedge) const { return group_.chart_of_wedge[wedge]; }
-    const WedgeMove* moveOfChart(uint32_t wedge) const;
-    bool allMapped() const { return plain_ || moves_.size() == mesh_.wedges().size(); }
     void gather(uint32_t position)
     {
-        plain_ = mesh_.gatherFan(position);
-        if (!plain_)
+        if (!mesh_.gatherFan(position))
             mesh_.gather(position);
     }
     void evaluate(uint32_t position)
@@ -108,11 +98,9 @@ private:
         gather(position);
         evaluateGathered(position);
     }
-    bool mapTo(uint32_t from, uint32_t to);
     template <typename Visit>
     void forEachOfFan(uint32_t position, Visit visit) const;
     float cost(uint32_t from, uint32_t to) const;
-    bool moreChartsThanTwo() const;
     void gatherCandidates(uint32_t position, bool along_seams);
     void push(uint32_t position, Candidate candidate);
     std::optional<Candidate> nextCandidate(uint32_t position);
@@ -125,6 +113,7 @@ private:
 
     const GroupMesh& group_;
     StarMesh mesh_;
+    WedgeMap wedges_; ///< of the gathered position
     Quadrics quadrics_;
     std::vector<uint32_t> version_;      ///< heap entries with another version are stale
     std::vector<uint32_t> best_target_;  ///< of the entry in the heap, or kNoPosition
@@ -134,12 +123,8 @@ private:
     std::vector<uint8_t> grown_;         ///< 1 for positions that others went to
     std::vector<HeapEntry> heap_;
     Growth growth_;
-    bool permissive_ = false;
-    bool plain_ = false; ///< a fan is gathered, else a ring
 
     // scratch
-    std::vector<WedgeMove> moves_;
-    std::vector<uint32_t> goals_;
     std::vector<Candidate> candidates_;
     std::vector<uint32_t> around_;
 };
@@ -169,135 +154,20 @@ void Collapser::holdEdges(uint32_t position)
     }
 }
 
-/// Find where the wedges of the gathered position go if it collapses along the spoke, into moves_; false if one of
-/// them has no way that keeps the attributes together.
-bool Collapser::mapGathered(uint32_t from, const Spoke& spoke)
-{
-    return mesh_.layers() == 1 ? mapWedges(spoke) : mapLayers(from, spoke.position);
-}
-
-/// The same for any neighbour, and false for other positions.
-bool Collapser::mapTo(uint32_t from, uint32_t to)
-{
-    if (!plain_)
-    {
-        const Spoke* spoke = mesh_.spokeTo(to);
-        return spoke != nullptr && mapGathered(from, *spoke);
-    }
-    const FanEnd* end = mesh_.endAt(to);
-    if (end == nullptr)
-        return false;
-    moves_.assign(1, {mesh_.fanWedge(), end->wedge});
-    return true;
-}
-
-bool Collapser::mapWedges(const Spoke& spoke)
-{
-    moves_.clear();
-    if (spoke.out_count > 0)
-        moves_.push_back(spoke.out);
-    if (spoke.in_count > 0 && (moves_.empty() || spoke.in.from != spoke.out.from))
-        moves_.push_back(spoke.in);
-    else if (spoke.in_count > 0 && chartOf(spoke.in.to) != chartOf(spoke.out.to) && !permissive_)
-        return false;
-    return permissive_ || std::all_of(mesh_.wedges().begin(), mesh_.wedges().end(),
-                                      [&](uint32_t wedge) { return moveOfChart(wedge) != nullptr; });
-}
-
-/// The same where several sheets lie on each other.
-bool Collapser::mapLayers(uint32_t from, uint32_t to)
-{
-    moves_.clear();
-    for (const Corner corner : mesh_.star(from))
-    {
-        const Corner next = nextCorner(corner);
-        const Corner previous = previousCorner(corner);
-        const Corner goal = mesh_.positionAt(next) == to ? next : previous;
-        if (mesh_.positionAt(goal) != to)
-            continue;
-        const WedgeMove move{mesh_.wedgeAt(corner), mesh_.wedgeAt(goal)};
-        const auto known =
-            std::find_if(moves_.begin(), moves_.end(), [&](WedgeMove m) { return m.from == move.from; });
-        if (known == moves_.end())
-            moves_.push_back(move);
-        else if (known->to != move.to && !permissive_)
-            return false;
-    }
-    return permissive_ || moves_.size() == mesh_.wedges().size();
-}
-
-/// The move of a wedge of the same chart, or nullptr.
-const WedgeMove* Collapser::moveOfChart(uint32_t wedge) const
-{
-    const auto found = std::find_if(moves_.begin(), moves_.end(),
-                                    [&](WedgeMove m) { return chartOf(m.from) == chartOf(wedge); });
-    return found == moves_.end() ? nullptr : &*found;
-}
-
-/// Let wedges without a way take the nearest attributes, in the chart that wedges of their own chart go to, if any.
-void Collapser::mapNearest(uint32_t to)
-{
-    if (allMapped())
-        return;
-    goals_.clear();
-    for (const Corner corner : mesh_.star(to))
-        if (const uint32_t wedge = mesh_.wedgeAt(corner);
-            std::find(goals_.begin(), goals_.end(), wedge) == goals_.end())
-            goals_.push_back(wedge);
-    for (const uint32_t wedge : mesh_.wedges())
-    {
-        if (mapped(wedge))
-            continue;
-        const WedgeMove* guide = moveOfChart(wedge);
-        uint32_t best = guide != nullptr ? guide->to : goals_.front();
-        float best_distance2 = attributeDistance2(group_, wedge, best);
-        for (const uint32_t goal : goals_)
-        {
-            if (guide != nullptr && chartOf(goal) != chartOf(guide->to))
-                continue;
-            if (const float distance2 = attributeDistance2(group_, wedge, goal); distance2 < best_distance2)
-            {
-                best = goal;
-                best_distance2 = distance2;
-            }
-        }
-        moves_.push_back({wedge, best});
-    }
-}
-
-/// Quadric error of the collapse that moves_ describes. Wedges without a way count with the least error that any
+/// Quadric error of the collapse that wedges_ describes. Wedges without a way count with the least error that any
 /// attributes could give them.
 float Collapser::cost(uint32_t from, uint32_t to) const
 {
     const Float3 t = group_.positions[to] - group_.positions[from];
     const LaneVector t_lanes = allLanes(t);
     Lanes attribute_error{};
-    for (const WedgeMove& move : moves_)
+    for (const WedgeMove& move : wedges_.moves())
         attribute_error += quadrics_.attributeError(group_, move, t_lanes);
-    if (!allMapped())
+    if (!wedges_.complete())
         for (const uint32_t wedge : mesh_.wedges())
-            if (!mapped(wedge))
+            if (!wedges_.has(wedge))
                 attribute_error -= quadrics_.mostGain(group_, wedge, t_lanes);
     return std::max(quadrics_.position[from].at(t) + sumOfLanes(attribute_error), 0.0f);
-}
-
-bool Collapser::moreChartsThanTwo() const
-{
-    const auto wedges = mesh_.wedges();
-    if (wedges.size() <= 2)
-        return false;
-    const uint32_t first = chartOf(wedges[0]);
-    uint32_t second = first;
-    for (const uint32_t wedge : wedges.subspan(1))
-    {
-        const uint32_t chart = chartOf(wedge);
-        if (chart == first || chart == second)
-            continue;
-        if (second != first)
-            return true;
-        second = chart;
-    }
-    return false;
 }
 
 /// Calls `visit` with each collapse of the gathered fan.
@@ -326,7 +196,7 @@ void Collapser::gatherCandidates(uint32_t position, bool along_seams)
 {
     candidates_.clear();
     wedge_blocked_[position] = 0;
-    if (plain_)
+    if (mesh_.plain())
     {
         edges_held_[position] = 1;
         forEachOfFan(position, [&](const Candidate& candidate) { candidates_.push_back(candidate); });
@@ -338,7 +208,7 @@ void Collapser::gatherCandidates(uint32_t position, bool along_seams)
     if (edges_held_[position] == 0)
         holdEdges(position);
     // an edge is the way of two charts at most
-    if (!permissive_ && mesh_.layers() == 1 && moreChartsThanTwo())
+    if (!wedges_.permissive && mesh_.layers() == 1 && wedges_.moreChartsThanTwo())
     {
         wedge_blocked_[position] = 1;
         return;
@@ -356,8 +226,8 @@ void Collapser::gatherCandidates(uint32_t position, bool along_seams)
     {
         if (!possible(spoke) || (along_seams && !spoke.onSeam()))
             continue;
-        if (mapGathered(position, spoke))
-            candidates_.push_back({cost(position, spoke.position), spoke.position, allMapped()});
+        if (wedges_.mapAlong(position, spoke))
+            candidates_.push_back({cost(position, spoke.position), spoke.position, wedges_.complete()});
         else
             wedge_blocked_[position] = 1;
     }
@@ -383,8 +253,8 @@ std::optional<Candidate> Collapser::nextCandidate(uint32_t position)
             candidates_.pop_back();
             return candidate;
         }
-        mapGathered(position, *mesh_.spokeTo(cheapest->target));
-        mapNearest(cheapest->target);
+        wedges_.mapAlong(position, *mesh_.spokeTo(cheapest->target));
+        wedges_.mapRest(cheapest->target);
         cheapest->cost = cost(position, cheapest->target);
         cheapest->exact = true;
     }
@@ -396,7 +266,7 @@ void Collapser::evaluateGathered(uint32_t position)
 {
     ++version_[position];
     best_target_[position] = kNoPosition;
-    if (plain_)
+    if (mesh_.plain())
     {
         wedge_blocked_[position] = 0;
         edges_held_[position] = 1;
@@ -406,7 +276,7 @@ void Collapser::evaluateGathered(uint32_t position)
             push(position, best);
         return;
     }
-    gatherCandidates(position, permissive_);
+    gatherCandidates(position, wedges_.permissive);
     if (const auto candidate = nextCandidate(position))
         push(position, *candidate);
 }
@@ -470,15 +340,15 @@ void Collapser::step()
     if (entry.version != version_[entry.position])
         return;
     gather(entry.position);
-    if (!mapTo(entry.position, entry.target) || !valid(entry.position, entry.target))
+    if (!wedges_.mapTo(entry.position, entry.target) || !valid(entry.position, entry.target))
     {
         evaluateValid(entry.position, entry.cost);
         return;
     }
-    mapNearest(entry.target);
+    wedges_.mapRest(entry.target);
     if (group_.locked[entry.target] == 0) // nobody asks for those of locked positions
-        quadrics_.move(group_, entry.position, entry.target, moves_);
-    mesh_.collapse(entry.position, entry.target, moves_);
+        quadrics_.move(group_, entry.position, entry.target, wedges_.moves());
+    mesh_.collapse(entry.position, entry.target, wedges_.moves());
     target_[entry.position] = entry.target;
     grown_[entry.target] = 1;
     ++version_[entry.position];

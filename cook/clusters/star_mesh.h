@@ -76,6 +76,7 @@ public:
     /// Collect the fan of a position, if it is plain: closed, each edge between two triangles that run against each
     /// other, no seam at the position or along its edges. Most are, and this is faster than the ring.
     bool gatherFan(uint32_t center);
+    bool plain() const { return !fan_.empty(); } ///< whether a fan is gathered, not a ring
     std::span<const FanEnd> fan() const { return fan_; }
     uint32_t fanWedge() const { return fan_wedge_; }
 
