@@ -88,11 +88,16 @@ Reduced reduceGroup(const PreparedMesh& mesh, const ClusterStore& store, std::sp
 {
     Reduced reduced;
     const GroupMesh group = gatherGroup(mesh, store, members, locked, config);
-    Simplified simplified = simplifyGroup(group, goal.triangles);
+    // one cluster less than there are
+    const size_t most_triangles = goal.exact || members.size() == 1
+                                      ? group.triangleCount()
+                                      : (members.size() - 1) * formats::kClusterMaxTriangles;
+    Simplified simplified = simplifyGroup(group, goal.triangles, most_triangles);
     const auto stuck = [&]
     {
-        return static_cast<float>(simplified.triangleCount()) >
-               goal.stuck_ratio * static_cast<float>(group.triangleCount());
+        return simplified.triangleCount() > most_triangles ||
+               static_cast<float>(simplified.triangleCount()) >
+                   goal.stuck_ratio * static_cast<float>(group.triangleCount());
     };
     if (stuck())
     {

@@ -394,14 +394,16 @@ Simplified Collapser::result()
 
 } // namespace
 
-Simplified simplifyGroup(const GroupMesh& group, size_t target_triangles)
+Simplified simplifyGroup(const GroupMesh& group, size_t target_triangles, size_t most_triangles)
 {
     HEARTH_ASSERT(target_triangles > 0);
     Collapser collapser(group);
     bool permissive = false;
     bool pruned = false;
     collapser.collapseUntil(target_triangles, false);
-    const auto near_target = static_cast<size_t>(static_cast<double>(target_triangles) * kNearTarget);
+    const auto near_target =
+        std::min(static_cast<size_t>(static_cast<double>(target_triangles) * kNearTarget),
+                 std::max(most_triangles, target_triangles));
     if (collapser.triangleCount() > near_target)
     {
         const size_t before = collapser.triangleCount();

@@ -37,6 +37,7 @@ struct Simplified
 /// - no triangle turns over, no two sheets are glued together (link condition), no island disappears.
 /// Positions that others went to are then placed anew, where the quadrics are least, and their attributes with them.
 /// If that is not enough, whole islands go, the smallest first (`pruned`); one triangle always stays.
-Simplified simplifyGroup(const GroupMesh& group, size_t target_triangles);
+/// most_triangles  with more than these nothing is gained: attributes may jump and islands go before it comes to that
+Simplified simplifyGroup(const GroupMesh& group, size_t target_triangles, size_t most_triangles);
 
 } // namespace hearth::clusters
