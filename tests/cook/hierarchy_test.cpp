@@ -138,6 +138,17 @@ TEST(Hierarchy, respectsSeams)
     expectSound(mesh, hierarchy);
 }
 
+TEST(Hierarchy, ofAnySizeEndsInOneCluster)
+{
+    for (uint32_t n = 5; n <= 40; n += 1)
+    {
+        const Hierarchy of_blocks = buildHierarchy(shapes::blocks(n));
+        EXPECT_EQ(of_blocks.levels.back().clusters.count, 1u) << "blocks " << n;
+        const Hierarchy of_rock = buildHierarchy(shapes::rock(n, 0.5f, n));
+        EXPECT_EQ(of_rock.levels.back().clusters.count, 1u) << "rock " << n;
+    }
+}
+
 /// Every triangle with three vertices of its own and the normal of its plane; no other attributes.
 mesh::SourceMesh flatShaded(const mesh::SourceMesh& smooth)
 {
