@@ -5,6 +5,8 @@
 
 #include <cmath>
 
+#include <tbb/parallel_invoke.h>
+
 namespace hearth::clusters
 {
 
@@ -106,8 +108,10 @@ PreparedMesh prepareMesh(mesh::SourceMesh source)
     prepared.attributes = mesh::attributesOf(source);
     const std::vector<uint8_t> degenerate = degenerateTriangles(source);
     prepared.grid = mesh::snapToGrid(source);
-    mesh::Weld weld = mesh::weldPositions(source.positions);
-    const std::vector<uint32_t> first_equal = mesh::firstEqualVertices(source);
+    mesh::Weld weld;
+    std::vector<uint32_t> first_equal;
+    tbb::parallel_invoke([&] { weld = mesh::weldPositions(source.positions); },
+                         [&] { first_equal = mesh::firstEqualVertices(source); });
     // the arrays of the source take what is kept
     prepared.corners = std::move(source.indices);
     prepared.materials = std::move(source.triangle_materials);
