@@ -1,6 +1,7 @@
 // Meaning of geometry pages: every page is decoded and each cluster held against the bounds that its record claims.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "formats/check_tools.h"
+#include "formats/double3.h"
 #include "formats/pack_check.h"
 
 namespace hearth::formats::check
@@ -8,41 +9,6 @@ namespace hearth::formats::check
 
 namespace
 {
-
-/// In doubles, the error of a check is far below what its slack allows.
-struct Double3
-{
-    double x = 0, y = 0, z = 0;
-};
-
-Double3 widen(Float3 v)
-{
-    return {v.x, v.y, v.z};
-}
-Double3 operator+(Double3 a, Double3 b)
-{
-    return {a.x + b.x, a.y + b.y, a.z + b.z};
-}
-Double3 operator-(Double3 a, Double3 b)
-{
-    return {a.x - b.x, a.y - b.y, a.z - b.z};
-}
-Double3 operator*(Double3 a, double s)
-{
-    return {a.x * s, a.y * s, a.z * s};
-}
-double dot(Double3 a, Double3 b)
-{
-    return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-double length(Double3 a)
-{
-    return std::sqrt(dot(a, a));
-}
-Double3 cross(Double3 a, Double3 b)
-{
-    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
 
 bool legalUv(const ClusterGeometry& geometry, uint32_t vertex, uint32_t set)
 {

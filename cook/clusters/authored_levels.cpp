@@ -172,7 +172,7 @@ AttributeStep measureAttributes(const PreparedMesh& mesh, std::span<const uint32
     {
         const auto from = source_corners.subspan(t, 3);
         const Float3 middle = valueAt(vertices.positions, from, kMiddle);
-        hint = tree.nearest(toDouble(middle), 0, hint).triangle;
+        hint = tree.nearest(widen(middle), 0, hint).triangle;
         const auto to = std::span(level.corners).subspan(size_t{hint} * 3, 3);
         const CornerWeights weights = nearestPoint(vertices.positions, to, middle);
         const double area = areaOf(vertices.positions, from);

@@ -4,6 +4,7 @@
 #include "cook/clusters/lanes.h"
 #include "formats/assert.h"
 #include "formats/cluster_bounds.h"
+#include "formats/double3.h"
 
 #include <algorithm>
 #include <cmath>
@@ -25,39 +26,6 @@ constexpr double kConeMargin = 1e-3;
 
 // Wider cones than about 84 degrees cull next to nothing.
 constexpr double kMinConeCosine = 0.1;
-
-struct Double3
-{
-    double x = 0, y = 0, z = 0;
-};
-Double3 widen(Float3 a)
-{
-    return {a.x, a.y, a.z};
-}
-Double3 operator+(Double3 a, Double3 b)
-{
-    return {a.x + b.x, a.y + b.y, a.z + b.z};
-}
-Double3 operator-(Double3 a, Double3 b)
-{
-    return {a.x - b.x, a.y - b.y, a.z - b.z};
-}
-Double3 operator*(Double3 a, double s)
-{
-    return {a.x * s, a.y * s, a.z * s};
-}
-double dot(Double3 a, Double3 b)
-{
-    return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-double length(Double3 a)
-{
-    return std::sqrt(dot(a, a));
-}
-Float3 narrow(Double3 a)
-{
-    return {static_cast<float>(a.x), static_cast<float>(a.y), static_cast<float>(a.z)};
-}
 
 struct WideSphere
 {

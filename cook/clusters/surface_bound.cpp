@@ -206,7 +206,7 @@ double distanceOfCorners(const SurfaceView& from, const SurfaceTree& to)
                           for (size_t i = run * kRun; i < std::min(corners.size(), (run + 1) * kRun); ++i)
                           {
                               const auto nearest =
-                                  to.nearest(toDouble(from.positions[corners[i]]), farthest2[run], near);
+                                  to.nearest(widen(from.positions[corners[i]]), farthest2[run], near);
                               near = nearest.triangle;
                               farthest2[run] = std::max(farthest2[run], nearest.distance2);
                           }

@@ -72,7 +72,7 @@ SurfaceTree::SurfaceTree(const SurfaceView& surface) : surface_(surface), order_
 Corners3 SurfaceTree::triangle(uint32_t index) const
 {
     const auto corner = [&](size_t k)
-    { return toDouble(surface_.positions[surface_.triangles[size_t{index} * 3 + k]]); };
+    { return widen(surface_.positions[surface_.triangles[size_t{index} * 3 + k]]); };
     return {corner(0), corner(1), corner(2)};
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "cook/clusters/surface_bound.h"
+#include "formats/double3.h"
 
 #include <array>
 #include <vector>
@@ -11,36 +12,6 @@ namespace hearth::clusters
 {
 
 /// In double precision: what is measured is compared with numbers ten thousand times smaller than coordinates.
-struct Double3
-{
-    double x = 0, y = 0, z = 0;
-};
-
-inline Double3 operator+(Double3 a, Double3 b)
-{
-    return {a.x + b.x, a.y + b.y, a.z + b.z};
-}
-inline Double3 operator-(Double3 a, Double3 b)
-{
-    return {a.x - b.x, a.y - b.y, a.z - b.z};
-}
-inline Double3 operator*(Double3 a, double s)
-{
-    return {a.x * s, a.y * s, a.z * s};
-}
-inline double dot(Double3 a, Double3 b)
-{
-    return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-inline Double3 cross(Double3 a, Double3 b)
-{
-    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-inline Double3 toDouble(Float3 p)
-{
-    return {double{p.x}, double{p.y}, double{p.z}};
-}
-
 using Corners3 = std::array<Double3, 3>;
 
 /// Squared distance of a point to a triangle, needles included: never too small but for rounding.

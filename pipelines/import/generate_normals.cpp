@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "formats/double3.h"
 #include "pipelines/import/mesh_pieces.h"
 #include "pipelines/import/readers.h"
 
@@ -14,16 +15,6 @@ namespace hearth::import
 namespace
 {
 
-struct Double3
-{
-    double x = 0, y = 0, z = 0;
-};
-
-double dot(const Double3& a, const Double3& b)
-{
-    return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-
 /// The normal of a triangle: direction and weight apart, so that huge and tiny triangles behave alike.
 struct FaceNormal
 {
@@ -33,10 +24,8 @@ struct FaceNormal
 
 FaceNormal faceNormal(Float3 a, Float3 b, Float3 c)
 {
-    const Double3 u{double{b.x} - double{a.x}, double{b.y} - double{a.y}, double{b.z} - double{a.z}};
-    const Double3 v{double{c.x} - double{a.x}, double{c.y} - double{a.y}, double{c.z} - double{a.z}};
-    const Double3 n{u.y * v.z - u.z * v.y, u.z * v.x - u.x * v.z, u.x * v.y - u.y * v.x};
-    const double area = std::sqrt(dot(n, n));
+    const Double3 n = cross(widen(b) - widen(a), widen(c) - widen(a));
+    const double area = length(n);
     if (!(area > 0))
         return {};
     return {{n.x / area, n.y / area, n.z / area}, area};
