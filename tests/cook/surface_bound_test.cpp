@@ -131,7 +131,7 @@ TEST(SurfaceTree, findsTheNearestTriangle)
     const auto uniform = [&] { return static_cast<double>(random()) / 2147483648.0 - 1.0; };
     for (int i = 0; i < 500; ++i)
     {
-        const clusters::Double3 point{uniform(), uniform(), uniform()};
+        const Double3 point{uniform(), uniform(), uniform()};
         double nearest2 = 1e30;
         for (uint32_t t = 0; t < mesh.triangleCount(); ++t)
             nearest2 = std::min(nearest2, clusters::distance2(point, tree.triangle(t)));
