@@ -272,11 +272,13 @@ void ContainerReader::discard(const ChunkEntry& entry) const
     if (owner_ == nullptr)
         return;
     const std::span<const std::byte> bytes = stored(entry);
-    const auto page = static_cast<uintptr_t>(::sysconf(_SC_PAGESIZE));
-    const auto first = (reinterpret_cast<uintptr_t>(bytes.data()) + page - 1) / page * page;
-    const auto last = reinterpret_cast<uintptr_t>(bytes.data() + bytes.size()) / page * page;
-    if (first < last)
-        ::madvise(reinterpret_cast<void*>(first), last - first, MADV_DONTNEED);
+    // whole pages of memory only: the first and the last belong to others as well
+    const auto page = static_cast<size_t>(::sysconf(_SC_PAGESIZE));
+    const size_t before = (page - reinterpret_cast<uintptr_t>(bytes.data()) % page) % page;
+    if (bytes.size() < before)
+        return;
+    const size_t size = (bytes.size() - before) / page * page;
+    ::madvise(const_cast<std::byte*>(bytes.data()) + before, size, MADV_DONTNEED);
 }
 
 Status ContainerReader::checkDecodes(const ChunkEntry& entry) const
