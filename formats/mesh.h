@@ -152,7 +152,7 @@ enum class PageCodec : uint32_t
 {
     none = 0,     ///< as it is decoded
     zstd = 1,     ///< the same, as one zstd frame
-    clusters = 2, ///< what tells triangles and vertices from those before, in part as a zstd frame (page_codec.h)
+    clusters = 2, ///< what tells triangles and vertices from those before: page_codec.h
 };
 
 /// One page: clusters of whole groups, in the order of the cluster table. Each cluster's data starts at its

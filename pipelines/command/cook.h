@@ -40,7 +40,7 @@ struct CookOutcome
     int exit_code = 0;
     std::string error; ///< the error line, empty on success
     size_t failed_source = 0;
-    std::vector<StageRecord> stages; ///< in the order of the plan, those that ended well
+    std::vector<StageRecord> stages;             ///< in the order of the plan, those that ended well
     std::vector<std::string> cluster_statistics; ///< of each source, JSON of hearth-clusters; for the report
     double seconds = 0;
     uint64_t output_bytes = 0;

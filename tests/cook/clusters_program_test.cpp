@@ -16,6 +16,8 @@ namespace
 using namespace hearth;
 using Json = nlohmann::json;
 
+constexpr const char* kImport = HEARTH_BIN "/hearth-import";
+
 const std::string kProgram = HEARTH_BIN "/hearth-clusters";
 
 std::string objOf(const mesh::SourceMesh& mesh)
@@ -46,7 +48,7 @@ protected:
 TEST_F(ClustersProgram, readsASourceAsItReadsItsPart)
 {
     ASSERT_EQ(run({"rock.obj", "-o", "direct.part"}).exit_code, 0);
-    ASSERT_EQ(sandbox_.run({HEARTH_BIN "/hearth-import", "rock.obj", "-o", "import.part"}).exit_code, 0);
+    ASSERT_EQ(sandbox_.run({kImport, "rock.obj", "-o", "import.part"}).exit_code, 0);
     ASSERT_EQ(run({"import.part", "-o", "two-steps.part"}).exit_code, 0);
     EXPECT_EQ(sandbox_.read("direct.part"), sandbox_.read("two-steps.part"));
     EXPECT_EQ(sandbox_.list(),
@@ -164,10 +166,7 @@ TEST_F(ClustersProgram, takesLevelsMadeByHandAsTheImportDoes)
 {
     sandbox_.write("low.obj", objOf(shapes::rock(8, 0.3f)));
     ASSERT_EQ(run({"rock.obj", "--lod", "1=low.obj", "-o", "direct.part"}).exit_code, 0);
-    ASSERT_EQ(
-        sandbox_.run({HEARTH_BIN "/hearth-import", "rock.obj", "--lod", "1=low.obj", "-o", "import.part"})
-            .exit_code,
-        0);
+    ASSERT_EQ(sandbox_.run({kImport, "rock.obj", "--lod", "1=low.obj", "-o", "import.part"}).exit_code, 0);
     ASSERT_EQ(run({"import.part", "-o", "two-steps.part"}).exit_code, 0);
     EXPECT_EQ(sandbox_.read("direct.part"), sandbox_.read("two-steps.part"));
     ASSERT_EQ(run({"rock.obj", "-o", "plain.part"}).exit_code, 0);
@@ -243,7 +242,7 @@ TEST_F(ClustersProgram, writesALevelAsPlyWithAColourForEachCluster)
     EXPECT_EQ(colors.size(), 24u) << "one for each cluster of level 0";
 
     // and hearth-import reads it back
-    EXPECT_EQ(sandbox_.run({HEARTH_BIN "/hearth-import", "level.ply", "-o", "again.part"}).exit_code, 0);
+    EXPECT_EQ(sandbox_.run({kImport, "level.ply", "-o", "again.part"}).exit_code, 0);
 }
 
 TEST_F(ClustersProgram, refusesToDumpWhatIsNotThere)

@@ -47,8 +47,8 @@ std::multiset<std::vector<uint32_t>> trianglesOf(const RandomPage& page, size_t 
         std::array<std::vector<uint32_t>, 3> corners;
         for (size_t i = 0; i < 3; ++i)
         {
-            const auto at = coded.words.begin() +
-                            static_cast<ptrdiff_t>(uvBaseWords(layout) + coded.indices[t + i] * words);
+            const auto at = coded.words.begin() + static_cast<ptrdiff_t>(uvBaseWords(layout)) +
+                            static_cast<ptrdiff_t>(coded.indices[t + i]) * static_cast<ptrdiff_t>(words);
             corners[i].assign(at, at + words);
         }
         std::array<std::vector<uint32_t>, 3> least = corners;

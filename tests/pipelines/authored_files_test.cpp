@@ -21,6 +21,9 @@ namespace
 
 using namespace formats;
 
+constexpr const char* kHearth = HEARTH_BIN "/hearth";
+constexpr const char* kSamples = HEARTH_BIN "/hearth-samples";
+
 /// A square of n x n quads, as OBJ with a material.
 std::string square(int n, const std::string& material)
 {
@@ -99,10 +102,10 @@ TEST_F(AuthoredFiles, bringTheirMeshesMaterialsAndImages)
 
 TEST_F(AuthoredFiles, areCookedIntoAPackThatIsValid)
 {
-    const ProgramEnd end = sandbox_.run({HEARTH_BIN "/hearth", "cook", "fine.obj", "--lod", "1=mid.obj",
-                                         "--lod", "2=low.obj", "-o", "out.hearth"});
+    const ProgramEnd end = sandbox_.run(
+        {kHearth, "cook", "fine.obj", "--lod", "1=mid.obj", "--lod", "2=low.obj", "-o", "out.hearth"});
     ASSERT_EQ(end.exit_code, 0) << end.err;
-    EXPECT_EQ(sandbox_.run({HEARTH_BIN "/hearth", "verify", "out.hearth"}).exit_code, 0);
+    EXPECT_EQ(sandbox_.run({kHearth, "verify", "out.hearth"}).exit_code, 0);
     auto reader = ContainerReader::open(sandbox_ / "out.hearth");
     ASSERT_TRUE(reader.ok());
     const auto pack = PackView::read(std::move(*reader));
@@ -122,13 +125,12 @@ TEST_F(AuthoredFiles, areDrawnOnceByTheRuntimesCut)
     const std::pair<const char*, const char*> rocks[] = {
         {"fine.glb", "100000"}, {"mid.glb", "30000"}, {"low.glb", "400"}};
     for (const auto& [name, triangles] : rocks)
-        ASSERT_EQ(sandbox_
-                      .run({HEARTH_BIN "/hearth-samples", "rock", "--triangles", triangles, "--texture-size",
-                            "4", "-o", name})
-                      .exit_code,
-                  0);
-    const ProgramEnd end = sandbox_.run({HEARTH_BIN "/hearth", "cook", "fine.glb", "--lod", "1=mid.glb",
-                                         "--lod", "2=low.glb", "-o", "rock.hearth"});
+        ASSERT_EQ(
+            sandbox_.run({kSamples, "rock", "--triangles", triangles, "--texture-size", "4", "-o", name})
+                .exit_code,
+            0);
+    const ProgramEnd end = sandbox_.run(
+        {kHearth, "cook", "fine.glb", "--lod", "1=mid.glb", "--lod", "2=low.glb", "-o", "rock.hearth"});
     ASSERT_EQ(end.exit_code, 0) << end.err;
     auto reader = ContainerReader::open(sandbox_ / "rock.hearth");
     ASSERT_TRUE(reader.ok());
@@ -176,8 +178,8 @@ TEST_F(AuthoredFiles, thatAreNoUseAreRefusedByName)
 
 TEST_F(AuthoredFiles, needACookOfOneSource)
 {
-    const ProgramEnd end = sandbox_.run(
-        {HEARTH_BIN "/hearth", "cook", "fine.obj", "mid.obj", "--lod", "1=low.obj", "-o", "out.hearth"});
+    const ProgramEnd end =
+        sandbox_.run({kHearth, "cook", "fine.obj", "mid.obj", "--lod", "1=low.obj", "-o", "out.hearth"});
     EXPECT_EQ(end.exit_code, 2) << end.err;
     EXPECT_NE(end.err.find("needs a cook of one source"), std::string::npos) << end.err;
 }

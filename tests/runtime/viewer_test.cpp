@@ -27,7 +27,7 @@ Result<RenderOptions> parse(std::vector<const char*> arguments)
     return parseOptions(arguments);
 }
 
-void expectUsage(std::vector<const char*> arguments, const std::string& mention)
+void expectUsage(const std::vector<const char*>& arguments, const std::string& mention)
 {
     const auto options = parse(arguments);
     ASSERT_FALSE(options.ok()) << mention;
