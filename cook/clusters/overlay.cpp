@@ -141,7 +141,8 @@ HEARTH_INLINE Sides sidesOf(const Seen& a, const Seen& b)
     return {{at_0, at_0 - dv, at_0 + du}, kMargin * (greater(du, -du) + greater(dv, -dv))};
 }
 
-/// Edges from a to b: where they enter and leave the triangle. Those that only pass by a corner of it are not over it.
+/// Edges from a to b: where they enter and leave the triangle. Those that only pass by a corner of it are not over it;
+/// those that are wholly over it are, however short they look.
 HEARTH_INLINE void addEdges(const Seen& a, const Seen& b, const Sides& sides, Finding& finding)
 {
     Stretch over;
@@ -150,7 +151,8 @@ HEARTH_INLINE void addEdges(const Seen& a, const Seen& b, const Sides& sides, Fi
     over.clip(a.w, b.w);
     const Eight rise = b.h - a.h;
     const Eight first = a.h + over.begin * rise, last = a.h + over.end * rise;
-    const EightMask valid = (over.end - over.begin) * sides.margin > kMargin * kMargin;
+    const Eight part = over.end - over.begin;
+    const EightMask valid = (part * sides.margin > kMargin * kMargin) | (part >= 1.0f);
     finding.addBetween(valid, greater(first, last), lesser(first, last));
 }
 

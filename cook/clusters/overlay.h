@@ -41,8 +41,8 @@ public:
             centers_.push_back(position);
     }
 
-    /// An upper bound of the distance of any point of the triangle to the patch, and what is added there; infinity where the patch does not
-    /// lie over the whole triangle, or turns over there.
+    /// An upper bound of the distance of any point of the triangle to the patch, and what is added there; infinity
+    /// where the patch does not lie over the whole triangle, or turns over there.
     ///
     /// Seen along the triangle's normal both are maps of linear pieces, so that their distance is greatest at a corner
     /// of one of them, or where an edge of one crosses an edge of the other. If no edge of the patch's rim comes over

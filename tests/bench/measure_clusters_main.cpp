@@ -1,6 +1,7 @@
 // Measures the hierarchies of whole meshes: speed, shape, bytes, quality and honesty, with the peers' figures beside
 // them. `./dev bench clusters` makes the meshes and runs it.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/clusters/manual_lods.h"
 #include "formats/pack_view.h"
 #include "formats/program.h"
 #include "tests/bench/cut_quality.h"
@@ -182,7 +183,7 @@ void printShape(const clusters::Hierarchy& hierarchy)
     for (const auto& level : hierarchy.levels)
         all += level.triangle_count;
     const auto source = static_cast<double>(hierarchy.levels.front().triangle_count);
-    const double records = bench::storedTableBytes(hierarchy);
+    const auto records = static_cast<double>(clusters::storedBytes(hierarchy) - hierarchy.page_bytes.size());
     const auto& root = hierarchy.levels.back();
     std::printf("  %zu levels, fill %.1f %%, triangles over all levels / source %.3f, coarsest level %u "
                 "clusters of %u "

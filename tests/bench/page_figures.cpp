@@ -177,22 +177,4 @@ PageFigures pageFiguresOf(const clusters::Hierarchy& hierarchy)
     return figures;
 }
 
-double storedTableBytes(const clusters::Hierarchy& hierarchy)
-{
-    double bytes = 0;
-    const auto add = [&](const auto& table)
-    {
-        const auto raw = std::as_bytes(std::span(table));
-        std::vector<std::byte> packed(ZSTD_compressBound(raw.size()));
-        bytes += static_cast<double>(
-            ZSTD_compress(packed.data(), packed.size(), raw.data(), raw.size(), ZSTD_CLEVEL_DEFAULT));
-    };
-    add(hierarchy.levels);
-    add(hierarchy.groups);
-    add(hierarchy.clusters);
-    add(hierarchy.pages);
-    add(hierarchy.page_parents);
-    return bytes;
-}
-
 } // namespace hearth::bench

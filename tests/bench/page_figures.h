@@ -25,7 +25,4 @@ struct PageFigures
 
 PageFigures pageFiguresOf(const clusters::Hierarchy& hierarchy);
 
-/// Bytes of the hierarchy's tables as a container stores them.
-double storedTableBytes(const clusters::Hierarchy& hierarchy);
-
 } // namespace hearth::bench

@@ -140,7 +140,7 @@ TEST(Hierarchy, respectsSeams)
 
 TEST(Hierarchy, ofAnySizeEndsInOneCluster)
 {
-    for (uint32_t n = 5; n <= 40; n += 1)
+    for (uint32_t n = 5; n <= 40; ++n)
     {
         const Hierarchy of_blocks = buildHierarchy(shapes::blocks(n));
         EXPECT_EQ(of_blocks.levels.back().clusters.count, 1u) << "blocks " << n;

@@ -134,6 +134,36 @@ TEST(Overlay, boundsTheDistanceOfEveryPoint)
     EXPECT_LT(bounds, 1.5 * distances);
 }
 
+TEST(Overlay, seesANeedleInTheMiddleOfATriangle)
+{
+    // three rings of three positions, the outermost open, and a tip over the innermost, which is finer than rounding
+    constexpr float kHeight = 0.5f;
+    std::vector<Float3> places;
+    std::vector<uint32_t> corners;
+    for (const float radius : {3.0f, 5e-3f, 2e-6f})
+        for (const Float3 p : {Float3{-0.8f, -0.6f, 0}, Float3{0.8f, -0.6f, 0}, Float3{0, 1, 0}})
+            places.push_back(p * radius);
+    places.push_back({0, 0, kHeight});
+    for (uint32_t k = 0; k < 3; ++k)
+    {
+        const uint32_t next = (k + 1) % 3;
+        for (const uint32_t ring : {0u, 3u})
+            corners.insert(corners.end(),
+                           {ring + k, ring + next, ring + 3 + next, ring + k, ring + 3 + next, ring + 3 + k});
+        corners.insert(corners.end(), {6 + k, 6 + next, 9});
+    }
+    const Surface surface(corners, places);
+    const std::vector<uint8_t> open{1, 1, 1, 0, 0, 0, 0, 0, 0, 0};
+    Overlay overlay(surface, open, std::vector<float>(places.size(), 0));
+    overlay.clear();
+    for (uint32_t p = 3; p < places.size(); ++p)
+        overlay.addCenter(p);
+    const float bound =
+        overlay.heightOver({Float3{-0.4f, -0.3f, 0}, Float3{0.4f, -0.3f, 0}, Float3{0, 0.5f, 0}});
+    ASSERT_TRUE(std::isfinite(bound));
+    EXPECT_GE(bound, kHeight);
+}
+
 TEST(Overlay, isWithoutBoundWhereThePatchEnds)
 {
     std::mt19937 random(7);
