@@ -59,7 +59,10 @@ std::string panel(const MeshCurve& curve)
             points += fmt::format("{:.1f},{:.1f} ",
                                   xOf(static_cast<double>(cut.triangles) / curve.source_triangles),
                                   yOf(cut.rms / curve.diagonal));
-    svg += fmt::format("<polyline points='{}' fill='none' stroke='#c0392b' stroke-width='2'/>\n", points);
+    // an image inside the image, which ends at the axes
+    svg += fmt::format("<svg width='{}' height='{}'><polyline points='{}' fill='none' stroke='#c0392b' "
+                       "stroke-width='2'/></svg>\n",
+                       kWidth, kHeight, points);
     for (const PeerCut& cut : curve.peer->cuts)
         if (cut.share > 0 && cut.rms > 0)
             svg += fmt::format("<circle cx='{:.1f}' cy='{:.1f}' r='4' fill='#2c3e50'/>\n", xOf(cut.share),
