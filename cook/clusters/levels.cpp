@@ -88,7 +88,8 @@ BuiltGroup buildGroup(const Build& build, const Level& level, std::span<const ui
         errorsOf(build, level, members)
             .plus({reduced.distance, reduced.attributes, goal.error_weight}, build.config);
     // an error beyond the floats cannot be stored: what it belongs to is a root
-    if (!reduced.progressed || errors.lod >= std::numeric_limits<float>::max())
+    if (!reduced.progressed ||
+        std::max(errors.lod, errors.attributes.uv) >= std::numeric_limits<float>::max())
     {
         passOn(build, level, members, group);
         return group;
