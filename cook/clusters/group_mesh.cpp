@@ -166,22 +166,29 @@ void nameCharts(GroupMesh& group, const mesh::SourceMesh& source, std::span<cons
     }
 }
 
-/// How much the normals change over the surface: radians, or what is like them, for each local unit of length.
+/// How much the normals change over the surface: radians, or what is like them, for each local unit of length. A mean,
+/// not a mean square: a few sharp places shall not make the normals of all others cheap.
 float normalChange(const GroupMesh& group, std::span<const Float3> normals)
 {
     double changes = 0;
     double lengths = 0;
     for (size_t t = 0; t < group.corners.size(); t += 3)
+    {
+        float change2 = 0;
+        float length2 = 0;
         for (size_t k = 0; k < 3; ++k)
         {
             const size_t a = t + k, b = t + (k + 1) % 3;
             const Float3 along = group.positions[group.positionAt(b)] - group.positions[group.positionAt(a)];
             const Float3 change = normals[group.vertex_of_wedge[group.corners[b]]] -
                                   normals[group.vertex_of_wedge[group.corners[a]]];
-            changes += dot(change, change);
-            lengths += dot(along, along);
+            change2 += dot(change, change);
+            length2 += dot(along, along);
         }
-    return lengths > 0 ? static_cast<float>(std::sqrt(changes / lengths)) : 0.0f;
+        changes += std::sqrt(change2);
+        lengths += std::sqrt(length2);
+    }
+    return lengths > 0 ? static_cast<float>(changes / lengths) : 0.0f;
 }
 
 void gatherAttributes(GroupMesh& group, const mesh::SourceMesh& vertices, const Config& config)

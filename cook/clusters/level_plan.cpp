@@ -143,7 +143,10 @@ LevelPlan planLevel(const Reduction& reduction, uint32_t level, const ClusterSto
     const double factor = spreadFactor(shares, wanted, largest_part);
     planExactly(plan, shares, factor, largest_part);
     if (steps == 1)
+    {
         plan.wanted = target->triangles - drawn_below;
+        plan.largest_part = largest_part;
+    }
     else
         for (size_t g = 0; g < shares.size(); ++g)
             plan.goals[g].triangles =
@@ -188,7 +191,7 @@ bool correctPlan(LevelPlan& plan, std::span<const size_t> kept, std::vector<uint
         const double corrected = std::round(factor * static_cast<double>(goal.triangles));
         if (changed[g] != 0)
             goal.triangles = static_cast<size_t>(
-                std::clamp(corrected, 1.0, std::max(1.0, kLargestKeep * static_cast<double>(goal.of))));
+                std::clamp(corrected, 1.0, std::max(1.0, plan.largest_part * static_cast<double>(goal.of))));
     }
     return true;
 }

@@ -32,7 +32,8 @@ struct GroupGoal
 struct LevelPlan
 {
     std::vector<GroupGoal> goals; ///< for each group
-    uint64_t wanted = 0; ///< triangles of all groups together where the next level is a target's, else 0
+    uint64_t wanted = 0;     ///< triangles of all groups together where the next level is a target's, else 0
+    double largest_part = 1; ///< of its triangles that a group may keep where the goals are corrected
 };
 
 /// The goals of the groups of level `level`. Without a target ahead, what the curves say, as full clusters where that
