@@ -204,25 +204,25 @@ HEARTH_FUNCTION InstanceState decideInstance(HEARTH_IN(FrameView) view, HEARTH_I
     InstanceState state;
     state.eye_object = Float3(dot3(row_x, offset), dot3(row_y, offset), dot3(row_z, offset));
     state.eye_slack = magnitude * kRoundingSlack;
-    state.visible = 1u;
+    state.visible = kInstanceVisible;
     if ((view.flags & kCullInstances) != 0u &&
         boxOutsideFrustum(view, instance, bounds.box_min, bounds.box_max))
-        state.visible = 0u;
+        state.visible = kInstanceHidden;
     // an empty mesh has an empty box
     if (bounds.box_min.x > bounds.box_max.x)
-        state.visible = 0u;
+        state.visible = kInstanceHidden;
     state.cone_valid = inverse.object_from_world_x.w != 0.0f ? 1u : 0u;
     state.grid_step = bounds.grid_step;
     state.reserved = 0u;
     return state;
 }
 
-/// The cluster pass: whether a cluster of a visible instance is drawn.
+/// The cluster pass: whether a cluster of an instance that is looked at is drawn, if nothing hides it.
 HEARTH_FUNCTION bool decideCluster(HEARTH_IN(FrameView) view, HEARTH_IN(Instance) instance,
                                    HEARTH_IN(InstanceState) state, HEARTH_IN(Cluster) cluster,
                                    HEARTH_IN(Group) own, HEARTH_IN(Group) refined, bool double_sided)
 {
-    if (state.visible == 0u)
+    if (state.visible == kInstanceHidden)
         return false;
     if (!clusterInCut(view, instance, own, cluster.refined_group != kNoGroup, refined))
         return false;

@@ -2,6 +2,7 @@
 #include "formats/shared/frame.h"
 
 #include "formats/cluster_bounds.h"
+#include "formats/shared/occlusion.h"
 
 namespace hearth::shared
 {
@@ -57,6 +58,21 @@ FrameView makeFrameView(const Camera& camera, uint32_t width, uint32_t height, f
     view.width = static_cast<float>(width);
     view.height = static_cast<float>(height);
     return view;
+}
+
+OcclusionView makeOcclusionView(const FrameView& view)
+{
+    const auto width = static_cast<uint32_t>(view.width);
+    const auto height = static_cast<uint32_t>(view.height);
+    return {.clip_x = view.clip_x,
+            .clip_y = view.clip_y,
+            .clip_w = view.clip_w,
+            .eye = view.eye,
+            .z_near = view.z_near,
+            .width = width,
+            .height = height,
+            .level_count = pyramidLevels(width, height),
+            .reserved = 0};
 }
 
 InstanceInverse makeInstanceInverse(const formats::InstanceRecord& instance)

@@ -24,6 +24,9 @@ struct Camera
 FrameView makeFrameView(const Camera& camera, uint32_t width, uint32_t height, float error_pixels,
                         uint32_t instance_count, uint32_t flags = kCullEverything);
 
+/// The view of the depth pyramid that such a frame leaves.
+OcclusionView makeOcclusionView(const FrameView& view);
+
 /// Inverse of the linear part, computed in double.
 InstanceInverse makeInstanceInverse(const formats::InstanceRecord& instance);
 

@@ -25,10 +25,15 @@ namespace hearth::shared
 {
 using uint = uint32_t;
 using std::abs;
+using std::floor;
 using std::sqrt;
 inline float max(float a, float b)
 {
     return a < b ? b : a;
+}
+inline float min(float a, float b)
+{
+    return b < a ? b : a;
 }
 } // namespace hearth::shared
 

@@ -79,7 +79,7 @@ struct InstanceState
 {
     Float3 eye_object;
     float eye_slack; ///< how far eye_object may be off through rounding, object space
-    uint visible;
+    uint visible;    ///< kInstance*
     uint cone_valid; ///< 0: the instance has no inverse and eye_object means nothing
     float grid_step; ///< of its mesh
     uint reserved;
@@ -100,7 +100,8 @@ struct WorkResult
     uint mask_low;  ///< bit i: cluster order[first + i] is drawn
     uint mask_high; ///< the same for 32 + i
     uint offset;    ///< clusters drawn by the items before it in its scan block
-    uint reserved;
+    uint later_low; ///< bit i: what was drawn last frame hides the cluster, the late phase looks again
+    uint later_high;
 };
 
 /// One slot of the visible list; a slot's number is the upper 25 bits of the visibility buffer.
@@ -136,8 +137,8 @@ struct FrameCounters
 {
     uint drawn_clusters;   ///< clusters that passed all tests
     uint dropped_clusters; ///< of these, the last ones for which the visible list had no slot
-    uint reserved0;
-    uint reserved1;
+    uint early_clusters;   ///< of these, the first ones, which the early phase found
+    uint reserved;
 };
 
 /// What drawing needs of a cluster.
@@ -173,6 +174,20 @@ struct FrameView
     uint reserved1;
 };
 
+/// From where and at what size a depth pyramid was drawn (occlusion.h).
+struct OcclusionView
+{
+    Float4 clip_x; ///< as FrameView
+    Float4 clip_y;
+    Float4 clip_w;
+    Float3 eye;
+    float z_near;
+    uint width; ///< pixels
+    uint height;
+    uint level_count; ///< 0: nothing is known and nothing hidden
+    uint reserved;
+};
+
 HEARTH_CONSTANT uint kWorkItemClusters = 64;
 /// Work items that one workgroup of the scan adds up.
 HEARTH_CONSTANT uint kScanBlockItems = 1024;
@@ -188,7 +203,18 @@ HEARTH_CONSTANT uint kItemDoubleSided = 1; ///< skip the normal cone
 HEARTH_CONSTANT uint kCullInstances = 1;
 HEARTH_CONSTANT uint kCullFrustum = 2;
 HEARTH_CONSTANT uint kCullCone = 4;
-HEARTH_CONSTANT uint kCullEverything = 7;
+HEARTH_CONSTANT uint kCullOcclusion = 8;
+HEARTH_CONSTANT uint kCullEverything = 15;
+
+/// What culling a frame without the occlusion test is one of; with it, two follow each other.
+HEARTH_CONSTANT uint kPhaseWhole = 0;
+HEARTH_CONSTANT uint kPhaseEarly = 1; ///< what the last frame's depth does not hide
+HEARTH_CONSTANT uint kPhaseLate = 2;  ///< of the rest, what the depth of the early clusters does not hide
+
+HEARTH_CONSTANT uint kInstanceHidden = 0;   ///< nothing of it can be seen
+HEARTH_CONSTANT uint kInstanceVisible = 1;  ///< its clusters are looked at
+HEARTH_CONSTANT uint kInstanceDeferred = 2; ///< hidden by the last frame's depth: the late phase decides
+HEARTH_CONSTANT uint kInstanceLate = 3;     ///< was deferred, and its clusters are looked at now
 
 /// Visibility buffer: slot << kTriangleBits | triangle.
 HEARTH_CONSTANT uint kTriangleBits = 7;

@@ -51,6 +51,7 @@ static_assert(sizeof(hearth::shared::InstanceState) == 32);
 static_assert(sizeof(hearth::shared::FrameView) == 176);
 static_assert(sizeof(hearth::shared::BinDraw) == 32);
 static_assert(sizeof(hearth::shared::WorkItem) == 16);
-static_assert(sizeof(hearth::shared::WorkResult) == 16);
+static_assert(sizeof(hearth::shared::WorkResult) == 20);
+static_assert(sizeof(hearth::shared::OcclusionView) == 80);
 static_assert(sizeof(hearth::shared::ClusterDraw) == 32);
 static_assert(hearth::shared::kClusterVertices == 3 * hearth::formats::kClusterMaxTriangles);

@@ -20,10 +20,17 @@ struct EmitPush
     uint32_t slot_capacity;
 };
 
+struct CullPush
+{
+    uint32_t item_count;
+    uint32_t phase;
+};
+
 struct ScanTotalsPush
 {
     uint32_t block_count;
     uint32_t slot_capacity;
+    uint32_t phase;
 };
 
 struct EmitDrawsPush
@@ -41,16 +48,15 @@ uint32_t groupsOf(uint32_t count, uint32_t group_size)
 
 template <typename Push>
 void dispatch(const Device& device, VkCommandBuffer commands, const ComputePipeline& pipeline,
-              VkDescriptorSet set, uint32_t groups, const Push* push)
+              std::initializer_list<VkDescriptorSet> sets, uint32_t groups, const Push& push)
 {
     if (groups == 0)
         return;
     device.vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.pipeline.get());
-    device.vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.layout.get(), 0, 1,
-                                      &set, 0, nullptr);
-    if (push != nullptr)
-        device.vk.vkCmdPushConstants(commands, pipeline.layout.get(), VK_SHADER_STAGE_COMPUTE_BIT, 0,
-                                     sizeof(Push), push);
+    device.vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.layout.get(), 0,
+                                      static_cast<uint32_t>(sets.size()), sets.begin(), 0, nullptr);
+    device.vk.vkCmdPushConstants(commands, pipeline.layout.get(), VK_SHADER_STAGE_COMPUTE_BIT, 0,
+                                 sizeof(Push), &push);
     device.vk.vkCmdDispatch(commands, std::min(groups, shared::kDispatchRow),
                             groupsOf(groups, shared::kDispatchRow), 1);
 }
@@ -61,9 +67,11 @@ void computeBarrier(const Device& device, VkCommandBuffer commands)
             VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT);
 }
 
-/// The frame's constants and cleared counters, behind everything that still reads those of the frame before.
-void recordPrologue(const Device& device, VkCommandBuffer commands, const Scene& scene,
-                    const shared::FrameView& view)
+} // namespace
+
+/// Cleared counters as well, behind everything that still reads those of the frame before.
+void CullPass::recordConstants(const Device& device, VkCommandBuffer commands, const Scene& scene,
+                               const FrameTargets& targets, const shared::FrameView& view) const
 {
     barrier(device, commands,
             VK_PIPELINE_STAGE_TRANSFER_BIT | VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT |
@@ -72,6 +80,8 @@ void recordPrologue(const Device& device, VkCommandBuffer commands, const Scene&
             VK_ACCESS_SHADER_WRITE_BIT, VK_PIPELINE_STAGE_TRANSFER_BIT | VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
             VK_ACCESS_TRANSFER_WRITE_BIT | VK_ACCESS_SHADER_WRITE_BIT);
     device.vk.vkCmdUpdateBuffer(commands, scene.buffers.frame.handle.get(), 0, sizeof(view), &view);
+    const shared::OcclusionView views[] = {targets.pyramidView(), shared::makeOcclusionView(view)};
+    device.vk.vkCmdUpdateBuffer(commands, targets.occlusionViews().handle.get(), 0, sizeof(views), views);
     device.vk.vkCmdFillBuffer(commands, scene.buffers.material_draws.handle.get(), 0, VK_WHOLE_SIZE, 0);
     barrier(device, commands, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT,
             VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_VERTEX_SHADER_BIT |
@@ -79,18 +89,17 @@ void recordPrologue(const Device& device, VkCommandBuffer commands, const Scene&
             VK_ACCESS_UNIFORM_READ_BIT | VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT);
 }
 
-} // namespace
-
-Result<CullPass> CullPass::create(const Device& device)
+Result<CullPass> CullPass::create(const Device& device, const DrawLayouts& layouts)
 {
     CullPass pass;
     HEARTH_ASSIGN_OR_RETURN(pass.instances_,
                             createComputePipeline(device, shaders::cull_instances_comp,
-                                                  {kUniform, kStorage, kStorage, kStorage, kStorage}, 0));
+                                                  {kUniform, kStorage, kStorage, kStorage, kStorage},
+                                                  sizeof(uint32_t), layouts.occlusion.get()));
     HEARTH_ASSIGN_OR_RETURN(pass.clusters_, createComputePipeline(device, shaders::cull_clusters_comp,
                                                                   {kUniform, kStorage, kStorage, kStorage,
                                                                    kStorage, kStorage, kStorage, kStorage},
-                                                                  sizeof(uint32_t)));
+                                                                  sizeof(CullPush), layouts.occlusion.get()));
     HEARTH_ASSIGN_OR_RETURN(pass.scan_blocks_, createComputePipeline(device, shaders::scan_blocks_comp,
                                                                      {kStorage, kStorage}, sizeof(uint32_t)));
     HEARTH_ASSIGN_OR_RETURN(pass.scan_totals_,
@@ -137,28 +146,32 @@ Status CullPass::createSets(const Device& device, Scene& scene) const
 }
 
 void CullPass::record(const Device& device, VkCommandBuffer commands, const Scene& scene,
-                      const shared::FrameView& view) const
+                      const FrameTargets& targets, uint32_t phase) const
 {
     const CullSets& sets = scene.cull_sets;
     const uint32_t items = scene.item_count;
     const uint32_t blocks = blockCount(scene);
     const auto bins = static_cast<uint32_t>(scene.bins.size());
 
-    recordPrologue(device, commands, scene, view);
-    dispatch<void*>(device, commands, instances_, sets.instances, groupsOf(scene.instance_count, 64),
-                    nullptr);
+    // the draws of the early phase have read what the late one replaces
+    if (phase == shared::kPhaseLate)
+        barrier(device, commands, VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT | VK_PIPELINE_STAGE_VERTEX_SHADER_BIT,
+                0, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, 0);
+    dispatch(device, commands, instances_, {sets.instances, targets.occlusionSet()},
+             groupsOf(scene.instance_count, 64), phase);
     computeBarrier(device, commands);
-    dispatch(device, commands, clusters_, sets.clusters, items, &items);
+    dispatch(device, commands, clusters_, {sets.clusters, targets.occlusionSet()}, items,
+             CullPush{items, phase});
     computeBarrier(device, commands);
-    dispatch(device, commands, scan_blocks_, sets.scan_blocks, blocks, &items);
+    dispatch(device, commands, scan_blocks_, {sets.scan_blocks}, blocks, items);
     computeBarrier(device, commands);
-    const ScanTotalsPush totals{blocks, scene.slot_capacity};
-    dispatch(device, commands, scan_totals_, sets.scan_totals, 1, &totals);
+    dispatch(device, commands, scan_totals_, {sets.scan_totals}, 1,
+             ScanTotalsPush{blocks, scene.slot_capacity, phase});
     computeBarrier(device, commands);
-    const EmitPush emit{items, scene.slot_capacity};
-    dispatch(device, commands, emit_visible_, sets.emit_visible, items, &emit);
-    const EmitDrawsPush draws{bins, items, blocks, scene.slot_capacity};
-    dispatch(device, commands, emit_draws_, sets.emit_draws, groupsOf(bins, 64), &draws);
+    dispatch(device, commands, emit_visible_, {sets.emit_visible}, items,
+             EmitPush{items, scene.slot_capacity});
+    dispatch(device, commands, emit_draws_, {sets.emit_draws}, groupsOf(bins, 64),
+             EmitDrawsPush{bins, items, blocks, scene.slot_capacity});
     barrier(device, commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
             VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT | VK_PIPELINE_STAGE_VERTEX_SHADER_BIT |
                 VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,

@@ -1,8 +1,10 @@
 // Finds what a frame draws: instances in the frustum, clusters of the cut that may be seen, packed into the visible
-// list in a fixed order, and one indirect draw for each bin. See README.md, "Culling".
+// list in a fixed order, and one indirect draw for each bin. With occlusion culling in two phases. See README.md,
+// "Culling".
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
+#include "runtime/gpu/frame_targets.h"
 #include "runtime/gpu/scene.h"
 
 namespace hearth::gpu
@@ -11,15 +13,20 @@ namespace hearth::gpu
 class CullPass
 {
 public:
-    static Result<CullPass> create(const Device& device);
+    static Result<CullPass> create(const Device& device, const DrawLayouts& layouts);
 
     /// The descriptor sets of this pass for a scene.
     Status createSets(const Device& device, Scene& scene) const;
 
-    /// Outside a render pass. Waits for earlier frames of the scene on the same queue; what it writes is visible to
-    /// indirect draws, vertex and fragment shaders, and transfers that follow. Clobbers the compute state.
+    /// The frame's constants. Outside a render pass; waits for earlier frames of the scene on the same queue.
+    void recordConstants(const Device& device, VkCommandBuffer commands, const Scene& scene,
+                         const FrameTargets& targets, const shared::FrameView& view) const;
+
+    /// kPhaseWhole; or kPhaseEarly, and when its clusters are drawn and the pyramid is made, kPhaseLate, which replaces
+    /// the draws and adds to the list. Outside a render pass; what it writes is visible to indirect draws, vertex and
+    /// fragment shaders, and transfers that follow. Clobbers the compute state.
     void record(const Device& device, VkCommandBuffer commands, const Scene& scene,
-                const shared::FrameView& view) const;
+                const FrameTargets& targets, uint32_t phase) const;
 
 private:
     ComputePipeline instances_;

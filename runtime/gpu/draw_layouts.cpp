@@ -20,10 +20,15 @@ Result<DrawLayouts> DrawLayouts::create(const Device& device)
 
     const SetBinding attachments[] = {{VK_DESCRIPTOR_TYPE_INPUT_ATTACHMENT, VK_SHADER_STAGE_FRAGMENT_BIT}};
 
+    const SetBinding occlusion[] = {{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, VK_SHADER_STAGE_COMPUTE_BIT},
+                                    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_SHADER_STAGE_COMPUTE_BIT},
+                                    {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_SHADER_STAGE_COMPUTE_BIT}};
+
     DrawLayouts layouts;
     HEARTH_ASSIGN_OR_RETURN(layouts.scene, createSetLayout(device, scene));
     HEARTH_ASSIGN_OR_RETURN(layouts.material, createSetLayout(device, material));
     HEARTH_ASSIGN_OR_RETURN(layouts.attachments, createSetLayout(device, attachments));
+    HEARTH_ASSIGN_OR_RETURN(layouts.occlusion, createSetLayout(device, occlusion));
     const VkDescriptorSetLayout sets[] = {layouts.scene.get(), layouts.material.get(),
                                           layouts.attachments.get()};
     HEARTH_ASSIGN_OR_RETURN(layouts.pipeline,

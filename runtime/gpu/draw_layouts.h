@@ -21,6 +21,14 @@ enum SceneBinding : uint32_t
     kSceneBindingCount = 10,
 };
 
+/// Bindings of the set that the culling passes have as set 1 and the pyramid pass as set 0.
+enum OcclusionBinding : uint32_t
+{
+    kOcclusionViews = 0,
+    kOcclusionPyramid = 1,
+    kOcclusionDepth = 2,
+};
+
 /// Push constants of all drawing pipelines; the visibility pass reads only the bin.
 struct DrawPush
 {
@@ -41,6 +49,7 @@ struct DrawLayouts
     UniqueSetLayout scene;
     UniqueSetLayout material;
     UniqueSetLayout attachments;
+    UniqueSetLayout occlusion;     ///< of the culling and pyramid passes, bindings OcclusionBinding
     UniquePipelineLayout pipeline; ///< of all drawing pipelines
 
     static Result<DrawLayouts> create(const Device& device);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/gpu/frame_targets.h"
 
+#include "formats/shared/occlusion.h"
+
 #include <string>
 
 namespace hearth::gpu
@@ -9,114 +11,18 @@ namespace hearth::gpu
 namespace
 {
 
-enum Attachment : uint32_t
+Result<UniqueSampler> createTexelSampler(const Device& device)
 {
-    kVisibility,
-    kDepth,
-    kMaterialDepth,
-    kColor,
-    kAttachmentCount,
-};
-
-constexpr VkFormat kFormats[kAttachmentCount] = {kVisibilityFormat, VK_FORMAT_D32_SFLOAT, VK_FORMAT_D16_UNORM,
-                                                 kColorFormat};
-
-VkAttachmentDescription attachment(Attachment which, VkAttachmentLoadOp load, VkAttachmentStoreOp store,
-                                   VkImageLayout final_layout)
-{
-    VkAttachmentDescription description{};
-    description.format = kFormats[which];
-    description.samples = VK_SAMPLE_COUNT_1_BIT;
-    description.loadOp = load;
-    description.storeOp = store;
-    description.stencilLoadOp = VK_ATTACHMENT_LOAD_OP_DONT_CARE;
-    description.stencilStoreOp = VK_ATTACHMENT_STORE_OP_DONT_CARE;
-    description.initialLayout = VK_IMAGE_LAYOUT_UNDEFINED;
-    description.finalLayout = final_layout;
-    return description;
+    VkSamplerCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO;
+    info.addressModeU = info.addressModeV = info.addressModeW = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
+    VkSampler sampler;
+    HEARTH_TRY_VK(device.vk.vkCreateSampler(device.handle, &info, device.allocator, &sampler),
+                  "create a sampler");
+    return UniqueSampler(device, sampler);
 }
-
-constexpr VkPipelineStageFlags kDepthStages =
-    VK_PIPELINE_STAGE_EARLY_FRAGMENT_TESTS_BIT | VK_PIPELINE_STAGE_LATE_FRAGMENT_TESTS_BIT;
-constexpr VkAccessFlags kDepthAccess =
-    VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_READ_BIT | VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT;
-
-// A frame may follow another that still draws to, or is copied from, the same images.
-constexpr VkPipelineStageFlags kFrameBefore =
-    VK_PIPELINE_STAGE_TRANSFER_BIT | VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT | kDepthStages;
-constexpr VkAccessFlags kWrittenBefore =
-    VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT | VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT;
-
-constexpr VkSubpassDependency kDependencies[] = {
-    {VK_SUBPASS_EXTERNAL, kSubpassVisibility, kFrameBefore,
-     VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT | kDepthStages, kWrittenBefore,
-     VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT | kDepthAccess, 0},
-    {VK_SUBPASS_EXTERNAL, kSubpassMaterialDepth, kFrameBefore, kDepthStages, kWrittenBefore, kDepthAccess, 0},
-    {VK_SUBPASS_EXTERNAL, kSubpassShading, kFrameBefore, VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT,
-     kWrittenBefore, VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT, 0},
-    {kSubpassVisibility, kSubpassMaterialDepth, VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT,
-     VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT, VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT,
-     VK_ACCESS_INPUT_ATTACHMENT_READ_BIT, VK_DEPENDENCY_BY_REGION_BIT},
-    {kSubpassVisibility, kSubpassShading, VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT,
-     VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT, VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT,
-     VK_ACCESS_INPUT_ATTACHMENT_READ_BIT, VK_DEPENDENCY_BY_REGION_BIT},
-    {kSubpassMaterialDepth, kSubpassShading, kDepthStages, kDepthStages,
-     VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT, VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_READ_BIT,
-     VK_DEPENDENCY_BY_REGION_BIT},
-    {kSubpassShading, VK_SUBPASS_EXTERNAL,
-     VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT | VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT,
-     VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT, VK_ACCESS_TRANSFER_READ_BIT, 0},
-};
 
 } // namespace
-
-Result<UniqueRenderPass> createFrameRenderPass(const Device& device)
-{
-    // every pixel of the material depth and of the colour is written: nothing to load or clear
-    const VkAttachmentDescription attachments[kAttachmentCount] = {
-        attachment(kVisibility, VK_ATTACHMENT_LOAD_OP_CLEAR, VK_ATTACHMENT_STORE_OP_STORE,
-                   VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL),
-        attachment(kDepth, VK_ATTACHMENT_LOAD_OP_CLEAR, VK_ATTACHMENT_STORE_OP_DONT_CARE,
-                   VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL),
-        attachment(kMaterialDepth, VK_ATTACHMENT_LOAD_OP_DONT_CARE, VK_ATTACHMENT_STORE_OP_DONT_CARE,
-                   VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL),
-        attachment(kColor, VK_ATTACHMENT_LOAD_OP_DONT_CARE, VK_ATTACHMENT_STORE_OP_STORE,
-                   VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL)};
-
-    const VkAttachmentReference visibility_out{kVisibility, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL};
-    const VkAttachmentReference visibility_in{kVisibility, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
-    const VkAttachmentReference depth{kDepth, VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL};
-    const VkAttachmentReference material_out{kMaterialDepth,
-                                             VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL};
-    const VkAttachmentReference material_in{kMaterialDepth, VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL};
-    const VkAttachmentReference color{kColor, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL};
-
-    VkSubpassDescription subpasses[3] = {};
-    subpasses[kSubpassVisibility].colorAttachmentCount = 1;
-    subpasses[kSubpassVisibility].pColorAttachments = &visibility_out;
-    subpasses[kSubpassVisibility].pDepthStencilAttachment = &depth;
-    subpasses[kSubpassMaterialDepth].inputAttachmentCount = 1;
-    subpasses[kSubpassMaterialDepth].pInputAttachments = &visibility_in;
-    subpasses[kSubpassMaterialDepth].pDepthStencilAttachment = &material_out;
-    subpasses[kSubpassShading].inputAttachmentCount = 1;
-    subpasses[kSubpassShading].pInputAttachments = &visibility_in;
-    subpasses[kSubpassShading].colorAttachmentCount = 1;
-    subpasses[kSubpassShading].pColorAttachments = &color;
-    subpasses[kSubpassShading].pDepthStencilAttachment = &material_in;
-
-    VkRenderPassCreateInfo info{};
-    info.sType = VK_STRUCTURE_TYPE_RENDER_PASS_CREATE_INFO;
-    info.attachmentCount = kAttachmentCount;
-    info.pAttachments = attachments;
-    info.subpassCount = 3;
-    info.pSubpasses = subpasses;
-    info.dependencyCount = static_cast<uint32_t>(std::size(kDependencies));
-    info.pDependencies = kDependencies;
-    VkRenderPass pass;
-    HEARTH_TRY_VK(device.vk.vkCreateRenderPass(device.handle, &info, device.allocator, &pass),
-                  "create a render pass");
-    return UniqueRenderPass(device, pass);
-}
 
 Result<FrameTargets> FrameTargets::create(const Device& device, VkRenderPass render_pass,
                                           const DrawLayouts& layouts, VkExtent2D extent)
@@ -132,19 +38,21 @@ Result<FrameTargets> FrameTargets::create(const Device& device, VkRenderPass ren
     constexpr VkImageUsageFlags kDepthUsage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT;
     FrameTargets t(device);
     HEARTH_ASSIGN_OR_RETURN(
-        t.visibility_, t.arena_.createImage({.format = kFormats[kVisibility],
+        t.visibility_, t.arena_.createImage({.format = kAttachmentFormats[kVisibility],
                                              .extent = extent,
                                              .usage = kColorUsage | VK_IMAGE_USAGE_INPUT_ATTACHMENT_BIT}));
-    HEARTH_ASSIGN_OR_RETURN(t.depth_, t.arena_.createImage({.format = kFormats[kDepth],
+    HEARTH_ASSIGN_OR_RETURN(t.depth_, t.arena_.createImage({.format = kAttachmentFormats[kDepth],
                                                             .extent = extent,
-                                                            .usage = kDepthUsage,
+                                                            .usage = kDepthUsage | VK_IMAGE_USAGE_SAMPLED_BIT,
                                                             .aspect = VK_IMAGE_ASPECT_DEPTH_BIT}));
-    HEARTH_ASSIGN_OR_RETURN(t.material_depth_, t.arena_.createImage({.format = kFormats[kMaterialDepth],
-                                                                     .extent = extent,
-                                                                     .usage = kDepthUsage,
-                                                                     .aspect = VK_IMAGE_ASPECT_DEPTH_BIT}));
+    HEARTH_ASSIGN_OR_RETURN(t.material_depth_,
+                            t.arena_.createImage({.format = kAttachmentFormats[kMaterialDepth],
+                                                  .extent = extent,
+                                                  .usage = kDepthUsage,
+                                                  .aspect = VK_IMAGE_ASPECT_DEPTH_BIT}));
     HEARTH_ASSIGN_OR_RETURN(
-        t.color_, t.arena_.createImage({.format = kFormats[kColor], .extent = extent, .usage = kColorUsage}));
+        t.color_,
+        t.arena_.createImage({.format = kAttachmentFormats[kColor], .extent = extent, .usage = kColorUsage}));
 
     const VkImageView views[kAttachmentCount] = {t.visibility_.view.get(), t.depth_.view.get(),
                                                  t.material_depth_.view.get(), t.color_.view.get()};
@@ -161,11 +69,39 @@ Result<FrameTargets> FrameTargets::create(const Device& device, VkRenderPass ren
                   "create a framebuffer");
     t.framebuffer_ = UniqueFramebuffer(device, framebuffer);
 
-    const DescriptorPoolSizes sizes{.inputs = 1};
-    HEARTH_ASSIGN_OR_RETURN(t.pool_, createDescriptorPool(device, 1, sizes));
+    HEARTH_TRY(t.createPyramid(device));
+    const DescriptorPoolSizes sizes{.uniforms = 1, .storages = 1, .textures = 1, .inputs = 1};
+    HEARTH_ASSIGN_OR_RETURN(t.pool_, createDescriptorPool(device, 2, sizes));
     HEARTH_ASSIGN_OR_RETURN(t.set_, allocateSet(device, t.pool_.get(), layouts.attachments.get()));
     DescriptorWriter(t.set_).input(0, t.visibility_.view.get()).write(device);
+    HEARTH_ASSIGN_OR_RETURN(t.occlusion_set_, allocateSet(device, t.pool_.get(), layouts.occlusion.get()));
+    DescriptorWriter(t.occlusion_set_)
+        .uniform(kOcclusionViews, t.occlusion_views_)
+        .storage(kOcclusionPyramid, t.pyramid_)
+        .texture(kOcclusionDepth, t.depth_.view.get(), t.texel_sampler_.get())
+        .write(device);
     return t;
+}
+
+Status FrameTargets::createPyramid(const Device& device)
+{
+    const auto [width, height] = extent();
+    const uint64_t texels = shared::pyramidOffset(width, height, shared::pyramidLevels(width, height) + 1);
+    if (texels * sizeof(float) > device.limits.maxStorageBufferRange)
+        return Error{Issue::device_limit, "", "",
+                     "the device cannot bind the depth pyramid of " + std::to_string(width) + "x" +
+                         std::to_string(height) + " pixels"};
+    HEARTH_ASSIGN_OR_RETURN(pyramid_, arena_.createBuffer(texels * sizeof(float),
+                                                          VK_BUFFER_USAGE_STORAGE_BUFFER_BIT |
+                                                              VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
+                                                              VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+                                                          MemoryKind::device));
+    HEARTH_ASSIGN_OR_RETURN(occlusion_views_, arena_.createBuffer(2 * sizeof(shared::OcclusionView),
+                                                                  VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT |
+                                                                      VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+                                                                  MemoryKind::device));
+    HEARTH_ASSIGN_OR_RETURN(texel_sampler_, createTexelSampler(device));
+    return success();
 }
 
 } // namespace hearth::gpu

@@ -1,31 +1,23 @@
-// The images of a frame and the one render pass over them: visibility, material depth, shading as three subpasses, so
-// that on a tile-based GPU the visibility buffer and both depth buffers need not leave the tile.
+// The images of a frame, and the depth pyramid that one frame leaves to the next.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
+#include "formats/shared/records.h"
 #include "runtime/gpu/draw_layouts.h"
+#include "runtime/gpu/frame_passes.h"
 
 namespace hearth::gpu
 {
 
-enum Subpass : uint32_t
-{
-    kSubpassVisibility = 0,
-    kSubpassMaterialDepth = 1,
-    kSubpassShading = 2,
-};
-
-inline constexpr VkFormat kVisibilityFormat = VK_FORMAT_R32_UINT;
-inline constexpr VkFormat kColorFormat = VK_FORMAT_R8G8B8A8_SRGB;
-
-Result<UniqueRenderPass> createFrameRenderPass(const Device& device);
-
 /// After a frame, `visibility` and `color` are in VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, visible to transfers.
 /// Before a frame their content and layout do not matter.
+///
+/// The pyramid is a guess: whatever it holds, the picture is the same. The nearer to the truth, the less is drawn.
 class FrameTargets
 {
 public:
-    /// width and height 1 .. the device's limits. errors: device_limit, device_failed.
+    /// width and height 1 .. the device's limits; `render_pass` is one of FramePasses. errors: device_limit,
+    /// device_failed.
     static Result<FrameTargets> create(const Device& device, VkRenderPass render_pass,
                                        const DrawLayouts& layouts, VkExtent2D extent);
 
@@ -36,8 +28,18 @@ public:
     VkDescriptorSet attachments() const { return set_; }
     VkDeviceSize allocatedBytes() const { return arena_.allocatedBytes(); }
 
+    const Buffer& pyramid() const { return pyramid_; } ///< floats, as formats/shared/occlusion.h says
+    const Buffer& occlusionViews() const { return occlusion_views_; }
+    VkDescriptorSet occlusionSet() const { return occlusion_set_; }
+
+    /// From where the pyramid was drawn: the last frame with occlusion culling. level_count 0: there was none.
+    const shared::OcclusionView& pyramidView() const { return pyramid_view_; }
+    /// To forget it ({}), or to say that what has been written there was seen from elsewhere, at the same size.
+    void setPyramidView(const shared::OcclusionView& view) { pyramid_view_ = view; }
+
 private:
     explicit FrameTargets(const Device& device) : arena_(device) {}
+    Status createPyramid(const Device& device);
 
     MemoryArena arena_;
     Image visibility_;
@@ -45,8 +47,13 @@ private:
     Image material_depth_;
     Image color_;
     UniqueFramebuffer framebuffer_;
+    Buffer pyramid_;
+    Buffer occlusion_views_; ///< two OcclusionView
+    UniqueSampler texel_sampler_;
     UniqueDescriptorPool pool_;
     VkDescriptorSet set_ = VK_NULL_HANDLE;
+    VkDescriptorSet occlusion_set_ = VK_NULL_HANDLE;
+    shared::OcclusionView pyramid_view_{};
 };
 
 } // namespace hearth::gpu

@@ -10,9 +10,6 @@ namespace hearth::gpu
 namespace
 {
 
-// few enough allocations for the smallest maxMemoryAllocationCount (4096), small enough not to waste a phone's memory
-constexpr VkDeviceSize kBlockBytes = VkDeviceSize{16} << 20;
-
 constexpr VkMemoryPropertyFlags kMapped =
     VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
 
@@ -66,7 +63,7 @@ Result<MemoryArena::Piece> MemoryArena::allocate(const VkMemoryRequirements& nee
         Block fresh;
         fresh.type = *type;
         fresh.images = image;
-        fresh.size = std::max(kBlockBytes, needs.size);
+        fresh.size = std::max(block_bytes_, needs.size);
         const VkMemoryAllocateInfo info{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, nullptr, fresh.size, *type};
         VkDeviceMemory memory;
         HEARTH_TRY_VK(device_->vk.vkAllocateMemory(device_->handle, &info, device_->allocator, &memory),

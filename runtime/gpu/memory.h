@@ -48,7 +48,13 @@ struct ImageDescription
 class MemoryArena
 {
 public:
-    explicit MemoryArena(const Device& device) : device_(&device) {}
+    /// block_bytes  what is asked of the device at once: few enough allocations for the smallest
+    ///              maxMemoryAllocationCount (4096), small enough not to waste a phone's memory; 0 for an arena that
+    ///              holds one thing
+    explicit MemoryArena(const Device& device, VkDeviceSize block_bytes = VkDeviceSize{16} << 20)
+        : device_(&device), block_bytes_(block_bytes)
+    {
+    }
 
     /// A buffer of at least one byte. errors: device_failed.
     Result<Buffer> createBuffer(VkDeviceSize size, VkBufferUsageFlags usage, MemoryKind kind);
@@ -76,6 +82,7 @@ private:
     Result<Piece> allocate(const VkMemoryRequirements& needs, MemoryKind kind, bool image);
 
     const Device* device_;
+    VkDeviceSize block_bytes_;
     std::vector<Block> blocks_;
 };
 

@@ -57,17 +57,15 @@ Result<UniquePipelineLayout> createPipelineLayout(const Device& device,
     return UniquePipelineLayout(device, layout);
 }
 
-Result<ComputePipeline> createComputePipeline(const Device& device, std::span<const uint32_t> spirv,
-                                              std::initializer_list<VkDescriptorType> types,
-                                              uint32_t push_bytes)
+namespace
 {
-    std::vector<SetBinding> bindings;
-    for (const VkDescriptorType type : types)
-        bindings.push_back({type, VK_SHADER_STAGE_COMPUTE_BIT});
-    ComputePipeline result;
-    HEARTH_ASSIGN_OR_RETURN(result.set_layout, createSetLayout(device, bindings));
-    HEARTH_ASSIGN_OR_RETURN(result.layout, createPipelineLayout(device, {result.set_layout.address(), 1},
-                                                                VK_SHADER_STAGE_COMPUTE_BIT, push_bytes));
+
+Status finishComputePipeline(const Device& device, std::span<const uint32_t> spirv,
+                             std::span<const VkDescriptorSetLayout> sets, uint32_t push_bytes,
+                             ComputePipeline& result)
+{
+    HEARTH_ASSIGN_OR_RETURN(result.layout,
+                            createPipelineLayout(device, sets, VK_SHADER_STAGE_COMPUTE_BIT, push_bytes));
     HEARTH_ASSIGN_OR_RETURN(const UniqueShaderModule module, createModule(device, spirv));
 
     VkComputePipelineCreateInfo info{};
@@ -79,6 +77,31 @@ Result<ComputePipeline> createComputePipeline(const Device& device, std::span<co
                                                      device.allocator, &pipeline),
                   "create a compute pipeline");
     result.pipeline = UniquePipeline(device, pipeline);
+    return success();
+}
+
+} // namespace
+
+Result<ComputePipeline> createComputePipeline(const Device& device, std::span<const uint32_t> spirv,
+                                              std::initializer_list<VkDescriptorType> types,
+                                              uint32_t push_bytes, VkDescriptorSetLayout shared_set)
+{
+    std::vector<SetBinding> bindings;
+    for (const VkDescriptorType type : types)
+        bindings.push_back({type, VK_SHADER_STAGE_COMPUTE_BIT});
+    ComputePipeline result;
+    HEARTH_ASSIGN_OR_RETURN(result.set_layout, createSetLayout(device, bindings));
+    const VkDescriptorSetLayout sets[] = {result.set_layout.get(), shared_set};
+    const size_t set_count = shared_set == VK_NULL_HANDLE ? 1 : 2;
+    HEARTH_TRY(finishComputePipeline(device, spirv, std::span(sets).first(set_count), push_bytes, result));
+    return result;
+}
+
+Result<ComputePipeline> createComputePipeline(const Device& device, std::span<const uint32_t> spirv,
+                                              uint32_t push_bytes, VkDescriptorSetLayout shared_set)
+{
+    ComputePipeline result;
+    HEARTH_TRY(finishComputePipeline(device, spirv, {&shared_set, 1}, push_bytes, result));
     return result;
 }
 

@@ -24,7 +24,7 @@ Result<UniquePipelineLayout> createPipelineLayout(const Device& device,
                                                   std::span<const VkDescriptorSetLayout> sets,
                                                   VkShaderStageFlags push_stages, uint32_t push_bytes);
 
-/// A compute shader with one descriptor set: binding i is of types[i].
+/// A compute shader with a descriptor set of its own: binding i is of types[i]. Set 1 is one that pipelines share.
 struct ComputePipeline
 {
     UniqueSetLayout set_layout;
@@ -33,7 +33,11 @@ struct ComputePipeline
 };
 Result<ComputePipeline> createComputePipeline(const Device& device, std::span<const uint32_t> spirv,
                                               std::initializer_list<VkDescriptorType> types,
-                                              uint32_t push_bytes);
+                                              uint32_t push_bytes,
+                                              VkDescriptorSetLayout shared_set = VK_NULL_HANDLE);
+/// One with no set but a shared one, which is its set 0; `set_layout` stays empty.
+Result<ComputePipeline> createComputePipeline(const Device& device, std::span<const uint32_t> spirv,
+                                              uint32_t push_bytes, VkDescriptorSetLayout shared_set);
 
 struct GraphicsDescription
 {

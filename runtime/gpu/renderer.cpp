@@ -21,19 +21,19 @@ Result<std::unique_ptr<Renderer>> Renderer::create(const DeviceDescription& desc
     Renderer& r = *renderer;
     HEARTH_ASSIGN_OR_RETURN(r.device_, makeDevice(description));
     HEARTH_ASSIGN_OR_RETURN(r.layouts_, DrawLayouts::create(r.device_));
-    HEARTH_ASSIGN_OR_RETURN(r.render_pass_, createFrameRenderPass(r.device_));
-    HEARTH_ASSIGN_OR_RETURN(r.cull_, CullPass::create(r.device_));
-    HEARTH_ASSIGN_OR_RETURN(r.visibility_,
-                            VisibilityPass::create(r.device_, r.layouts_, r.render_pass_.get()));
-    HEARTH_ASSIGN_OR_RETURN(r.material_depth_,
-                            MaterialDepthPass::create(r.device_, r.layouts_, r.render_pass_.get()));
-    HEARTH_ASSIGN_OR_RETURN(r.shading_, ShadingPass::create(r.device_, r.layouts_, r.render_pass_.get()));
+    HEARTH_ASSIGN_OR_RETURN(r.passes_, FramePasses::create(r.device_));
+    HEARTH_ASSIGN_OR_RETURN(r.cull_, CullPass::create(r.device_, r.layouts_));
+    HEARTH_ASSIGN_OR_RETURN(r.pyramid_, PyramidPass::create(r.device_, r.layouts_));
+    const VkRenderPass render_pass = r.passes_.whole.get();
+    HEARTH_ASSIGN_OR_RETURN(r.visibility_, VisibilityPass::create(r.device_, r.layouts_, render_pass));
+    HEARTH_ASSIGN_OR_RETURN(r.material_depth_, MaterialDepthPass::create(r.device_, r.layouts_, render_pass));
+    HEARTH_ASSIGN_OR_RETURN(r.shading_, ShadingPass::create(r.device_, r.layouts_, render_pass));
     return renderer;
 }
 
 Result<FrameTargets> Renderer::createTargets(VkExtent2D extent) const
 {
-    return FrameTargets::create(device_, render_pass_.get(), layouts_, extent);
+    return FrameTargets::create(device_, passes_.whole.get(), layouts_, extent);
 }
 
 Result<std::unique_ptr<Scene>> Renderer::upload(const formats::PackView& pack, VkCommandBuffer commands,
@@ -49,28 +49,43 @@ Result<std::unique_ptr<Scene>> Renderer::upload(const formats::PackView& pack, V
     return scene;
 }
 
-void Renderer::record(VkCommandBuffer commands, const Scene& scene, const FrameTargets& targets,
+void Renderer::record(VkCommandBuffer commands, const Scene& scene, FrameTargets& targets,
                       const FrameInput& input) const
 {
     HEARTH_ASSERT(input.view.instance_count == scene.instance_count);
     if (input.timestamps != VK_NULL_HANDLE)
         device_.vk.vkCmdResetQueryPool(commands, input.timestamps, 0, kTimestampCount);
-    writeTimestamp(device_, commands, input.timestamps, kTimestampBegin);
-    cull_.record(device_, commands, scene, input.view);
-    writeTimestamp(device_, commands, input.timestamps, kTimestampCull);
-    recordDrawing(commands, scene, targets, input);
+    const auto stamp = [&](FrameTimestamp which)
+    { writeTimestamp(device_, commands, input.timestamps, which); };
+    stamp(kTimestampBegin);
+    cull_.recordConstants(device_, commands, scene, targets, input.view);
+    const bool in_phases = (input.view.flags & shared::kCullOcclusion) != 0;
+    cull_.record(device_, commands, scene, targets, in_phases ? shared::kPhaseEarly : shared::kPhaseWhole);
+    stamp(kTimestampCull);
+    if (in_phases)
+        recordEarly(commands, scene, targets);
+    stamp(kTimestampEarlyVisibility);
+    if (in_phases)
+        pyramid_.record(device_, commands, targets);
+    stamp(kTimestampPyramid);
+    if (in_phases)
+        cull_.record(device_, commands, scene, targets, shared::kPhaseLate);
+    stamp(kTimestampLateCull);
+    recordPicture(commands, scene, targets, input, in_phases ? passes_.late.get() : passes_.whole.get());
+    if (in_phases)
+        targets.setPyramidView(shared::makeOcclusionView(input.view));
 }
 
-void Renderer::recordDrawing(VkCommandBuffer commands, const Scene& scene, const FrameTargets& targets,
-                             const FrameInput& input) const
+void Renderer::beginPass(VkCommandBuffer commands, const FrameTargets& targets,
+                         VkRenderPass render_pass) const
 {
     const VkRect2D area{{0, 0}, targets.extent()};
     VkClearValue clear[2] = {};
-    clear[0].color.uint32[0] = shared::kNothingVisible;
-    clear[1].depthStencil.depth = 0; // infinitely far away
+    clear[kVisibility].color.uint32[0] = shared::kNothingVisible;
+    clear[kDepth].depthStencil.depth = 0; // infinitely far away
     VkRenderPassBeginInfo begin{};
     begin.sType = VK_STRUCTURE_TYPE_RENDER_PASS_BEGIN_INFO;
-    begin.renderPass = render_pass_.get();
+    begin.renderPass = render_pass;
     begin.framebuffer = targets.framebuffer();
     begin.renderArea = area;
     begin.clearValueCount = 2;
@@ -80,7 +95,22 @@ void Renderer::recordDrawing(VkCommandBuffer commands, const Scene& scene, const
         0, 0, static_cast<float>(area.extent.width), static_cast<float>(area.extent.height), 0, 1};
     device_.vk.vkCmdSetViewport(commands, 0, 1, &viewport);
     device_.vk.vkCmdSetScissor(commands, 0, 1, &area);
+}
 
+void Renderer::recordEarly(VkCommandBuffer commands, const Scene& scene, const FrameTargets& targets) const
+{
+    beginPass(commands, targets, passes_.early.get());
+    visibility_.record(device_, commands, layouts_, scene);
+    // the other two subpasses are there to be compatible, and store nothing
+    device_.vk.vkCmdNextSubpass(commands, VK_SUBPASS_CONTENTS_INLINE);
+    device_.vk.vkCmdNextSubpass(commands, VK_SUBPASS_CONTENTS_INLINE);
+    device_.vk.vkCmdEndRenderPass(commands);
+}
+
+void Renderer::recordPicture(VkCommandBuffer commands, const Scene& scene, const FrameTargets& targets,
+                             const FrameInput& input, VkRenderPass render_pass) const
+{
+    beginPass(commands, targets, render_pass);
     visibility_.record(device_, commands, layouts_, scene);
     writeTimestamp(device_, commands, input.timestamps, kTimestampVisibility);
     device_.vk.vkCmdNextSubpass(commands, VK_SUBPASS_CONTENTS_INLINE);

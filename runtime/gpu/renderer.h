@@ -5,6 +5,7 @@
 
 #include "runtime/gpu/cull_pass.h"
 #include "runtime/gpu/material_depth_pass.h"
+#include "runtime/gpu/pyramid_pass.h"
 #include "runtime/gpu/shading_pass.h"
 #include "runtime/gpu/visibility_pass.h"
 
@@ -18,6 +19,9 @@ enum FrameTimestamp : uint32_t
 {
     kTimestampBegin,
     kTimestampCull,
+    kTimestampEarlyVisibility, ///< this one and the two after it take no time without occlusion culling
+    kTimestampPyramid,
+    kTimestampLateCull,
     kTimestampVisibility,
     kTimestampMaterialDepth,
     kTimestampShading,
@@ -48,19 +52,23 @@ public:
                                           const SceneOptions& options = {});
 
     /// Record culling and drawing of one frame, outside a render pass. Clobbers compute and graphics state.
-    /// Afterwards targets.visibility() and targets.color() can be copied from.
-    void record(VkCommandBuffer commands, const Scene& scene, const FrameTargets& targets,
+    /// Afterwards targets.visibility() and targets.color() can be copied from. Frames with occlusion culling leave
+    /// their depth pyramid to the next one with these targets, which must be submitted after them.
+    void record(VkCommandBuffer commands, const Scene& scene, FrameTargets& targets,
                 const FrameInput& input) const;
 
 private:
     Renderer() = default;
-    void recordDrawing(VkCommandBuffer commands, const Scene& scene, const FrameTargets& targets,
-                       const FrameInput& input) const;
+    void recordEarly(VkCommandBuffer commands, const Scene& scene, const FrameTargets& targets) const;
+    void recordPicture(VkCommandBuffer commands, const Scene& scene, const FrameTargets& targets,
+                       const FrameInput& input, VkRenderPass render_pass) const;
+    void beginPass(VkCommandBuffer commands, const FrameTargets& targets, VkRenderPass render_pass) const;
 
     Device device_;
     DrawLayouts layouts_;
-    UniqueRenderPass render_pass_;
+    FramePasses passes_;
     CullPass cull_;
+    PyramidPass pyramid_;
     VisibilityPass visibility_;
     MaterialDepthPass material_depth_;
     ShadingPass shading_;

@@ -131,8 +131,8 @@ Status makeWorkList(const formats::PackView& pack, SceneLayout& layout)
     for (const formats::MeshRecord& mesh : pack.meshes())
         runs_of_mesh.push_back(orderMesh(pack, mesh, layout.order));
 
-    // a slot of the work list is 16 bytes, and every device can bind 128 MiB
-    constexpr uint64_t kMaxItems = uint64_t{8} << 20;
+    // an item and its result are 16 and 20 bytes, and every device can bind 128 MiB
+    constexpr uint64_t kMaxItems = uint64_t{6} << 20;
     uint64_t item_count = 0;
     std::map<BinKey, std::vector<shared::WorkItem>> items_of_bin;
     for (uint32_t i = 0; i < pack.instances().size(); ++i)

@@ -1,4 +1,5 @@
-// Exclusive prefix sum over the totals of all blocks, in one workgroup; the grand total stands behind the last.
+// Exclusive prefix sum over the totals of all blocks, in one workgroup; the grand total stands behind the last. The late
+// phase goes on behind what the early one drew.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #version 450
 #extension GL_GOOGLE_include_directive : require
@@ -8,16 +9,18 @@
 layout(local_size_x = 256) in;
 
 layout(set = 0, binding = 0, std430) buffer Totals { uint totals[]; };
-layout(set = 0, binding = 1, std430) writeonly buffer Counters { FrameCounters counters; };
+layout(set = 0, binding = 1, std430) buffer Counters { FrameCounters counters; };
 layout(push_constant) uniform Push
 {
     uint block_count;
     uint slot_capacity;
+    uint phase;
 };
 
 void main()
 {
-    uint sum = 0u;
+    uint early = phase == kPhaseLate ? counters.drawn_clusters : 0u;
+    uint sum = early;
     for (uint first = 0u; first < block_count; first += 256u)
     {
         uint i = first + gl_LocalInvocationIndex;
@@ -28,9 +31,10 @@ void main()
             totals[i] = sum + offset;
         sum += total;
     }
+    barrier(); // all have read the counters
     if (gl_LocalInvocationIndex == 0u)
     {
         totals[block_count] = sum;
-        counters = FrameCounters(sum, sum > slot_capacity ? sum - slot_capacity : 0u, 0u, 0u);
+        counters = FrameCounters(sum, sum > slot_capacity ? sum - slot_capacity : 0u, phase == kPhaseLate ? early : sum, 0u);
     }
 }

@@ -88,6 +88,7 @@ std::string formatReport(const FrameReport& report, const formats::PackView& pac
     add("materials", std::to_string(pack.materials().size()));
     add("source_triangles", std::to_string(source_triangles));
     add("drawn_clusters", std::to_string(report.drawn_clusters));
+    add("early_clusters", std::to_string(report.early_clusters));
     add("dropped_clusters", std::to_string(report.dropped_clusters));
     add("drawn_triangles", std::to_string(report.drawn_triangles));
     add("dropped_lights", std::to_string(report.dropped_lights));
@@ -96,6 +97,9 @@ std::string formatReport(const FrameReport& report, const formats::PackView& pac
     add("milliseconds",
         "{\"frame\":" + number(report.milliseconds[0]) +
             ",\"cull\":" + number(report.milliseconds[gpu::kTimestampCull]) +
+            ",\"early_visibility\":" + number(report.milliseconds[gpu::kTimestampEarlyVisibility]) +
+            ",\"pyramid\":" + number(report.milliseconds[gpu::kTimestampPyramid]) +
+            ",\"late_cull\":" + number(report.milliseconds[gpu::kTimestampLateCull]) +
             ",\"visibility\":" + number(report.milliseconds[gpu::kTimestampVisibility]) +
             ",\"material_depth\":" + number(report.milliseconds[gpu::kTimestampMaterialDepth]) +
             ",\"shading\":" + number(report.milliseconds[gpu::kTimestampShading]) + "}");

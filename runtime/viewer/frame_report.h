@@ -22,7 +22,7 @@ struct FrameReport
     std::string device;
     uint32_t width = 0, height = 0;
     float error_pixels = 0;
-    uint64_t drawn_clusters = 0, dropped_clusters = 0, drawn_triangles = 0;
+    uint64_t drawn_clusters = 0, early_clusters = 0, dropped_clusters = 0, drawn_triangles = 0;
     uint64_t scene_bytes = 0, target_bytes = 0;
     uint32_t dropped_lights = 0;
     std::array<double, gpu::kTimestampCount>

@@ -6,6 +6,7 @@
 #include "runtime/viewer/file_output.h"
 #include "runtime/viewer/frame_report.h"
 #include "runtime/viewer/options.h"
+#include "runtime/viewer/pyramid_start.h"
 
 #include <cstdio>
 #include <memory>
@@ -87,12 +88,17 @@ Status drawPack(const RenderOptions& options, const formats::PackView& pack, Vul
 
     const uint32_t scale = options.samples == 4 ? 2 : 1;
     const VkExtent2D extent{options.width * scale, options.height * scale};
-    HEARTH_ASSIGN_OR_RETURN(const gpu::FrameTargets targets, renderer->createTargets(extent));
+    HEARTH_ASSIGN_OR_RETURN(gpu::FrameTargets targets, renderer->createTargets(extent));
     gpu::FrameInput frame = makeFrame(options, camera, pack, extent);
     HEARTH_ASSIGN_OR_RETURN(frame.timestamps, host.createTimestamps(gpu::kTimestampCount));
     std::vector<std::vector<double>> times;
     for (uint32_t i = 0; i < options.frames; ++i)
     {
+        if (options.pyramid == PyramidStart::none)
+            targets.setPyramidView({});
+        if (options.pyramid == PyramidStart::noise)
+            HEARTH_TRY(writeNoise(host, renderer->device(), targets, shared::makeOcclusionView(frame.view),
+                                  options.noise_seed + i));
         HEARTH_TRY(host.run(
             [&](VkCommandBuffer commands)
             {
@@ -125,6 +131,7 @@ Status drawPack(const RenderOptions& options, const formats::PackView& pack, Vul
                                  .height = extent.height,
                                  .error_pixels = options.error_pixels,
                                  .drawn_clusters = list.slots.size(),
+                                 .early_clusters = list.counters.early_clusters,
                                  .dropped_clusters = list.counters.dropped_clusters,
                                  .drawn_triangles = countTriangles(pack, list),
                                  .scene_bytes = scene->arena.allocatedBytes(),

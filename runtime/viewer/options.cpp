@@ -4,6 +4,7 @@
 #include "formats/shared/shading.h"
 #include "runtime/viewer/camera_fit.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -35,7 +36,12 @@ const char* const kRenderHelp =
     "count;\n"
     "                          instance and cluster of each slot; for each pixel slot * 128 + triangle or "
     "-1\n"
-    "      --no-cull TESTS     leave out tests, of instances,frustum,cone (the picture stays the same)\n"
+    "      --cull TESTS        all (default), none, or some of instances,frustum,cone,occlusion; the "
+    "picture\n"
+    "                          stays the same\n"
+    "      --hzb START         the depths that occlusion culling starts a frame with: previous (default), "
+    "none,\n"
+    "                          or noise:SEED; the picture stays the same\n"
     "      --validate          run the Vulkan validation layer; any message is an error\n"
     "  -v, --verbose           say which device draws\n"
     "  -h, --help\n"
@@ -151,23 +157,42 @@ Status parseView(std::string_view text, RenderOptions& options)
     return usage("--view: " + quoted(text) + " is none of final, clusters, lod, triangles, normals, depth");
 }
 
-Status parseNoCull(std::string_view text, RenderOptions& options)
+Status parseCull(std::string_view text, RenderOptions& options)
 {
     constexpr std::pair<std::string_view, uint32_t> kTests[] = {{"instances", shared::kCullInstances},
                                                                 {"frustum", shared::kCullFrustum},
-                                                                {"cone", shared::kCullCone}};
+                                                                {"cone", shared::kCullCone},
+                                                                {"occlusion", shared::kCullOcclusion}};
+    options.cull_flags = text == "all" ? shared::kCullEverything : 0;
+    if (text == "all" || text == "none")
+        return success();
     for (const std::string_view part : split(text, ','))
     {
-        bool known = false;
-        for (const auto& [name, flag] : kTests)
-            if (part == name)
-            {
-                options.cull_flags &= ~flag;
-                known = true;
-            }
-        if (!known)
-            return usage("--no-cull: " + quoted(part) + " is none of instances, frustum, cone");
+        const auto* const test = std::find_if(std::begin(kTests), std::end(kTests),
+                                              [&](const auto& known) { return known.first == part; });
+        if (test == std::end(kTests))
+            return usage("--cull: " + quoted(part) +
+                         " is neither all nor none nor one of instances, frustum, cone, occlusion");
+        options.cull_flags |= test->second;
     }
+    return success();
+}
+
+Status parsePyramid(std::string_view text, RenderOptions& options)
+{
+    constexpr std::string_view kNoise = "noise:";
+    if (text == "previous")
+        options.pyramid = PyramidStart::previous;
+    else if (text == "none")
+        options.pyramid = PyramidStart::none;
+    else if (const auto seed = parseNumber<uint32_t>(text.substr(std::min(text.size(), kNoise.size())));
+             text.starts_with(kNoise) && seed)
+    {
+        options.pyramid = PyramidStart::noise;
+        options.noise_seed = *seed;
+    }
+    else
+        return usage("--hzb: " + quoted(text) + " is none of previous, none, noise:SEED");
     return success();
 }
 
@@ -223,7 +248,8 @@ constexpr ValueOption kValueOptions[] = {
     {"--stats", parseText<&RenderOptions::stats>},
     {"--frames", parseFrames},
     {"--dump-visibility", parseText<&RenderOptions::visibility>},
-    {"--no-cull", parseNoCull},
+    {"--cull", parseCull},
+    {"--hzb", parsePyramid},
 };
 
 const ValueOption* findValueOption(std::string_view name)

@@ -12,6 +12,14 @@
 namespace hearth::viewer
 {
 
+/// What occlusion culling finds of the frame before: the picture is the same, whatever it is.
+enum class PyramidStart
+{
+    previous, ///< what the frame before left, nothing in the first
+    none,     ///< nothing in every frame
+    noise,    ///< random depths in every frame
+};
+
 struct RenderOptions
 {
     bool help = false;
@@ -26,6 +34,8 @@ struct RenderOptions
     uint32_t samples = 1;
     uint32_t frames = 1;
     uint32_t cull_flags = shared::kCullEverything;
+    PyramidStart pyramid = PyramidStart::previous;
+    uint32_t noise_seed = 0;
     std::string device;
     std::string stats;
     std::string visibility;

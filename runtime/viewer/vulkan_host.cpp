@@ -328,7 +328,7 @@ void makeVisibleToHost(const HostTable& vk, VkCommandBuffer commands)
 
 Result<std::vector<std::byte>> VulkanHost::read(const gpu::Device& device, const gpu::Buffer& buffer)
 {
-    gpu::MemoryArena arena(device);
+    gpu::MemoryArena arena(device, 0);
     HEARTH_ASSIGN_OR_RETURN(
         const gpu::Buffer copy,
         arena.createBuffer(buffer.size, VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::MemoryKind::readback));
@@ -347,7 +347,7 @@ Result<std::vector<std::byte>> VulkanHost::read(const gpu::Device& device, const
                                                 uint32_t texel_bytes)
 {
     const size_t size = size_t{image.extent.width} * image.extent.height * texel_bytes;
-    gpu::MemoryArena arena(device);
+    gpu::MemoryArena arena(device, 0);
     HEARTH_ASSIGN_OR_RETURN(const gpu::Buffer copy, arena.createBuffer(size, VK_BUFFER_USAGE_TRANSFER_DST_BIT,
                                                                        gpu::MemoryKind::readback));
     HEARTH_TRY(run(

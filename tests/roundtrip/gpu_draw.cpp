@@ -73,7 +73,7 @@ DrawnFrame GpuScene::draw(const shared::FrameView& frame, uint32_t shown_view) c
     const gpu::Renderer& renderer = *device_->renderer_;
     viewer::VulkanHost& host = *device_->host_;
     const VkExtent2D extent{static_cast<uint32_t>(frame.width), static_cast<uint32_t>(frame.height)};
-    const gpu::FrameTargets targets = must(renderer.createTargets(extent));
+    gpu::FrameTargets targets = must(renderer.createTargets(extent));
     const gpu::FrameInput input{.view = frame, .shading = {.shown = shown_view, .depth_scale = 2}};
     must(host.run(
         [&](VkCommandBuffer commands)

@@ -1,10 +1,11 @@
 // The culling passes against their C++ twin: every buffer, every bit.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "tests/cook/shapes.h"
+#include "tests/runtime/cull_twin.h"
 #include "tests/runtime/gpu_fixture.h"
 #include "tests/runtime/test_scene.h"
 
-#include <bit>
+#include <cmath>
 
 namespace hearth::test
 {
@@ -15,95 +16,9 @@ namespace
 using namespace shared;
 
 template <typename T>
-std::vector<T> recordsAs(const auto& records)
-{
-    std::vector<T> result(records.size());
-    if (!result.empty())
-        std::memcpy(static_cast<void*>(result.data()), records.data(), records.size_bytes());
-    return result;
-}
-
-template <typename T>
 bool sameBits(const std::vector<T>& a, const std::vector<T>& b)
 {
     return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
-}
-
-/// What the passes write, computed one element after the other.
-struct Twin
-{
-    std::vector<InstanceState> states;
-    std::vector<WorkResult> results;
-    std::vector<uint32_t> totals;
-    std::vector<VisibleCluster> visible;
-    std::vector<BinDraw> bin_draws;
-    std::vector<uint32_t> material_draws;
-};
-
-WorkResult twinResult(const FrameView& view, const gpu::SceneLayout& layout, const WorkItem& item,
-                      const std::vector<Instance>& instances, const std::vector<InstanceState>& states,
-                      const std::vector<Cluster>& clusters, const std::vector<Group>& groups)
-{
-    WorkResult result{};
-    for (uint32_t lane = 0; lane < item.count; ++lane)
-    {
-        const Cluster& cluster = clusters[layout.order[item.first + lane]];
-        const Group& refined =
-            groups[cluster.refined_group == kNoGroup ? cluster.group : cluster.refined_group];
-        if (decideCluster(view, instances[item.instance], states[item.instance], cluster,
-                          groups[cluster.group], refined, (item.flags & kItemDoubleSided) != 0))
-            (lane < 32 ? result.mask_low : result.mask_high) |= 1u << (lane % 32);
-    }
-    return result;
-}
-
-uint32_t countOf(const WorkResult& result)
-{
-    return static_cast<uint32_t>(std::popcount(result.mask_low) + std::popcount(result.mask_high));
-}
-
-Twin makeTwin(const formats::PackView& pack, const gpu::SceneLayout& layout, const FrameView& view)
-{
-    const auto instances = recordsAs<Instance>(pack.instances());
-    const auto clusters = recordsAs<Cluster>(pack.clusters());
-    const auto groups = recordsAs<Group>(pack.groups());
-
-    Twin twin;
-    for (uint32_t i = 0; i < instances.size(); ++i)
-        twin.states.push_back(
-            decideInstance(view, instances[i], layout.inverses[i], layout.bounds[instances[i].mesh]));
-
-    uint32_t slot = 0, block_start = 0;
-    std::vector<uint32_t> slot_of_item;
-    twin.material_draws.assign((layout.material_rows + 1) * 4, 0);
-    for (uint32_t i = 0; i < layout.items.size(); ++i)
-    {
-        if (i % kScanBlockItems == 0)
-            twin.totals.push_back(block_start = slot);
-        const WorkItem& item = layout.items[i];
-        WorkResult result = twinResult(view, layout, item, instances, twin.states, clusters, groups);
-        result.offset = slot - block_start;
-        slot_of_item.push_back(slot);
-        slot += countOf(result);
-        twin.results.push_back(result);
-        for (uint32_t lane = 0; lane < item.count; ++lane)
-            if (((lane < 32 ? result.mask_low : result.mask_high) >> (lane % 32) & 1) != 0)
-            {
-                const uint32_t cluster = layout.order[item.first + lane];
-                twin.visible.push_back({item.instance, cluster});
-                twin.material_draws[layout.draws[cluster].material * 4] = 3;
-                twin.material_draws[layout.draws[cluster].material * 4 + 1] = 1;
-            }
-    }
-    twin.totals.push_back(slot);
-    slot_of_item.push_back(slot);
-    for (const gpu::SceneBin& bin : layout.bins)
-    {
-        const uint32_t first = slot_of_item[bin.items.first_item];
-        const uint32_t end = slot_of_item[bin.items.first_item + bin.items.item_count];
-        twin.bin_draws.push_back({kClusterVertices, end - first, 0, 0, first, 0, 0, 0});
-    }
-    return twin;
 }
 
 /// Rocks, terrain and foliage with every kind of bin, thrown about with sheared and mirrored transforms.
@@ -128,29 +43,25 @@ void fillScene(TestScene& scene, std::mt19937& random, int instances, float reac
         scene.addInstance(meshes[random() % 4], randomAffine(random, reach));
 }
 
-shared::Camera randomCamera(std::mt19937& random, float reach)
-{
-    const auto point = [&](float r) {
-        return Float3{uniform(random, -r, r), uniform(random, -r, r), uniform(random, -r, r)};
-    };
-    shared::Camera camera;
-    camera.position = point(reach * 1.5f);
-    camera.target = point(reach * 0.5f);
-    camera.y_fov_rad = uniform(random, 0.2f, 1.8f);
-    camera.z_near = uniform(random, 0.001f, 1.0f);
-    return camera;
-}
-
 class CullTest : public GpuTest
 {
 protected:
     void expectTwin(const formats::PackView& pack, const gpu::Scene& scene, const gpu::SceneLayout& layout,
                     const shared::Camera& camera, const DrawOptions& options)
     {
-        const Picture picture = draw(scene, camera, options);
-        const Twin twin = makeTwin(pack, layout,
-                                   makeFrameView(camera, options.width, options.height, options.error_pixels,
-                                                 scene.instance_count, options.flags));
+        gpu::FrameTargets targets = makeTargets(options.width, options.height);
+        expectTwin(pack, scene, layout, targets, camera, options);
+    }
+
+    /// Targets that have drawn before bring a pyramid along.
+    void expectTwin(const formats::PackView& pack, const gpu::Scene& scene, const gpu::SceneLayout& layout,
+                    gpu::FrameTargets& targets, const shared::Camera& camera, const DrawOptions& options)
+    {
+        const Pyramid last = readPyramid(targets);
+        const Picture picture = draw(scene, targets, camera, options);
+        const FrameView view = makeFrameView(camera, options.width, options.height, options.error_pixels,
+                                             scene.instance_count, options.flags);
+        const Twin twin = makeTwin(pack, layout, view, last, readPyramid(targets));
         EXPECT_TRUE(sameBits(read<InstanceState>(scene.buffers.states, twin.states.size()), twin.states));
         EXPECT_TRUE(sameBits(read<WorkResult>(scene.buffers.results, twin.results.size()), twin.results));
         EXPECT_TRUE(sameBits(read<uint32_t>(scene.buffers.totals, twin.totals.size()), twin.totals));
@@ -158,9 +69,19 @@ protected:
         EXPECT_TRUE(sameBits(read<uint32_t>(scene.buffers.material_draws, twin.material_draws.size()),
                              twin.material_draws));
         EXPECT_TRUE(sameBits(picture.list.slots, twin.visible));
+        EXPECT_EQ(picture.list.counters.early_clusters, twin.early_clusters);
         drawn_ += twin.visible.size();
+        late_ += twin.visible.size() - twin.early_clusters;
     }
 
+    Pyramid readPyramid(const gpu::FrameTargets& targets)
+    {
+        const auto [width, height] = targets.extent();
+        const uint32_t count = pyramidOffset(width, height, pyramidLevels(width, height) + 1);
+        return {targets.pyramidView(), read<float>(targets.pyramid(), count)};
+    }
+
+    size_t late_ = 0;
     size_t drawn_ = 0;
 };
 
@@ -187,6 +108,71 @@ TEST_F(CullTest, equalsItsTwinBitForBitOnRandomScenes)
         }
     }
     EXPECT_GT(drawn_, 1000u);
+}
+
+TEST_F(CullTest, equalsItsTwinWhateverTheFrameBeforeLeft)
+{
+    std::mt19937 random(19);
+    TestScene test;
+    fillScene(test, random, 90, 5);
+    const formats::PackView pack = test.build();
+    const auto layout = gpu::makeSceneLayout(pack);
+    ASSERT_TRUE(layout.ok());
+    const auto scene = upload(pack);
+    for (const auto& [width, height] : {std::pair{64u, 48u}, {1u, 1u}, {333u, 77u}})
+    {
+        gpu::FrameTargets targets = makeTargets(width, height);
+        Camera camera = randomCamera(random, 5);
+        for (int frame = 0; frame < 12; ++frame)
+        {
+            // some frames follow a camera that moves a little, some one that was elsewhere
+            if (frame % 3 == 0)
+                camera = randomCamera(random, 5);
+            camera.position.x += 0.2f;
+            const auto flags = static_cast<uint32_t>(
+                frame % 4 == 3 ? kCullOcclusion | (random() & kCullEverything) : kCullEverything);
+            expectTwin(pack, *scene, *layout, targets, camera,
+                       {.width = width, .height = height, .error_pixels = 2, .flags = flags});
+        }
+    }
+    EXPECT_GT(drawn_, 1000u);
+    EXPECT_GT(late_, 100u) << "a late phase that finds nothing is not tested";
+}
+
+TEST_F(CullTest, thePyramidHoldsTheFarthestDepthOfEveryTexel)
+{
+    // quads that face the camera: all of one is equally far away
+    std::mt19937 random(23);
+    TestScene test;
+    const uint32_t mesh = test.addMesh(withMaterial(makeQuad(1, 1), test.addMaterial(plainMaterial())));
+    std::vector<float> distances;
+    Camera camera;
+    camera.position = {0, 0, 16};
+    for (int i = 0; i < 60; ++i)
+    {
+        const Float3 place{uniform(random, -6, 6), uniform(random, -5, 5), static_cast<float>(i % 24) * 0.5f};
+        test.addInstance(mesh, translated(place));
+        distances.push_back(camera.position.z - place.z);
+    }
+    const formats::PackView pack = test.build();
+    const auto scene = upload(pack);
+    for (const auto& [width, height] :
+         {std::pair{1u, 1u}, {2u, 1u}, {1u, 97u}, {31u, 33u}, {333u, 777u}, {640u, 360u}})
+    {
+        gpu::FrameTargets targets = makeTargets(width, height);
+        const Picture picture = draw(*scene, targets, camera, {.width = width, .height = height});
+        ASSERT_EQ(picture.list.counters.early_clusters, picture.list.counters.drawn_clusters)
+            << "nothing hides in the first frame";
+        std::vector<float> depth;
+        for (const auto& [instance, cluster, triangle] : picture.seen())
+            depth.push_back(instance == kNothingVisible ? 0.0f : camera.z_near / distances[instance]);
+        const std::vector<float> expected = makePyramid(depth, width, height);
+        const std::vector<float> texels = readPyramid(targets).texels;
+        ASSERT_EQ(texels.size(), expected.size());
+        for (size_t i = 0; i < texels.size(); ++i)
+            ASSERT_NEAR(texels[i], expected[i], 1e-6f * expected[i])
+                << width << "x" << height << " texel " << i;
+    }
 }
 
 TEST_F(CullTest, equalsItsTwinWhereManyBlocksAreScanned)

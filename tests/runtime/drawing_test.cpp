@@ -1,10 +1,12 @@
 // What is seen: culling changes nothing, whatever the size, the transforms and the number of threads.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "runtime/viewer/pyramid_start.h"
 #include "tests/cook/shapes.h"
 #include "tests/runtime/gpu_fixture.h"
 #include "tests/runtime/test_scene.h"
 
 #include <cstdlib>
+#include <set>
 
 namespace hearth::test
 {
@@ -35,6 +37,17 @@ Camera lookingAtOrigin(Float3 position)
 
 class DrawingTest : public GpuTest
 {
+protected:
+    /// Fill the pyramid with anything and say that it was seen from anywhere.
+    void writeNoise(gpu::FrameTargets& targets, std::mt19937& random)
+    {
+        const auto [width, height] = targets.extent();
+        const OcclusionView view =
+            makeOcclusionView(makeFrameView(randomCamera(random, 6), width, height, 1, 0));
+        ASSERT_TRUE(
+            viewer::writeNoise(host(), renderer().device(), targets, view, static_cast<uint32_t>(random()))
+                .ok());
+    }
 };
 
 } // namespace
@@ -50,7 +63,8 @@ TEST_F(DrawingTest, cullingIsLossless)
     {
         DrawOptions options{.width = 333, .height = 177, .error_pixels = 0, .flags = 0};
         const Picture all = draw(*scene, lookingAtOrigin(eye), options);
-        for (const uint32_t flags : {kCullInstances, kCullFrustum, kCullCone, kCullEverything})
+        for (const uint32_t flags :
+             {kCullInstances, kCullFrustum, kCullCone, kCullOcclusion, kCullEverything})
         {
             options.flags = flags;
             const Picture some = draw(*scene, lookingAtOrigin(eye), options);
@@ -60,6 +74,83 @@ TEST_F(DrawingTest, cullingIsLossless)
         }
     }
     EXPECT_GT(culled, 1000u) << "a culling that culls nothing is not tested";
+}
+
+TEST_F(DrawingTest, cullingIsLosslessWhateverWasDrawnBefore)
+{
+    std::mt19937 random(77);
+    TestScene test;
+    fillRocks(test, 12, 5);
+    const formats::PackView pack = test.build();
+    const auto scene = upload(pack);
+    size_t frames = 0, drawn = 0, all = 0, late = 0;
+    const auto compare = [&](uint32_t width, uint32_t height, int count)
+    {
+        gpu::FrameTargets targets = makeTargets(width, height);
+        gpu::FrameTargets other = makeTargets(width, height);
+        Camera camera = randomCamera(random, 6);
+        for (int i = 0; i < count; ++i, ++frames)
+        {
+            switch (i % 4)
+            {
+            case 0: // a cut, and a few frames into the picture before it
+                camera = randomCamera(random, 6);
+                break;
+            case 1: // anything may have been there
+                writeNoise(targets, random);
+                break;
+            case 2:
+                camera.position += {uniform(random, -1, 1), uniform(random, -1, 1), uniform(random, -1, 1)};
+                break;
+            default: // the same again: what was drawn hides the rest
+                break;
+            }
+            DrawOptions options{.width = width, .height = height, .error_pixels = i % 5 == 0 ? 0.0f : 2.0f};
+            const Picture some = draw(*scene, targets, camera, options);
+            options.flags = 0;
+            const Picture whole = draw(*scene, other, camera, options);
+            ASSERT_EQ(some.seen(), whole.seen()) << width << "x" << height << " frame " << i;
+            ASSERT_EQ(some.color, whole.color);
+            drawn += some.list.slots.size();
+            late += some.list.slots.size() - some.list.counters.early_clusters;
+            all += whole.list.slots.size();
+        }
+    };
+    compare(64, 48, 350);
+    compare(1, 1, 40);
+    compare(97, 131, 98);
+    compare(333, 777, 10);
+    compare(1920, 1080, 2);
+    EXPECT_EQ(frames, 500u);
+    EXPECT_LT(drawn * 5, all * 3) << "a culling that culls nothing is not tested";
+    EXPECT_GT(late, frames) << "a late phase that finds nothing is not tested";
+}
+
+TEST_F(DrawingTest, littleIsDrawnThatIsNotSeen)
+{
+    // a crowd that hides most of itself
+    std::mt19937 random(3);
+    TestScene test;
+    const uint32_t mesh =
+        test.addMesh(withMaterial(shapes::rock(48, 0.2f), test.addMaterial(plainMaterial())));
+    for (int x = -4; x <= 4; ++x)
+        for (int z = 0; z < 14; ++z)
+            test.addInstance(mesh, translated({static_cast<float>(x) * 1.7f + uniform(random, -0.2f, 0.2f),
+                                               uniform(random, -0.2f, 0.2f), static_cast<float>(z) * -2.5f}));
+    const formats::PackView pack = test.build();
+    const auto scene = upload(pack);
+    gpu::FrameTargets targets = makeTargets(640, 360);
+    const Camera camera{.position = {0, 0.5f, 7}, .target = {0, 0, 0}, .z_near = 0.05f};
+    const DrawOptions options{.width = 640, .height = 360};
+    draw(*scene, targets, camera, options);
+    const Picture picture = draw(*scene, targets, camera, options);
+    std::set<std::pair<uint32_t, uint32_t>> owners;
+    for (const auto& [instance, cluster, triangle] : picture.seen())
+        if (instance != kNothingVisible)
+            owners.emplace(instance, cluster);
+    EXPECT_GT(owners.size(), 200u);
+
+    EXPECT_LE(static_cast<double>(picture.list.slots.size()), 1.6 * static_cast<double>(owners.size()));
 }
 
 TEST_F(DrawingTest, coneCullingRemovesTheFarSideOfARock)

@@ -103,10 +103,22 @@ std::unique_ptr<gpu::Scene> GpuTest::upload(const formats::PackView& pack, const
     return scene;
 }
 
+gpu::FrameTargets GpuTest::makeTargets(uint32_t width, uint32_t height)
+{
+    auto targets = renderer().createTargets({width, height});
+    HEARTH_ASSERT(targets.ok());
+    return std::move(*targets);
+}
+
 Picture GpuTest::draw(const gpu::Scene& scene, const shared::Camera& camera, const DrawOptions& options)
 {
-    auto targets = renderer().createTargets({options.width, options.height});
-    HEARTH_ASSERT(targets.ok());
+    gpu::FrameTargets targets = makeTargets(options.width, options.height);
+    return draw(scene, targets, camera, options);
+}
+
+Picture GpuTest::draw(const gpu::Scene& scene, gpu::FrameTargets& targets, const shared::Camera& camera,
+                      const DrawOptions& options)
+{
     const gpu::FrameInput input{.view = shared::makeFrameView(camera, options.width, options.height,
                                                               options.error_pixels, scene.instance_count,
                                                               options.flags),
@@ -114,13 +126,13 @@ Picture GpuTest::draw(const gpu::Scene& scene, const shared::Camera& camera, con
     const Status status = host().run(
         [&](VkCommandBuffer commands)
         {
-            renderer().record(commands, scene, *targets, input);
+            renderer().record(commands, scene, targets, input);
             return success();
         });
     HEARTH_ASSERT(status.ok());
 
-    auto color = host().read(renderer().device(), targets->color(), 4);
-    auto visibility = host().read(renderer().device(), targets->visibility(), 4);
+    auto color = host().read(renderer().device(), targets.color(), 4);
+    auto visibility = host().read(renderer().device(), targets.visibility(), 4);
     auto list = viewer::readVisibleList(host(), renderer(), scene);
     HEARTH_ASSERT(color.ok() && visibility.ok() && list.ok());
     return {options.width, options.height, wordsOf(*color), wordsOf(*visibility), std::move(*list)};

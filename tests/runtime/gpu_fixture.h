@@ -54,7 +54,12 @@ protected:
     static gpu::Renderer& renderer() { return *renderer_; }
 
     std::unique_ptr<gpu::Scene> upload(const formats::PackView& pack, const gpu::SceneOptions& options = {});
+    /// With targets of its own: nothing is known of an earlier frame.
     Picture draw(const gpu::Scene& scene, const shared::Camera& camera, const DrawOptions& options = {});
+    /// With targets of the size that the options say, which remember the frame before.
+    Picture draw(const gpu::Scene& scene, gpu::FrameTargets& targets, const shared::Camera& camera,
+                 const DrawOptions& options);
+    gpu::FrameTargets makeTargets(uint32_t width, uint32_t height);
 
     template <typename T>
     std::vector<T> read(const gpu::Buffer& buffer, size_t count)

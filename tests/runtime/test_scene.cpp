@@ -237,4 +237,17 @@ Affine3 randomAffine(std::mt19937& random, float reach)
     return t * mirror;
 }
 
+shared::Camera randomCamera(std::mt19937& random, float reach)
+{
+    const auto point = [&](float r) {
+        return Float3{uniform(random, -r, r), uniform(random, -r, r), uniform(random, -r, r)};
+    };
+    shared::Camera camera;
+    camera.position = point(reach * 1.5f);
+    camera.target = point(reach * 0.5f);
+    camera.y_fov_rad = uniform(random, 0.2f, 1.8f);
+    camera.z_near = uniform(random, 0.001f, 1.0f);
+    return camera;
+}
+
 } // namespace hearth::test

@@ -4,6 +4,7 @@
 
 #include "cook/mesh/source_mesh.h"
 #include "formats/pack_view.h"
+#include "formats/shared/frame.h"
 #include "tests/formats/small_pack.h"
 
 #include <random>
@@ -52,6 +53,9 @@ Affine3 translated(Float3 offset);
 
 /// Rotation, scales of 0.3 to 3 that differ, shear, a mirror half of the time, and a translation within `reach`.
 Affine3 randomAffine(std::mt19937& random, float reach);
+
+/// Eye and target about the origin, field of view and near plane at random.
+shared::Camera randomCamera(std::mt19937& random, float reach);
 
 /// Uniform in [low, high), the same on every machine.
 float uniform(std::mt19937& random, float low, float high);

@@ -20,6 +20,7 @@ namespace
 {
 
 using viewer::parseOptions;
+using viewer::PyramidStart;
 using viewer::RenderOptions;
 
 Result<RenderOptions> parse(std::vector<const char*> arguments)
@@ -70,8 +71,10 @@ TEST(RenderOptions, everyOptionIsRead)
                                 "3",
                                 "--dump-visibility",
                                 "v.bin",
-                                "--no-cull",
-                                "cone,frustum",
+                                "--cull",
+                                "cone,occlusion",
+                                "--hzb",
+                                "noise:7",
                                 "--validate",
                                 "-v",
                                 "--output=b.png",
@@ -90,7 +93,9 @@ TEST(RenderOptions, everyOptionIsRead)
     EXPECT_EQ(options->stats, "s.json");
     EXPECT_EQ(options->frames, 3u);
     EXPECT_EQ(options->visibility, "v.bin");
-    EXPECT_EQ(options->cull_flags, shared::kCullInstances);
+    EXPECT_EQ(options->cull_flags, shared::kCullCone | shared::kCullOcclusion);
+    EXPECT_EQ(options->pyramid, PyramidStart::noise);
+    EXPECT_EQ(options->noise_seed, 7u);
     EXPECT_TRUE(options->validate);
     EXPECT_TRUE(options->verbose);
 }
@@ -110,7 +115,10 @@ TEST(RenderOptions, mistakesAreNamed)
     expectUsage({"a.hearth", "-o", "a.png", "--error-pixels", "-1"}, "-1");
     expectUsage({"a.hearth", "-o", "a.png", "--view", "pretty"}, "pretty");
     expectUsage({"a.hearth", "-o", "a.png", "--samples", "2"}, "2");
-    expectUsage({"a.hearth", "-o", "a.png", "--no-cull", "all"}, "all");
+    for (const char* tests : {"", "some", "cone,", "all,cone"})
+        expectUsage({"a.hearth", "-o", "a.png", "--cull", tests}, "--cull");
+    for (const char* start : {"", "noise", "noise:", "noise:x", "noise:-1", "last"})
+        expectUsage({"a.hearth", "-o", "a.png", "--hzb", start}, "--hzb");
 }
 
 TEST(FitCamera, showsEveryCornerAndFillsThePicture)

@@ -1,0 +1,40 @@
+// The culling passes computed one element after the other, by the same shared lines.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "formats/pack_view.h"
+#include "formats/shared/occlusion.h"
+#include "runtime/gpu/scene_layout.h"
+
+#include <vector>
+
+namespace hearth::test
+{
+
+struct Pyramid
+{
+    shared::OcclusionView view{};
+    std::vector<float> texels;
+};
+
+/// The pyramid of a depth buffer, as slow and obvious code.
+std::vector<float> makePyramid(const std::vector<float>& depth, uint32_t width, uint32_t height);
+
+/// What the passes leave in their buffers.
+struct Twin
+{
+    std::vector<shared::InstanceState> states;
+    std::vector<shared::WorkResult> results;
+    std::vector<uint32_t> totals;
+    std::vector<shared::VisibleCluster> visible;
+    std::vector<shared::BinDraw> bin_draws;
+    std::vector<uint32_t> material_draws;
+    uint32_t early_clusters = 0;
+};
+
+/// Without kCullOcclusion in the view's flags the pyramids are not looked at.
+/// last: what the early phase finds;  current: what it leaves to the late one
+Twin makeTwin(const formats::PackView& pack, const gpu::SceneLayout& layout, const shared::FrameView& view,
+              const Pyramid& last = {}, const Pyramid& current = {});
+
+} // namespace hearth::test
