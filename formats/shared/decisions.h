@@ -97,18 +97,33 @@ HEARTH_FUNCTION bool boxOutsideFrustum(HEARTH_IN(FrameView) view, HEARTH_IN(Inst
     return false;
 }
 
+/// How much errors count at a distance. All parts of the sum are positive: it is right but for the last bits.
+HEARTH_FUNCTION float lodFactor(HEARTH_IN(FrameView) view, float distance)
+{
+    Float4 segment = view.lod_curve[0];
+    for (uint i = 1u; i < kLodKnots; ++i)
+        if (distance >= view.lod_curve[i].x)
+            segment = view.lod_curve[i];
+    HEARTH_PRECISE float along = min(max((distance - segment.x) * segment.w, 0.0f), 1.0f);
+    HEARTH_PRECISE float factor = segment.y * (1.0f - along) + segment.z * along;
+    return factor;
+}
+
 /// True where the error of a group, projected to the screen, is above the threshold. Both sides of every seam call
 /// this with the same bits, so a group is replaced as a whole or not at all.
-///     E = scale * error * lod_scale / max(|center - eye| - scale * radius, z_near) > threshold, without the division
+///     E = scale * error * lod_scale * lodFactor(d) / d > threshold,  d = max(|center - eye| - scale * radius, z_near),
+/// without the division
 HEARTH_FUNCTION bool errorExceeds(HEARTH_IN(FrameView) view, HEARTH_IN(Instance) instance,
                                   Float3 sphere_center, float sphere_radius, float error)
 {
     if (error > kLargestError)
         return true;
     HEARTH_PRECISE Float3 relative = relativePoint(instance, view.eye, sphere_center);
-    HEARTH_PRECISE float distance = sqrt(dot3(relative, relative)) - instance.scale_max * sphere_radius;
-    HEARTH_PRECISE float error_pixels_m = (instance.scale_max * error) * view.lod_scale;
-    HEARTH_PRECISE float allowed_pixels_m = view.threshold * max(distance, view.z_near);
+    HEARTH_PRECISE float distance =
+        max(sqrt(dot3(relative, relative)) - instance.scale_max * sphere_radius, view.z_near);
+    HEARTH_PRECISE float error_pixels_m =
+        ((instance.scale_max * error) * view.lod_scale) * lodFactor(view, distance);
+    HEARTH_PRECISE float allowed_pixels_m = view.threshold * distance;
     return error_pixels_m > allowed_pixels_m;
 }
 

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "formats/shared/frame.h"
 
+#include "formats/assert.h"
 #include "formats/cluster_bounds.h"
+#include "formats/shared/lod_curve.h"
 #include "formats/shared/occlusion.h"
 
 namespace hearth::shared
@@ -57,6 +59,8 @@ FrameView makeFrameView(const Camera& camera, uint32_t width, uint32_t height, f
     view.instance_count = instance_count;
     view.width = static_cast<float>(width);
     view.height = static_cast<float>(height);
+    const Status plain = setLodCurve(view, {});
+    HEARTH_ASSERT(plain.ok());
     return view;
 }
 

@@ -20,7 +20,8 @@ struct Camera
 };
 
 /// The frame's constants. `error_pixels` is the projected error that need not be refined; 0 asks for the source
-/// triangles, also where a coarser level has no error at all.
+/// triangles, also where a coarser level has no error at all. Errors count alike at all distances: setLodCurve
+/// (lod_curve.h) changes that.
 FrameView makeFrameView(const Camera& camera, uint32_t width, uint32_t height, float error_pixels,
                         uint32_t instance_count, uint32_t flags = kCullEverything);
 

@@ -154,6 +154,9 @@ struct ClusterDraw
     float grid_step;
 };
 
+/// Knots of the LOD curve (lod_curve.h).
+HEARTH_CONSTANT uint kLodKnots = 8;
+
 /// Camera and switches of one frame. All positions that reach the screen are relative to the eye, in world axes,
 /// so that coordinates far from the origin keep their precision: clip = (x . p, y . p, z_near, w . p).
 struct FrameView
@@ -172,6 +175,7 @@ struct FrameView
     float height;
     uint reserved0;
     uint reserved1;
+    Float4 lod_curve[8]; ///< from distance x on the factor goes from y to z, by w a metre
 };
 
 /// From where and at what size a depth pyramid was drawn (occlusion.h).

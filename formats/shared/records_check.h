@@ -48,7 +48,7 @@ static_assert(hearth::shared::kNoGroup == hearth::formats::kNone);
 static_assert(sizeof(hearth::shared::MeshBounds) == 32);
 static_assert(sizeof(hearth::shared::InstanceInverse) == 48);
 static_assert(sizeof(hearth::shared::InstanceState) == 32);
-static_assert(sizeof(hearth::shared::FrameView) == 176);
+static_assert(sizeof(hearth::shared::FrameView) == 304);
 static_assert(sizeof(hearth::shared::BinDraw) == 32);
 static_assert(sizeof(hearth::shared::WorkItem) == 16);
 static_assert(sizeof(hearth::shared::WorkResult) == 20);

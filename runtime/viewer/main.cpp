@@ -55,8 +55,12 @@ gpu::FrameInput makeFrame(const RenderOptions& options, const shared::Camera& ca
     // the error is meant in pixels of the picture, not of its samples
     const float error =
         options.error_pixels * static_cast<float>(extent.width) / static_cast<float>(options.width);
-    return {.view = shared::makeFrameView(camera, extent.width, extent.height, error,
-                                          static_cast<uint32_t>(pack.instances().size()), options.cull_flags),
+    shared::FrameView view =
+        shared::makeFrameView(camera, extent.width, extent.height, error,
+                              static_cast<uint32_t>(pack.instances().size()), options.cull_flags);
+    const Status curve = shared::setLodCurve(view, options.lod_curve);
+    HEARTH_ASSERT(curve.ok()); // the options have been checked
+    return {.view = view,
             .shading = {.shown = options.view, .depth_scale = length(camera.target - camera.position)}};
 }
 

@@ -26,6 +26,9 @@ const char* const kRenderHelp =
     "      --scene-camera N    the camera N of the pack, the first is 0\n"
     "      --fit               frame the whole scene (default)\n"
     "      --error-pixels E    largest error on the screen, default 1; 0 draws the source triangles\n"
+    "      --lod-curve D:F,... factor F on the error at D metres, linear between; no factor may grow faster "
+    "than\n"
+    "                          the distance. Example: 0:1,50:1,500:0.4\n"
     "      --view VIEW         final, clusters, lod, triangles, normals or depth\n"
     "      --samples N         1, or 4 for a smoother picture\n"
     "      --device NAME       part of the name of the graphics device\n"
@@ -205,6 +208,24 @@ Status parseErrorPixels(std::string_view text, RenderOptions& options)
     return success();
 }
 
+Status parseLodCurve(std::string_view text, RenderOptions& options)
+{
+    options.lod_curve.clear();
+    for (const std::string_view part : split(text, ','))
+    {
+        const auto knot = split(part, ':');
+        const auto distance = parseNumber<float>(knot.front());
+        const auto factor = parseNumber<float>(knot.back());
+        if (knot.size() != 2 || !distance || !factor)
+            return usage("--lod-curve: " + quoted(part) + " is not DISTANCE:FACTOR");
+        options.lod_curve.push_back({*distance, *factor});
+    }
+    shared::FrameView scratch{};
+    if (const Status set = setLodCurve(scratch, options.lod_curve); !set.ok())
+        return usage("--lod-curve: " + set.error().detail);
+    return success();
+}
+
 Status parseSamples(std::string_view text, RenderOptions& options)
 {
     if (text != "1" && text != "4")
@@ -242,6 +263,7 @@ constexpr ValueOption kValueOptions[] = {
     {"--camera", parseCamera},
     {"--scene-camera", parseSceneCamera},
     {"--error-pixels", parseErrorPixels},
+    {"--lod-curve", parseLodCurve},
     {"--view", parseView},
     {"--samples", parseSamples},
     {"--device", parseText<&RenderOptions::device>},

@@ -4,10 +4,12 @@
 
 #include "formats/result.h"
 #include "formats/shared/frame.h"
+#include "formats/shared/lod_curve.h"
 
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 namespace hearth::viewer
 {
@@ -30,7 +32,8 @@ struct RenderOptions
     std::optional<shared::Camera> camera; ///< none: the scene's camera, or fit the scene
     std::optional<uint32_t> scene_camera; ///< index of a camera of the pack
     float error_pixels = 1;
-    uint32_t view = 0; ///< shared::kView*
+    std::vector<shared::LodKnot> lod_curve; ///< checked
+    uint32_t view = 0;                      ///< shared::kView*
     uint32_t samples = 1;
     uint32_t frames = 1;
     uint32_t cull_flags = shared::kCullEverything;

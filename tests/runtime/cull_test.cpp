@@ -59,8 +59,7 @@ protected:
     {
         const Pyramid last = readPyramid(targets);
         const Picture picture = draw(scene, targets, camera, options);
-        const FrameView view = makeFrameView(camera, options.width, options.height, options.error_pixels,
-                                             scene.instance_count, options.flags);
+        const FrameView view = viewOf(scene, camera, options);
         const Twin twin = makeTwin(pack, layout, view, last, readPyramid(targets));
         EXPECT_TRUE(sameBits(read<InstanceState>(scene.buffers.states, twin.states.size()), twin.states));
         EXPECT_TRUE(sameBits(read<WorkResult>(scene.buffers.results, twin.results.size()), twin.results));
@@ -103,8 +102,12 @@ TEST_F(CullTest, equalsItsTwinBitForBitOnRandomScenes)
             const float error = view % 6 == 0 ? 0.0f : std::exp2(uniform(random, -2.0f, 6.0f));
             const auto flags =
                 static_cast<uint32_t>(view % 3 == 0 ? random() & kCullEverything : kCullEverything);
-            expectTwin(pack, *scene, *layout, randomCamera(random, reach),
-                       {.width = 64, .height = 48, .error_pixels = error, .flags = flags});
+            std::vector<LodKnot> curve;
+            if (view % 4 == 1)
+                curve = {{0.5f, 0.7f}, {reach, 1.3f}, {2 * reach, 0.2f}};
+            expectTwin(
+                pack, *scene, *layout, randomCamera(random, reach),
+                {.width = 64, .height = 48, .error_pixels = error, .flags = flags, .lod_curve = curve});
         }
     }
     EXPECT_GT(drawn_, 1000u);

@@ -110,6 +110,16 @@ gpu::FrameTargets GpuTest::makeTargets(uint32_t width, uint32_t height)
     return std::move(*targets);
 }
 
+shared::FrameView GpuTest::viewOf(const gpu::Scene& scene, const shared::Camera& camera,
+                                  const DrawOptions& options)
+{
+    shared::FrameView view = shared::makeFrameView(camera, options.width, options.height,
+                                                   options.error_pixels, scene.instance_count, options.flags);
+    const Status curve = shared::setLodCurve(view, options.lod_curve);
+    HEARTH_ASSERT(curve.ok());
+    return view;
+}
+
 Picture GpuTest::draw(const gpu::Scene& scene, const shared::Camera& camera, const DrawOptions& options)
 {
     gpu::FrameTargets targets = makeTargets(options.width, options.height);
@@ -119,10 +129,7 @@ Picture GpuTest::draw(const gpu::Scene& scene, const shared::Camera& camera, con
 Picture GpuTest::draw(const gpu::Scene& scene, gpu::FrameTargets& targets, const shared::Camera& camera,
                       const DrawOptions& options)
 {
-    const gpu::FrameInput input{.view = shared::makeFrameView(camera, options.width, options.height,
-                                                              options.error_pixels, scene.instance_count,
-                                                              options.flags),
-                                .shading = {.shown = options.shown}};
+    const gpu::FrameInput input{.view = viewOf(scene, camera, options), .shading = {.shown = options.shown}};
     const Status status = host().run(
         [&](VkCommandBuffer commands)
         {

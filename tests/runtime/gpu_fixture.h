@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
+#include "formats/shared/lod_curve.h"
 #include "runtime/viewer/frame_report.h"
 
 #include <cstring>
@@ -39,6 +40,7 @@ struct DrawOptions
     float error_pixels = 1;
     uint32_t flags = shared::kCullEverything;
     uint32_t shown = shared::kViewFinal;
+    std::vector<shared::LodKnot> lod_curve{};
 };
 
 /// Skips where there is no device; fails where the validation layers say anything, in any test.
@@ -59,6 +61,8 @@ protected:
     /// With targets of the size that the options say, which remember the frame before.
     Picture draw(const gpu::Scene& scene, gpu::FrameTargets& targets, const shared::Camera& camera,
                  const DrawOptions& options);
+    static shared::FrameView viewOf(const gpu::Scene& scene, const shared::Camera& camera,
+                                    const DrawOptions& options);
     gpu::FrameTargets makeTargets(uint32_t width, uint32_t height);
 
     template <typename T>

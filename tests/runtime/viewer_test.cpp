@@ -73,6 +73,8 @@ TEST(RenderOptions, everyOptionIsRead)
                                 "v.bin",
                                 "--cull",
                                 "cone,occlusion",
+                                "--lod-curve",
+                                "0:1,50:0.5",
                                 "--hzb",
                                 "noise:7",
                                 "--validate",
@@ -96,6 +98,9 @@ TEST(RenderOptions, everyOptionIsRead)
     EXPECT_EQ(options->cull_flags, shared::kCullCone | shared::kCullOcclusion);
     EXPECT_EQ(options->pyramid, PyramidStart::noise);
     EXPECT_EQ(options->noise_seed, 7u);
+    ASSERT_EQ(options->lod_curve.size(), 2u);
+    EXPECT_EQ(options->lod_curve[1].distance, 50);
+    EXPECT_EQ(options->lod_curve[1].factor, 0.5f);
     EXPECT_TRUE(options->validate);
     EXPECT_TRUE(options->verbose);
 }
@@ -117,6 +122,8 @@ TEST(RenderOptions, mistakesAreNamed)
     expectUsage({"a.hearth", "-o", "a.png", "--samples", "2"}, "2");
     for (const char* tests : {"", "some", "cone,", "all,cone"})
         expectUsage({"a.hearth", "-o", "a.png", "--cull", tests}, "--cull");
+    for (const char* curve : {"", "1", "1:2:3", "1:x", "1:1,2:3"})
+        expectUsage({"a.hearth", "-o", "a.png", "--lod-curve", curve}, "--lod-curve");
     for (const char* start : {"", "noise", "noise:", "noise:x", "noise:-1", "last"})
         expectUsage({"a.hearth", "-o", "a.png", "--hzb", start}, "--hzb");
 }
