@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/import/gltf_scene.h"
 
+#include "formats/scale_bound.h"
 #include "pipelines/import/gltf_animations.h"
 #include "pipelines/import/gltf_instancing.h"
 #include "pipelines/import/gltf_rest_pose.h"

@@ -32,9 +32,6 @@ Transform transformFromColumns(std::span<const float, 16> columns);
 /// In single precision, or nothing where a number does not fit.
 std::optional<Affine3> narrowed(const Transform& transform);
 
-/// At least the largest singular value of the linear part, and at most 1e-6 of it more.
-float scaleBound(const Affine3& transform);
-
 /// Largest difference between two transforms' entries.
 double distance(const Transform& a, const Transform& b);
 

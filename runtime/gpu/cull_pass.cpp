@@ -71,7 +71,8 @@ void computeBarrier(const Device& device, VkCommandBuffer commands)
 
 /// Cleared counters as well, behind everything that still reads those of the frame before.
 void CullPass::recordConstants(const Device& device, VkCommandBuffer commands, const Scene& scene,
-                               const FrameTargets& targets, const shared::FrameView& view) const
+                               const FrameTargets& targets, const shared::FrameView& view,
+                               std::span<const InstanceMove> moves) const
 {
     barrier(device, commands,
             VK_PIPELINE_STAGE_TRANSFER_BIT | VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT |
@@ -82,6 +83,7 @@ void CullPass::recordConstants(const Device& device, VkCommandBuffer commands, c
     device.vk.vkCmdUpdateBuffer(commands, scene.buffers.frame.handle.get(), 0, sizeof(view), &view);
     const shared::OcclusionView views[] = {targets.pyramidView(), shared::makeOcclusionView(view)};
     device.vk.vkCmdUpdateBuffer(commands, targets.occlusionViews().handle.get(), 0, sizeof(views), views);
+    recordMoves(device, commands, scene, moves);
     device.vk.vkCmdFillBuffer(commands, scene.buffers.material_draws.handle.get(), 0, VK_WHOLE_SIZE, 0);
     barrier(device, commands, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT,
             VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_VERTEX_SHADER_BIT |

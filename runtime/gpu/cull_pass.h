@@ -5,6 +5,7 @@
 #pragma once
 
 #include "runtime/gpu/frame_targets.h"
+#include "runtime/gpu/instance_motion.h"
 #include "runtime/gpu/scene.h"
 
 namespace hearth::gpu
@@ -18,9 +19,11 @@ public:
     /// The descriptor sets of this pass for a scene.
     Status createSets(const Device& device, Scene& scene) const;
 
-    /// The frame's constants. Outside a render pass; waits for earlier frames of the scene on the same queue.
+    /// The frame's constants and what moves. Outside a render pass; waits for earlier frames of the scene on the same
+    /// queue.
     void recordConstants(const Device& device, VkCommandBuffer commands, const Scene& scene,
-                         const FrameTargets& targets, const shared::FrameView& view) const;
+                         const FrameTargets& targets, const shared::FrameView& view,
+                         std::span<const InstanceMove> moves) const;
 
     /// kPhaseWhole; or kPhaseEarly, and when its clusters are drawn and the pyramid is made, kPhaseLate, which replaces
     /// the draws and adds to the list. Outside a render pass; what it writes is visible to indirect draws, vertex and

@@ -58,7 +58,7 @@ void Renderer::record(VkCommandBuffer commands, const Scene& scene, FrameTargets
     const auto stamp = [&](FrameTimestamp which)
     { writeTimestamp(device_, commands, input.timestamps, which); };
     stamp(kTimestampBegin);
-    cull_.recordConstants(device_, commands, scene, targets, input.view);
+    cull_.recordConstants(device_, commands, scene, targets, input.view, input.moves);
     const bool in_phases = (input.view.flags & shared::kCullOcclusion) != 0;
     cull_.record(device_, commands, scene, targets, in_phases ? shared::kPhaseEarly : shared::kPhaseWhole);
     stamp(kTimestampCull);

@@ -32,6 +32,7 @@ struct FrameInput
 {
     shared::FrameView view; ///< from shared::makeFrameView, with the size of the targets
     ShadingView shading;
+    std::span<const InstanceMove> moves{};   ///< from this frame on; read while recording
     VkQueryPool timestamps = VK_NULL_HANDLE; ///< kTimestampCount queries, reset by the frame; or none
 };
 

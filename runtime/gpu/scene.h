@@ -80,6 +80,7 @@ struct Scene
     CullSets cull_sets{};
 
     std::vector<SceneBin> bins;
+    std::vector<formats::InstanceRecord> instances; ///< as they were loaded
     uint32_t instance_count = 0;
     uint32_t item_count = 0;
     uint32_t slot_capacity = 0;

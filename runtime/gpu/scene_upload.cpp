@@ -164,6 +164,7 @@ Result<std::unique_ptr<Scene>> uploadScene(const Device& device, const DrawLayou
     HEARTH_ASSIGN_OR_RETURN(SceneLayout layout, makeSceneLayout(pack));
     auto scene = std::make_unique<Scene>(device);
     scene->staging = std::make_unique<Uploader>(device, commands);
+    scene->instances.assign(pack.instances().begin(), pack.instances().end());
     scene->instance_count = static_cast<uint32_t>(pack.instances().size());
     scene->item_count = static_cast<uint32_t>(layout.items.size());
     scene->slot_capacity = static_cast<uint32_t>(std::min<uint64_t>(

@@ -1,5 +1,6 @@
 // Nodes, instances, cameras, lights, skins and animations.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "formats/scale_bound.h"
 #include "pipelines/import/gltf_transform.h"
 #include "tests/pipelines/gltf_fixture.h"
 

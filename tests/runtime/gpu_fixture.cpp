@@ -129,7 +129,8 @@ Picture GpuTest::draw(const gpu::Scene& scene, const shared::Camera& camera, con
 Picture GpuTest::draw(const gpu::Scene& scene, gpu::FrameTargets& targets, const shared::Camera& camera,
                       const DrawOptions& options)
 {
-    const gpu::FrameInput input{.view = viewOf(scene, camera, options), .shading = {.shown = options.shown}};
+    const gpu::FrameInput input{
+        .view = viewOf(scene, camera, options), .shading = {.shown = options.shown}, .moves = options.moves};
     const Status status = host().run(
         [&](VkCommandBuffer commands)
         {

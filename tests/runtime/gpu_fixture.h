@@ -41,6 +41,7 @@ struct DrawOptions
     uint32_t flags = shared::kCullEverything;
     uint32_t shown = shared::kViewFinal;
     std::vector<shared::LodKnot> lod_curve{};
+    std::span<const gpu::InstanceMove> moves{};
 };
 
 /// Skips where there is no device; fails where the validation layers say anything, in any test.

@@ -3,6 +3,7 @@
 
 #include "cook/clusters/hierarchy.h"
 #include "formats/pack_check.h"
+#include "formats/scale_bound.h"
 
 #include <cmath>
 #include <cstring>
@@ -83,16 +84,6 @@ void appendHierarchy(PackModel& pack, const clusters::Hierarchy& h)
     pack.meshes.push_back(mesh);
 }
 
-/// At least the largest singular value: the Frobenius norm.
-float stretchBound(const Affine3& t)
-{
-    double sum = 0;
-    for (const auto& row : t.m)
-        for (int i = 0; i < 3; ++i)
-            sum += double{row[i]} * double{row[i]};
-    return static_cast<float>(std::sqrt(sum) * 1.000001);
-}
-
 } // namespace
 
 MaterialRecord plainMaterial()
@@ -156,7 +147,7 @@ void TestScene::addInstance(uint32_t mesh, const Affine3& world_from_object)
 {
     model_.instances.push_back({world_from_object, mesh, addNode(mesh, world_from_object),
                                 determinant(world_from_object) < 0 ? uint32_t{kInstanceMirrored} : 0u,
-                                stretchBound(world_from_object)});
+                                scaleBound(world_from_object)});
 }
 
 void TestScene::addLight(const LightRecord& light)
