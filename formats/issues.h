@@ -81,6 +81,8 @@ enum class IssueClass : uint8_t
     X(profile_key, 1501, malformed, "a profile has a key that is not known", "check its spelling")           \
     X(profile_value, 1502, malformed, "a value of a profile is not allowed",                                 \
       "correct the value in the profile")                                                                    \
+    X(camera_path, 1600, malformed, "a camera path is not valid",                                            \
+      "write a camera a line: PX,PY,PZ,TX,TY,TZ,FOV")                                                        \
     X(container_truncated, 2000, malformed, "the file is too short", "cook the asset again")                 \
     X(container_magic, 2001, malformed, "the file is not a Hearth container", "name a .hearth file")         \
     X(container_version, 2002, malformed, "the file was written by another major version",                   \

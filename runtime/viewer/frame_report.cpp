@@ -29,6 +29,28 @@ std::string quoted(std::string_view text)
     return result + "\"";
 }
 
+std::array<std::pair<const char*, uint64_t>, 4> namedCounts(const FrameCounts& counts)
+{
+    return {{{"drawn_clusters", counts.drawn_clusters},
+             {"early_clusters", counts.early_clusters},
+             {"dropped_clusters", counts.dropped_clusters},
+             {"drawn_triangles", counts.drawn_triangles}}};
+}
+
+/// A JSON array, a line a frame.
+std::string formatFrames(std::span<const FrameCounts> frames)
+{
+    std::string text;
+    for (const FrameCounts& frame : frames)
+    {
+        std::string members;
+        for (const auto& [name, count] : namedCounts(frame))
+            members += (members.empty() ? "{\"" : ",\"") + std::string(name) + "\":" + std::to_string(count);
+        text += (text.empty() ? "[\n  " : ",\n  ") + members + "}";
+    }
+    return text + "]";
+}
+
 } // namespace
 
 Result<VisibleList> readVisibleList(VulkanHost& host, const gpu::Renderer& renderer, const gpu::Scene& scene)
@@ -87,13 +109,13 @@ std::string formatReport(const FrameReport& report, const formats::PackView& pac
     add("instances", std::to_string(pack.instances().size()));
     add("materials", std::to_string(pack.materials().size()));
     add("source_triangles", std::to_string(source_triangles));
-    add("drawn_clusters", std::to_string(report.drawn_clusters));
-    add("early_clusters", std::to_string(report.early_clusters));
-    add("dropped_clusters", std::to_string(report.dropped_clusters));
-    add("drawn_triangles", std::to_string(report.drawn_triangles));
+    for (const auto& [name, count] : namedCounts(report.frames.back()))
+        add(name, std::to_string(count));
     add("dropped_lights", std::to_string(report.dropped_lights));
     add("scene_bytes", std::to_string(report.scene_bytes));
     add("target_bytes", std::to_string(report.target_bytes));
+    if (report.frames.size() > 1)
+        add("frames", formatFrames(report.frames));
     add("milliseconds",
         "{\"frame\":" + number(report.milliseconds[0]) +
             ",\"cull\":" + number(report.milliseconds[gpu::kTimestampCull]) +

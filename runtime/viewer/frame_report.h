@@ -17,14 +17,19 @@ struct VisibleList
 };
 Result<VisibleList> readVisibleList(VulkanHost& host, const gpu::Renderer& renderer, const gpu::Scene& scene);
 
+struct FrameCounts
+{
+    uint64_t drawn_clusters = 0, early_clusters = 0, dropped_clusters = 0, drawn_triangles = 0;
+};
+
 struct FrameReport
 {
     std::string device;
     uint32_t width = 0, height = 0;
     float error_pixels = 0;
-    uint64_t drawn_clusters = 0, early_clusters = 0, dropped_clusters = 0, drawn_triangles = 0;
     uint64_t scene_bytes = 0, target_bytes = 0;
     uint32_t dropped_lights = 0;
+    std::vector<FrameCounts> frames; ///< at least one
     std::array<double, gpu::kTimestampCount>
         milliseconds{}; ///< of the pass that ends with the timestamp; [0] is the frame
 };

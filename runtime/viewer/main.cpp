@@ -3,6 +3,7 @@
 #include "formats/program.h"
 #include "runtime/pack/pack.h"
 #include "runtime/viewer/camera_fit.h"
+#include "runtime/viewer/camera_path.h"
 #include "runtime/viewer/file_output.h"
 #include "runtime/viewer/frame_report.h"
 #include "runtime/viewer/options.h"
@@ -48,6 +49,15 @@ Result<shared::Camera> chooseCamera(const RenderOptions& options, const formats:
     return sceneCamera(pack, *options.scene_camera);
 }
 
+/// One for each frame.
+Result<std::vector<shared::Camera>> chooseCameras(const RenderOptions& options, const formats::PackView& pack)
+{
+    if (!options.camera_path.empty())
+        return readCameraPath(options.camera_path);
+    HEARTH_ASSIGN_OR_RETURN(const shared::Camera camera, chooseCamera(options, pack));
+    return std::vector<shared::Camera>(options.frames, camera);
+}
+
 /// Where the eye is, and what is decided and shown.
 gpu::FrameInput makeFrame(const RenderOptions& options, const shared::Camera& camera,
                           const formats::PackView& pack, VkExtent2D extent)
@@ -76,9 +86,98 @@ void warnAboutLimits(const gpu::Scene& scene, const VisibleList& list, const std
                    std::to_string(shared::kMaxLights) + " that are drawn"});
 }
 
+/// Draws the frames of one run, and writes what was asked for.
+class Run
+{
+public:
+    Run(const RenderOptions& options, const formats::PackView& pack, VulkanHost& host,
+        const gpu::Renderer& renderer, const gpu::Scene& scene, gpu::FrameTargets& targets,
+        VkQueryPool timestamps)
+        : options_(options),
+          pack_(pack),
+          host_(host),
+          renderer_(renderer),
+          scene_(scene),
+          targets_(targets),
+          timestamps_(timestamps)
+    {
+    }
+
+    Status draw(const shared::Camera& camera, size_t number)
+    {
+        gpu::FrameInput frame = makeFrame(options_, camera, pack_, targets_.extent());
+        frame.timestamps = timestamps_;
+        if (options_.pyramid == PyramidStart::none)
+            targets_.setPyramidView({});
+        if (options_.pyramid == PyramidStart::noise)
+            HEARTH_TRY(writeNoise(host_, renderer_.device(), targets_, shared::makeOcclusionView(frame.view),
+                                  options_.noise_seed + static_cast<uint32_t>(number)));
+        HEARTH_TRY(host_.run(
+            [&](VkCommandBuffer commands)
+            {
+                renderer_.record(commands, scene_, targets_, frame);
+                return success();
+            }));
+        HEARTH_ASSIGN_OR_RETURN(std::vector<double> stamps,
+                                host_.readTimestamps(timestamps_, gpu::kTimestampCount));
+        times_.push_back(std::move(stamps));
+        return success();
+    }
+
+    /// The last frame that was drawn, into `picture` and `visibility` where they are named.
+    Status write(const std::string& picture_file, const std::string& visibility_file)
+    {
+        HEARTH_ASSIGN_OR_RETURN(const VisibleList list, readVisibleList(host_, renderer_, scene_));
+        warnAboutLimits(scene_, list, pack_.name());
+        HEARTH_ASSIGN_OR_RETURN(const std::vector<std::byte> picture,
+                                readPicture(host_, renderer_, targets_, options_.samples));
+        HEARTH_ASSIGN_OR_RETURN(const std::vector<std::byte> png,
+                                encodePng(picture, options_.width, options_.height));
+        HEARTH_TRY(writeFile(picture_file, png));
+        frames_.push_back({.drawn_clusters = list.slots.size(),
+                           .early_clusters = list.counters.early_clusters,
+                           .dropped_clusters = list.counters.dropped_clusters,
+                           .drawn_triangles = countTriangles(pack_, list)});
+        if (visibility_file.empty())
+            return success();
+        HEARTH_ASSIGN_OR_RETURN(const std::vector<std::byte> pixels,
+                                host_.read(renderer_.device(), targets_.visibility(), 4));
+        return writeFile(visibility_file,
+                         formatVisibility(list, pixels, targets_.extent().width, targets_.extent().height));
+    }
+
+    Status writeStats() const
+    {
+        if (options_.stats.empty())
+            return success();
+        const FrameReport report{.device = host_.deviceName(),
+                                 .width = targets_.extent().width,
+                                 .height = targets_.extent().height,
+                                 .error_pixels = options_.error_pixels,
+                                 .scene_bytes = scene_.arena.allocatedBytes(),
+                                 .target_bytes = targets_.allocatedBytes(),
+                                 .dropped_lights = scene_.dropped_lights,
+                                 .frames = frames_,
+                                 .milliseconds = medianPassTimes(times_)};
+        const std::string text = formatReport(report, pack_);
+        return writeFile(options_.stats, std::as_bytes(std::span(text)));
+    }
+
+private:
+    const RenderOptions& options_;
+    const formats::PackView& pack_;
+    VulkanHost& host_;
+    const gpu::Renderer& renderer_;
+    const gpu::Scene& scene_;
+    gpu::FrameTargets& targets_;
+    VkQueryPool timestamps_;
+    std::vector<std::vector<double>> times_;
+    std::vector<FrameCounts> frames_; ///< of those that were written
+};
+
 Status drawPack(const RenderOptions& options, const formats::PackView& pack, VulkanHost& host)
 {
-    HEARTH_ASSIGN_OR_RETURN(const shared::Camera camera, chooseCamera(options, pack));
+    HEARTH_ASSIGN_OR_RETURN(const std::vector<shared::Camera> cameras, chooseCameras(options, pack));
     HEARTH_ASSIGN_OR_RETURN(const std::unique_ptr<gpu::Renderer> renderer,
                             gpu::Renderer::create(host.description()));
     std::unique_ptr<gpu::Scene> scene;
@@ -91,61 +190,19 @@ Status drawPack(const RenderOptions& options, const formats::PackView& pack, Vul
     scene->staging.reset();
 
     const uint32_t scale = options.samples == 4 ? 2 : 1;
-    const VkExtent2D extent{options.width * scale, options.height * scale};
-    HEARTH_ASSIGN_OR_RETURN(gpu::FrameTargets targets, renderer->createTargets(extent));
-    gpu::FrameInput frame = makeFrame(options, camera, pack, extent);
-    HEARTH_ASSIGN_OR_RETURN(frame.timestamps, host.createTimestamps(gpu::kTimestampCount));
-    std::vector<std::vector<double>> times;
-    for (uint32_t i = 0; i < options.frames; ++i)
+    HEARTH_ASSIGN_OR_RETURN(gpu::FrameTargets targets,
+                            renderer->createTargets({options.width * scale, options.height * scale}));
+    HEARTH_ASSIGN_OR_RETURN(const VkQueryPool timestamps, host.createTimestamps(gpu::kTimestampCount));
+    Run run(options, pack, host, *renderer, *scene, targets, timestamps);
+    for (size_t i = 0; i < cameras.size(); ++i)
     {
-        if (options.pyramid == PyramidStart::none)
-            targets.setPyramidView({});
-        if (options.pyramid == PyramidStart::noise)
-            HEARTH_TRY(writeNoise(host, renderer->device(), targets, shared::makeOcclusionView(frame.view),
-                                  options.noise_seed + i));
-        HEARTH_TRY(host.run(
-            [&](VkCommandBuffer commands)
-            {
-                renderer->record(commands, *scene, targets, frame);
-                return success();
-            }));
-        HEARTH_ASSIGN_OR_RETURN(std::vector<double> stamps,
-                                host.readTimestamps(frame.timestamps, gpu::kTimestampCount));
-        times.push_back(std::move(stamps));
+        HEARTH_TRY(run.draw(cameras[i], i));
+        const auto file = [&](const std::string& name)
+        { return options.camera_path.empty() || name.empty() ? name : numberedFile(name, i); };
+        if (!options.camera_path.empty() || i + 1 == cameras.size())
+            HEARTH_TRY(run.write(file(options.output), file(options.visibility)));
     }
-
-    HEARTH_ASSIGN_OR_RETURN(const VisibleList list, readVisibleList(host, *renderer, *scene));
-    warnAboutLimits(*scene, list, pack.name());
-    HEARTH_ASSIGN_OR_RETURN(const std::vector<std::byte> picture,
-                            readPicture(host, *renderer, targets, options.samples));
-    HEARTH_ASSIGN_OR_RETURN(const std::vector<std::byte> png,
-                            encodePng(picture, options.width, options.height));
-    HEARTH_TRY(writeFile(options.output, png));
-    if (!options.visibility.empty())
-    {
-        HEARTH_ASSIGN_OR_RETURN(const std::vector<std::byte> pixels,
-                                host.read(renderer->device(), targets.visibility(), 4));
-        HEARTH_TRY(
-            writeFile(options.visibility, formatVisibility(list, pixels, extent.width, extent.height)));
-    }
-    if (!options.stats.empty())
-    {
-        const FrameReport report{.device = host.deviceName(),
-                                 .width = extent.width,
-                                 .height = extent.height,
-                                 .error_pixels = options.error_pixels,
-                                 .drawn_clusters = list.slots.size(),
-                                 .early_clusters = list.counters.early_clusters,
-                                 .dropped_clusters = list.counters.dropped_clusters,
-                                 .drawn_triangles = countTriangles(pack, list),
-                                 .scene_bytes = scene->arena.allocatedBytes(),
-                                 .target_bytes = targets.allocatedBytes(),
-                                 .dropped_lights = scene->dropped_lights,
-                                 .milliseconds = medianPassTimes(times)};
-        const std::string text = formatReport(report, pack);
-        HEARTH_TRY(writeFile(options.stats, std::as_bytes(std::span(text))));
-    }
-    return success();
+    return run.writeStats();
 }
 
 Status render(const RenderOptions& options)

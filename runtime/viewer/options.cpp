@@ -2,7 +2,8 @@
 #include "runtime/viewer/options.h"
 
 #include "formats/shared/shading.h"
-#include "runtime/viewer/camera_fit.h"
+#include "runtime/viewer/camera_path.h"
+#include "runtime/viewer/text.h"
 
 #include <algorithm>
 #include <array>
@@ -23,6 +24,8 @@ const char* const kRenderHelp =
     "      --size WxH          pixels, default 1280x720\n"
     "      --camera PX,PY,PZ,TX,TY,TZ,FOV\n"
     "                          eye and target in metres, full vertical angle in degrees\n"
+    "      --camera-path FILE  a picture for each line of FILE, written as for --camera: IMAGE-0000.png, "
+    "...\n"
     "      --scene-camera N    the camera N of the pack, the first is 0\n"
     "      --fit               frame the whole scene (default)\n"
     "      --error-pixels E    largest error on the screen, default 1; 0 draws the source triangles\n"
@@ -69,33 +72,6 @@ Error usage(const std::string& detail)
     return {Issue::usage, "", "", detail};
 }
 
-/// The whole text as a finite number.
-template <typename T>
-std::optional<T> parseNumber(std::string_view text)
-{
-    T value{};
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc{} || end != text.data() + text.size())
-        return std::nullopt;
-    if constexpr (std::is_floating_point_v<T>)
-        if (!std::isfinite(value))
-            return std::nullopt;
-    return value;
-}
-
-std::vector<std::string_view> split(std::string_view text, char separator)
-{
-    std::vector<std::string_view> parts;
-    for (;;)
-    {
-        const size_t at = text.find(separator);
-        parts.push_back(text.substr(0, at));
-        if (at == std::string_view::npos)
-            return parts;
-        text.remove_prefix(at + 1);
-    }
-}
-
 Status parseSize(std::string_view text, RenderOptions& options)
 {
     constexpr uint32_t kLargest = 16384;
@@ -114,25 +90,12 @@ Status parseSize(std::string_view text, RenderOptions& options)
     return usage("--size: " + quoted(text) + " is not WxH with sides of 1 to 16384");
 }
 
-Status parseCamera(std::string_view text, RenderOptions& options)
+Status parseCameraOption(std::string_view text, RenderOptions& options)
 {
-    const auto parts = split(text, ',');
-    std::array<float, 7> v{};
-    bool good = parts.size() == v.size();
-    for (size_t i = 0; good && i < v.size(); ++i)
-    {
-        const auto number = parseNumber<float>(parts[i]);
-        good = number.has_value();
-        v[i] = number.value_or(0);
-    }
-    const Float3 position{v[0], v[1], v[2]}, target{v[3], v[4], v[5]};
-    const float distance = length(target - position);
-    if (!good || !(distance > 0) || v[6] < 1 || v[6] > 170)
+    options.camera = parseCamera(text);
+    if (!options.camera)
         return usage("--camera: " + quoted(text) +
                      " is not PX,PY,PZ,TX,TY,TZ,FOV with eye and target apart and 1 to 170 degrees");
-    constexpr float kRadians = 3.14159265f / 180.0f;
-    options.camera = shared::Camera{
-        .position = position, .target = target, .y_fov_rad = v[6] * kRadians, .z_near = nearPlane(distance)};
     return success();
 }
 
@@ -260,7 +223,8 @@ constexpr ValueOption kValueOptions[] = {
     {"-o", parseText<&RenderOptions::output>},
     {"--output", parseText<&RenderOptions::output>},
     {"--size", parseSize},
-    {"--camera", parseCamera},
+    {"--camera", parseCameraOption},
+    {"--camera-path", parseText<&RenderOptions::camera_path>},
     {"--scene-camera", parseSceneCamera},
     {"--error-pixels", parseErrorPixels},
     {"--lod-curve", parseLodCurve},
@@ -334,6 +298,8 @@ Result<RenderOptions> parseOptions(std::span<const char* const> arguments)
         return usage("no pack is named");
     if (options.output.empty())
         return usage("no output is named (-o IMAGE.png)");
+    if (!options.camera_path.empty() && options.frames != 1)
+        return usage("--frames and --camera-path exclude each other");
     return options;
 }
 

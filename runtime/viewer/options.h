@@ -31,6 +31,7 @@ struct RenderOptions
     uint32_t height = 720;
     std::optional<shared::Camera> camera; ///< none: the scene's camera, or fit the scene
     std::optional<uint32_t> scene_camera; ///< index of a camera of the pack
+    std::string camera_path;              ///< a file; empty: one picture
     float error_pixels = 1;
     std::vector<shared::LodKnot> lod_curve; ///< checked
     uint32_t view = 0;                      ///< shared::kView*

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "formats/shared/shading.h"
 #include "runtime/viewer/camera_fit.h"
+#include "runtime/viewer/camera_path.h"
 #include "runtime/viewer/file_output.h"
 #include "runtime/viewer/options.h"
 #include "tests/cook/shapes.h"
@@ -124,8 +125,37 @@ TEST(RenderOptions, mistakesAreNamed)
         expectUsage({"a.hearth", "-o", "a.png", "--cull", tests}, "--cull");
     for (const char* curve : {"", "1", "1:2:3", "1:x", "1:1,2:3"})
         expectUsage({"a.hearth", "-o", "a.png", "--lod-curve", curve}, "--lod-curve");
+    expectUsage({"a.hearth", "-o", "a.png", "--camera-path", "p.txt", "--frames", "2"}, "--camera-path");
     for (const char* start : {"", "noise", "noise:", "noise:x", "noise:-1", "last"})
         expectUsage({"a.hearth", "-o", "a.png", "--hzb", start}, "--hzb");
+}
+
+TEST(CameraPath, isACameraALine)
+{
+    const std::string file = testing::TempDir() + "camera_path.txt";
+    const auto written = [&](const std::string& text)
+    {
+        std::ofstream(file, std::ios::binary) << text;
+        return viewer::readCameraPath(file);
+    };
+    const auto cameras = written("# eye, target, angle\r\n\n1,2,3,4,5,6,45\r\n0,0,0,0,0,-1,90\n");
+    ASSERT_TRUE(cameras.ok());
+    ASSERT_EQ(cameras->size(), 2u);
+    EXPECT_EQ((*cameras)[0].position, (Float3{1, 2, 3}));
+    EXPECT_EQ((*cameras)[1].target, (Float3{0, 0, -1}));
+    const auto wrong = written("1,2,3,4,5,6,45\n1,2,3\n");
+    ASSERT_FALSE(wrong.ok());
+    EXPECT_EQ(wrong.error().where, "line 2");
+    EXPECT_EQ(wrong.error().issue, Issue::camera_path);
+    EXPECT_EQ(written("# nothing\n").error().issue, Issue::camera_path);
+    EXPECT_EQ(viewer::readCameraPath(file + ".none").error().issue, Issue::input_missing);
+}
+
+TEST(CameraPath, numbersItsFiles)
+{
+    EXPECT_EQ(viewer::numberedFile("a.png", 0), "a-0000.png");
+    EXPECT_EQ(viewer::numberedFile("x.y/a", 12), "x.y/a-0012");
+    EXPECT_EQ(viewer::numberedFile("x.y/.a", 12345), "x.y/.a-12345");
 }
 
 TEST(FitCamera, showsEveryCornerAndFillsThePicture)

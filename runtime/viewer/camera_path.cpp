@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "runtime/viewer/camera_path.h"
+
+#include "runtime/viewer/camera_fit.h"
+#include "runtime/viewer/text.h"
+
+#include <array>
+#include <cstdio>
+#include <fstream>
+
+namespace hearth::viewer
+{
+
+std::optional<shared::Camera> parseCamera(std::string_view text)
+{
+    const auto parts = split(text, ',');
+    std::array<float, 7> v{};
+    if (parts.size() != v.size())
+        return std::nullopt;
+    for (size_t i = 0; i < v.size(); ++i)
+    {
+        const auto number = parseNumber<float>(parts[i]);
+        if (!number)
+            return std::nullopt;
+        v[i] = *number;
+    }
+    const Float3 position{v[0], v[1], v[2]}, target{v[3], v[4], v[5]};
+    const float distance = length(target - position);
+    if (!(distance > 0) || v[6] < 1 || v[6] > 170)
+        return std::nullopt;
+    constexpr float kRadians = 3.14159265f / 180.0f;
+    return shared::Camera{
+        .position = position, .target = target, .y_fov_rad = v[6] * kRadians, .z_near = nearPlane(distance)};
+}
+
+Result<std::vector<shared::Camera>> readCameraPath(const std::string& path)
+{
+    std::ifstream file(path);
+    if (!file)
+        return Error{Issue::input_missing, path, "", ""};
+    std::vector<shared::Camera> cameras;
+    std::string line;
+    for (size_t number = 1; std::getline(file, line); ++number)
+    {
+        if (!line.empty() && line.back() == '\r')
+            line.pop_back();
+        if (line.empty() || line.front() == '#')
+            continue;
+        const auto camera = parseCamera(line);
+        if (!camera)
+            return Error{Issue::camera_path, path, "line " + std::to_string(number), "\"" + line + "\""};
+        cameras.push_back(*camera);
+    }
+    if (cameras.empty())
+        return Error{Issue::camera_path, path, "", "it has no camera"};
+    return cameras;
+}
+
+std::string numberedFile(const std::string& path, size_t frame)
+{
+    char number[24];
+    std::snprintf(number, sizeof(number), "-%04zu", frame);
+    const size_t name = path.find_last_of('/') + 1; // 0 where there is no folder
+    const size_t dot = path.find_last_of('.');
+    const size_t at = dot == std::string::npos || dot <= name ? path.size() : dot;
+    return path.substr(0, at) + number + path.substr(at);
+}
+
+} // namespace hearth::viewer
