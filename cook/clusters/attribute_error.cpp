@@ -2,14 +2,11 @@
 #include "cook/clusters/attribute_error.h"
 
 #include "cook/clusters/bounds.h"
-#include "cook/clusters/facet.h"
 #include "cook/clusters/reduce.h"
 #include "cook/clusters/surface.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <limits>
 #include <vector>
 
 namespace hearth::clusters
@@ -40,13 +37,6 @@ struct Difference
     float uv2 = 0;
 };
 
-/// A point of a facet: (1 - v - w) * corner 0 + v * corner 1 + w * corner 2.
-struct FacetPoint
-{
-    uint32_t facet = 0;
-    float v = 0, w = 0;
-};
-
 class AttributeMeasure
 {
 public:
@@ -54,7 +44,7 @@ public:
         : group_(group),
           after_(after),
           simplified_(after.simplified),
-          facets_(after.surface.index.facets()),
+          facets_(after.surface.facets),
           has_normals_(!after.mesh.normals.empty()),
           has_uvs_(!after.mesh.uvs[0].empty() && group.uv_length > 0),
           differences_(group.vertex_of_wedge.size())
@@ -65,113 +55,13 @@ public:
     {
         if (!has_normals_ && !has_uvs_)
             return {};
-        findSeams();
-        std::vector<uint32_t> targets;
-        targets.reserve(differences_.size());
-        for (const uint32_t position : group_.position_of_wedge)
-            targets.push_back(simplified_.target_of_position[position]);
-        const auto wedges_of_target = NumberLists::byKey<1>(group_.positions.size(), targets);
-        for (uint32_t target = 0; target < group_.positions.size(); ++target)
-            measureAround(target, wedges_of_target.of(target));
+        for (uint32_t wedge = 0; wedge < differences_.size(); ++wedge)
+            if (const FacetPoint& point = after_.points[wedge]; point.facet != kNoFacet)
+                differences_[wedge] = differenceAt(wedge, point);
         return {meanOfDifferences(), edgeLength()};
     }
 
 private:
-    void findSeams()
-    {
-        constexpr uint32_t kNoWedge = 0xFFFFFFFFu;
-        on_seam_.assign(group_.positions.size(), 0);
-        if (group_.positions.size() == group_.vertex_of_wedge.size())
-            return;
-        std::vector<uint32_t> wedge_at(group_.positions.size(), kNoWedge);
-        for (const uint32_t wedge : simplified_.corners)
-        {
-            uint32_t& first = wedge_at[group_.position_of_wedge[wedge]];
-            if (first == kNoWedge)
-                first = wedge;
-            else if (first != wedge)
-                on_seam_[group_.position_of_wedge[wedge]] = 1;
-        }
-    }
-
-    /// The wedges of all positions that went to one, against the facets around it.
-    void measureAround(uint32_t target, std::span<const uint32_t> wedges)
-    {
-        fan_ = after_.surface.facets_at.of(target);
-        if (fan_.empty())
-            return;
-        loadBlocks();
-        for (const uint32_t wedge : wedges)
-        {
-            const uint32_t position = group_.position_of_wedge[wedge];
-            if (position == target && simplified_.placement.remade[target] == 0)
-                continue;
-            // inside a chart all of the fan goes on from facet to facet
-            differences_[wedge] =
-                differenceAt(wedge, on_seam_[target] != 0 ? likeliestPoint(wedge)
-                                                          : nearestPoint(group_.positions[position]));
-        }
-    }
-
-    /// Four facets of the fan in a block; behind the last, that again.
-    void loadBlocks()
-    {
-        blocks_.clear();
-        for (size_t first = 0; first < fan_.size(); first += kLanes)
-        {
-            std::array<const Facet*, kLanes> block;
-            for (size_t i = 0; i < kLanes; ++i)
-                block[i] = &facets_[fan_[std::min(first + i, fan_.size() - 1)]];
-            blocks_.push_back(makeBlock(block));
-        }
-    }
-
-    FacetPoint nearestPoint(Float3 place) const
-    {
-        Lanes least = allLanes(std::numeric_limits<float>::infinity());
-        Lanes v{}, w{};
-        LaneMask blocks{};
-        for (size_t block = 0; block < blocks_.size(); ++block)
-        {
-            const FacetBlock::Nearest nearest = blocks_[block].nearest(place);
-            const LaneMask nearer = nearest.distance2 < least;
-            least = nearer ? nearest.distance2 : least;
-            v = nearer ? nearest.v : v;
-            w = nearer ? nearest.w : w;
-            blocks = nearer ? LaneMask{} + static_cast<int32_t>(block) : blocks;
-        }
-        size_t lane = 0;
-        for (size_t i = 1; i < kLanes; ++i)
-            if (least[i] < least[lane])
-                lane = i;
-        const size_t found = static_cast<size_t>(blocks[lane]) * kLanes + lane;
-        return {fan_[std::min(found, fan_.size() - 1)], v[lane], w[lane]};
-    }
-
-    /// The nearest point on each of the facets, and of these the nearest one with regard to the attributes as well: at a
-    /// seam, that is on the wedge's own side.
-    FacetPoint likeliestPoint(uint32_t wedge) const
-    {
-        const Float3 place = group_.positions[group_.position_of_wedge[wedge]];
-        FacetPoint best{fan_.front()};
-        float least = std::numeric_limits<float>::infinity();
-        for (size_t block = 0; block < blocks_.size(); ++block)
-        {
-            const FacetBlock::Nearest nearest = blocks_[block].nearest(place);
-            for (size_t i = 0; i < std::min(kLanes, fan_.size() - block * kLanes); ++i)
-            {
-                const FacetPoint point{fan_[block * kLanes + i], nearest.v[i], nearest.w[i]};
-                const float cost = nearest.distance2[i] + attributeDistance2(wedge, point);
-                if (cost < least)
-                {
-                    least = cost;
-                    best = point;
-                }
-            }
-        }
-        return best;
-    }
-
     /// What the new surface has in place of a wedge's attributes, less these.
     Difference differenceAt(uint32_t wedge, const FacetPoint& point) const
     {
@@ -189,23 +79,6 @@ private:
         difference.normal2 = hearth::dot(difference.normal, difference.normal);
         difference.uv2 = dot(difference.uv, difference.uv);
         return difference;
-    }
-
-    float attributeDistance2(uint32_t wedge, const FacetPoint& point) const
-    {
-        const Lanes* before = group_.attributesOf(wedge);
-        const Lanes* rows[3];
-        for (size_t k = 0; k < 3; ++k)
-            rows[k] = simplified_.placement.attributes.data() +
-                      size_t{simplified_.corners[point.facet * 3 + k]} * group_.attribute_rows;
-        const Lanes v = allLanes(point.v), w = allLanes(point.w), u = allLanes(1 - point.v - point.w);
-        Lanes sum{};
-        for (size_t row = 0; row < group_.attribute_rows; ++row)
-        {
-            const Lanes away = rows[0][row] * u + rows[1][row] * v + rows[2][row] * w - before[row];
-            sum += away * away;
-        }
-        return sumOfLanes(sum);
     }
 
     /// The new surface's value at a point, of those that the vertices have.
@@ -270,12 +143,7 @@ private:
     std::span<const Facet> facets_;
     bool has_normals_;
     bool has_uvs_;
-    std::vector<uint8_t> on_seam_;        ///< for each position: several wedges are left at it
     std::vector<Difference> differences_; ///< for each wedge of the group
-
-    // around one position
-    std::span<const uint32_t> fan_;
-    std::vector<FacetBlock> blocks_;
 };
 
 } // namespace

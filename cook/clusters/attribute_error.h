@@ -5,6 +5,7 @@
 #include "cook/clusters/group_mesh.h"
 #include "cook/clusters/simplify.h"
 #include "cook/clusters/surface.h"
+#include "cook/clusters/surface_points.h"
 #include "cook/mesh/source_mesh.h"
 
 #include <cstdint>
@@ -32,6 +33,7 @@ struct NewSurface
 {
     const Simplified& simplified;
     const Surface& surface;
+    std::span<const FacetPoint> points; ///< for each wedge, if it went or moved: where it lies on the surface
     const mesh::SourceMesh& mesh;
     const mesh::SourceMesh& made;
     std::span<const uint32_t> vertex_of_wedge;

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/clusters/deviation.h"
 
+#include "cook/clusters/facet_index.h"
 #include "cook/clusters/nearest_bound.h"
-#include "cook/clusters/overlay.h"
 #include "cook/clusters/surface.h"
+#include "cook/clusters/surface_map.h"
 #include "formats/assert.h"
 
 #include <algorithm>
@@ -49,6 +50,21 @@ public:
             add(facet);
     }
 
+    /// Those around the corner where a side starts.
+    void addAround(std::span<const uint32_t> twins, uint32_t start)
+    {
+        uint32_t side = start;
+        do
+        {
+            add(side / 3);
+            side = twins[previousSide(side)];
+        } while (side != kNoSide && side != start);
+        if (side == start)
+            return;
+        for (side = twins[start]; side != kNoSide; side = twins[nextSide(side)])
+            add(side / 3);
+    }
+
     void add(uint32_t facet)
     {
         if (list_of_facet_[facet] == list_ || facets_.size() == kMaxLikely)
@@ -65,27 +81,6 @@ private:
     std::vector<uint32_t> facets_;
 };
 
-std::vector<uint32_t> positionsOf(const GroupMesh& group, std::span<const uint32_t> wedges)
-{
-    std::vector<uint32_t> positions;
-    positions.reserve(wedges.size());
-    for (const uint32_t wedge : wedges)
-        positions.push_back(group.position_of_wedge[wedge]);
-    return positions;
-}
-
-/// The largest error of the facets at each position.
-std::vector<float> errorsAtPositions(const Surface& surface, std::span<const float> errors)
-{
-    std::vector<float> largest(surface.place_of_position.size(), 0);
-    for (size_t corner = 0; corner < surface.positions.size(); ++corner)
-    {
-        float& at = largest[surface.positions[corner]];
-        at = std::max(at, errors[corner / 3]);
-    }
-    return largest;
-}
-
 /// An upper bound of what a triangle adds up to: the error that is carried, and its distance.
 struct Total
 {
@@ -101,58 +96,55 @@ struct Total
     }
 };
 
-/// Bounds the triangles from before that are gone or changed, and those that are new. What a collapse moved lies beside
-/// the star of the position that it moved to, and the new star beside that of the position that moved.
+/// Bounds the triangles from before that are gone or changed, and those that are new.
 class GroupMeasure
 {
 public:
-    GroupMeasure(const GroupMesh& group, const Simplified& simplified)
+    GroupMeasure(const GroupMesh& group, const Simplified& simplified, const Surface& after,
+                 std::span<const FacetPoint> points)
         : group_(group),
           simplified_(simplified),
-          before_(positionsOf(group, group.corners), group.positions),
-          after_(positionsOf(group, simplified.corners), simplified.placement.places),
-          sources_(NumberLists::byKey<1>(group.positions.size(), simplified.target_of_position)),
-          open_(openPositions(group)),
-          over_before_(before_, open_, errorsAtPositions(before_, group.errors)),
-          over_after_(after_, open_, std::vector<float>(group.positions.size(), 0)),
-          likely_before_(before_.facetCount()),
-          likely_after_(after_.facetCount()),
-          errors_(after_.facetCount(), 0),
-          errors_at_(group.positions.size(), 0)
+          after_(after),
+          positions_before_(positionsOfCorners(group, group.corners)),
+          changed_(changedTriangles()),
+          map_(group, simplified, positions_before_, after, points, changed_),
+          index_before_(positions_before_, group.positions),
+          index_after_(after.positions, after.place_of_position),
+          likely_before_(changed_.size()),
+          likely_after_(after.facetCount()),
+          errors_(after.facetCount(), 0)
     {
     }
 
     Deviation run()
     {
-        std::vector<uint8_t> unchanged(before_.facetCount(), 0);
         for (uint32_t t = 0; t < after_.facetCount(); ++t)
+            if (const uint32_t source = simplified_.source_triangle[t]; changed_[source] == 0)
+                errors_[t] = group_.errors[source];
+        sums_ = map_.sumsOver(group_.errors);
+        settleLargest();
+        for (uint32_t t = 0; t < errors_.size(); ++t)
         {
-            const uint32_t source = simplified_.source_triangle[t];
-            if (movedCorner(source))
-            {
-                totals_.push_back({totalAfter(t), t, false});
-                continue;
-            }
-            unchanged[source] = 1;
-            errors_[t] = group_.errors[source];
-        }
-        for (uint32_t t = 0; t < before_.facetCount(); ++t)
-            if (unchanged[t] == 0)
-                totals_.push_back({totalBefore(t), t, true});
-        takeTotals();
-        for (size_t t = 0; t < errors_.size(); ++t)
-        {
-            for (size_t corner = t * 3; corner < t * 3 + 3; ++corner)
-                give(static_cast<uint32_t>(t), errors_at_[after_.positions[corner]]);
+            // what is larger comes from triangles that were searched
+            give(t, std::min(sums_[t], worst_));
             errors_[t] += kRounding;
         }
-        return {std::move(errors_), std::move(after_), nearest_.loosePieces()};
+        return {std::move(errors_), nearest_.loosePieces()};
     }
 
 private:
+    std::vector<uint8_t> changedTriangles() const
+    {
+        std::vector<uint8_t> changed(group_.triangleCount(), 1);
+        for (const uint32_t source : simplified_.source_triangle)
+            if (!movedCorner(source))
+                changed[source] = 0;
+        return changed;
+    }
+
     uint32_t targetOf(size_t corner) const
     {
-        return simplified_.target_of_position[before_.positions[corner]];
+        return simplified_.target_of_position[positions_before_[corner]];
     }
 
     bool movedCorner(size_t triangle) const
@@ -163,50 +155,59 @@ private:
     bool moved(size_t corner) const
     {
         const uint32_t target = targetOf(corner);
-        return target != before_.positions[corner] || simplified_.placement.remade[target] != 0;
+        return target != positions_before_[corner] || simplified_.placement.remade[target] != 0;
+    }
+
+    /// Calls visit(total) for all that changed, as the map has it.
+    template <typename Visit>
+    void forEachTotal(Visit visit) const
+    {
+        for (uint32_t t = 0; t < changed_.size(); ++t)
+            if (changed_[t] != 0)
+                visit(Total{map_.maps(t) ? group_.errors[t] + map_.farOf(t) : kInfinity, t, true});
+        for (uint32_t t = 0; t < sums_.size(); ++t)
+            if (changed_[simplified_.source_triangle[t]] != 0)
+                visit(Total{map_.covers(t) ? sums_[t] : kInfinity, t, false});
     }
 
     /// Largest first: once one needs no closer look, neither do the others. The largest of all rules most of them out.
-    void takeTotals()
+    void settleLargest()
     {
-        if (totals_.empty())
+        Total largest{-1, 0, false};
+        forEachTotal([&](const Total& total) { largest = std::max(largest, total); });
+        if (largest.upper < 0)
             return;
-        std::iter_swap(std::max_element(totals_.begin(), totals_.end()), totals_.end() - 1);
-        settle(totals_.back());
-        totals_.pop_back();
-        auto last =
-            std::partition(totals_.begin(), totals_.end(), [&](const Total& t) { return t.upper > worst_; });
-        for (const Total& total : std::span(last, totals_.end()))
-            take(total);
-        std::make_heap(totals_.begin(), last);
-        for (; last != totals_.begin() && totals_.front().upper > worst_; --last)
+        settle(largest);
+        std::vector<Total> larger;
+        forEachTotal(
+            [&](const Total& total)
+            {
+                if (total.upper > worst_ && total < largest)
+                    larger.push_back(total);
+            });
+        std::make_heap(larger.begin(), larger.end());
+        for (; !larger.empty() && larger.front().upper > worst_; larger.pop_back())
         {
-            settle(totals_.front());
-            std::pop_heap(totals_.begin(), last);
+            settle(larger.front());
+            std::pop_heap(larger.begin(), larger.end());
         }
-        for (const Total& total : std::span(totals_.begin(), last))
-            take(total);
     }
 
     void settle(const Total& total)
     {
         if (isRounding(total))
-            take(total);
-        else
-            total.before ? searchBefore(total.triangle) : searchAfter(total.triangle);
-    }
-
-    void take(const Total& total)
-    {
-        total.before ? giveTargets(total.triangle, total.upper) : give(total.triangle, total.upper);
-        worst_ = std::max(worst_, total.upper);
+        {
+            worst_ = std::max(worst_, total.upper);
+            return;
+        }
+        total.before ? searchBefore(total.triangle) : searchAfter(total.triangle);
     }
 
     /// On a plane there is nothing to search for: all distances are rounding.
     bool isRounding(const Total& total) const
     {
-        const Surface& surface = total.before ? before_ : after_;
-        const Corners corners = surface.cornersOf(total.triangle);
+        const Corners corners =
+            total.before ? cornersBefore(total.triangle) : after_.cornersOf(total.triangle);
         const Float3 e1 = corners[1] - corners[0], e2 = corners[2] - corners[0];
         const float carried = total.before ? group_.errors[total.triangle] : 0.0f;
         return total.upper - carried <= kFlat * std::sqrt(std::max(dot(e1, e1), dot(e2, e2)));
@@ -214,60 +215,25 @@ private:
 
     void give(uint32_t facet, float error) { errors_[facet] = std::max(errors_[facet], error); }
 
-    /// What the triangle stood for is beside the stars of its targets now.
-    void giveTargets(uint32_t triangle, float error)
+    Corners cornersBefore(size_t t) const
     {
-        for (size_t corner = size_t{triangle} * 3; corner < size_t{triangle} * 3 + 3; ++corner)
-        {
-            float& at = errors_at_[targetOf(corner)];
-            at = std::max(at, error);
-        }
-    }
-
-    float totalBefore(size_t t)
-    {
-        over_after_.clear();
-        for (size_t corner = t * 3; corner < t * 3 + 3; ++corner)
-        {
-            if (targetOf(corner) == kPruned)
-                return kInfinity;
-            over_after_.addCenter(targetOf(corner));
-        }
-        return group_.errors[t] + over_after_.heightOver(before_.cornersOf(t));
-    }
-
-    /// What lies over most triangles is beside the corners that they had and those that they have. For the others, all
-    /// positions that went to a corner are looked around.
-    float totalAfter(size_t t)
-    {
-        const size_t source = size_t{simplified_.source_triangle[t]} * 3;
-        over_before_.clear();
-        for (size_t k = 0; k < 3; ++k)
-        {
-            over_before_.addCenter(before_.positions[source + k]);
-            over_before_.addCenter(after_.positions[t * 3 + k]);
-        }
-        const float total = over_before_.heightOver(after_.cornersOf(t));
-        if (total < kInfinity)
-            return total;
-        over_before_.clear();
-        for (size_t corner = t * 3; corner < t * 3 + 3; ++corner)
-            for (const uint32_t position : sources_.of(after_.positions[corner]))
-                over_before_.addCenter(position);
-        return over_before_.heightOver(after_.cornersOf(t));
+        return {group_.positions[positions_before_[t * 3]], group_.positions[positions_before_[t * 3 + 1]],
+                group_.positions[positions_before_[t * 3 + 2]]};
     }
 
     void searchBefore(uint32_t t)
     {
         const float carried = group_.errors[t];
         likely_after_.clear();
+        if (map_.maps(t))
+            map_.forEachFacetOf(t, [&](uint32_t facet) { likely_after_.add(facet); });
         for (size_t corner = size_t{t} * 3; corner < size_t{t} * 3 + 3; ++corner)
             if (const uint32_t target = targetOf(corner); target != kPruned && moved(corner))
                 likely_after_.addAround(after_, target);
         if (likely_after_.facets().empty())
             addNeighboursInOrder(t);
-        const float total = carried + nearest_.bound(before_.cornersOf(t), after_.index,
-                                                     likely_after_.facets(), allowance(carried));
+        const float total = carried + nearest_.bound(cornersBefore(t), index_after_, likely_after_.facets(),
+                                                     allowance(carried));
         for (const uint32_t facet : nearest_.used())
             give(facet, total);
         worst_ = std::max(worst_, total);
@@ -280,11 +246,11 @@ private:
         const size_t source = simplified_.source_triangle[t];
         for (size_t corner = source * 3; corner < source * 3 + 3; ++corner)
             if (moved(corner))
-                likely_before_.addAround(before_, before_.positions[corner]);
+                likely_before_.addAround(map_.twinsBefore(), static_cast<uint32_t>(corner));
         for (const uint32_t facet : likely_before_.facets())
             carried = std::max(carried, group_.errors[facet]);
         const float distance =
-            nearest_.bound(after_.cornersOf(t), before_.index, likely_before_.facets(), allowance(carried));
+            nearest_.bound(after_.cornersOf(t), index_before_, likely_before_.facets(), allowance(carried));
         carried = 0;
         for (const uint32_t facet : nearest_.used())
             carried = std::max(carried, group_.errors[facet]);
@@ -309,27 +275,27 @@ private:
 
     const GroupMesh& group_;
     const Simplified& simplified_;
-    Surface before_;
-    Surface after_;
-    NumberLists sources_;       ///< positions that went to each
-    std::vector<uint8_t> open_; ///< for each position
-    Overlay over_before_;
-    Overlay over_after_;
+    const Surface& after_;
+    std::vector<uint32_t> positions_before_; ///< three for each triangle
+    std::vector<uint8_t> changed_;           ///< for each triangle before: it is not there any more as it was
+    SurfaceMap map_;
+    FacetIndex index_before_;
+    FacetIndex index_after_;
+    std::vector<float> sums_; ///< for each triangle after, of those
     Likely likely_before_;
     Likely likely_after_;
-    std::vector<Total> totals_;
     NearestBound nearest_;
-    float worst_ = 0;              ///< the largest total so far, as far as it was searched
-    std::vector<float> errors_;    ///< for each triangle after
-    std::vector<float> errors_at_; ///< for each position after: what all triangles around it have at least
+    float worst_ = 0;           ///< the largest total so far, as far as it was searched
+    std::vector<float> errors_; ///< for each triangle after
 };
 
 } // namespace
 
-Deviation boundDeviation(const GroupMesh& group, const Simplified& simplified)
+Deviation boundDeviation(const GroupMesh& group, const Simplified& simplified, const Surface& after,
+                         std::span<const FacetPoint> points)
 {
     HEARTH_ASSERT(simplified.triangleCount() > 0);
-    return GroupMeasure(group, simplified).run();
+    return GroupMeasure(group, simplified, after, points).run();
 }
 
 } // namespace hearth::clusters

@@ -14,17 +14,15 @@ constexpr size_t kRun = kLanes * kBlocksPerRun;
 
 } // namespace
 
-FacetIndex::FacetIndex(std::span<const Float3> places)
+void FacetIndex::makeBoxes()
 {
-    const size_t count = places.size() / 3;
+    const size_t count = positions_.size() / 3;
     std::vector<Box3> boxes(count);
     std::vector<Box3> run_boxes((count + kRun - 1) / kRun);
-    facets_.reserve(count);
-    for (size_t f = 0; f < count; ++f)
+    for (uint32_t f = 0; f < count; ++f)
     {
-        const Float3* corner = &places[f * 3];
-        facets_.push_back(makeFacet(corner[0], corner[1], corner[2]));
-        boxes[f] = {min(min(corner[0], corner[1]), corner[2]), max(max(corner[0], corner[1]), corner[2])};
+        for (size_t k = 0; k < 3; ++k)
+            boxes[f].add(cornerOf(f, k));
         run_boxes[f / kRun].add(boxes[f]);
     }
     boxes_ = blocksOf(boxes);
@@ -58,8 +56,10 @@ LaneMask FacetIndex::overlap(const BoxBlock& blocks, const Box3& box)
            (blocks.max.y >= low.y) & (blocks.min.z <= high.z) & (blocks.max.z >= low.z);
 }
 
-void FacetIndex::query(const Box3& box, std::vector<uint32_t>& found) const
+void FacetIndex::query(const Box3& box, std::vector<uint32_t>& found)
 {
+    if (boxes_.empty())
+        makeBoxes();
     found.clear();
     const auto forEachLane = [](LaneMask mask, auto visit)
     {

@@ -224,6 +224,15 @@ GroupMesh gatherGroup(const PreparedMesh& mesh, const ClusterStore& store, std::
     return group;
 }
 
+std::vector<uint32_t> positionsOfCorners(const GroupMesh& group, std::span<const uint32_t> wedges)
+{
+    std::vector<uint32_t> positions;
+    positions.reserve(wedges.size());
+    for (const uint32_t wedge : wedges)
+        positions.push_back(group.position_of_wedge[wedge]);
+    return positions;
+}
+
 std::vector<uint8_t> openPositions(const GroupMesh& group)
 {
     std::vector<uint64_t> difference(group.positions.size(), 0);

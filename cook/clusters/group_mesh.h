@@ -54,6 +54,9 @@ struct WedgeMove
 GroupMesh gatherGroup(const PreparedMesh& mesh, const ClusterStore& store, std::span<const uint32_t> members,
                       std::span<const uint8_t> locked, const Config& config);
 
+/// The positions of some of the group's wedges.
+std::vector<uint32_t> positionsOfCorners(const GroupMesh& group, std::span<const uint32_t> wedges);
+
 /// For each position, 1 where the triangles do not close around it. Collapses keep it so: borders only shorten along
 /// themselves.
 std::vector<uint8_t> openPositions(const GroupMesh& group);

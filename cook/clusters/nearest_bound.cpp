@@ -14,8 +14,9 @@ namespace
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-// A triangle this close in parts of its own size is not searched further: on a plane all distances are rounding.
-constexpr float kFinest2 = 1.0f / (512.0f * 512.0f);
+// A triangle this close in parts of its own size is not searched further: on a plane all distances are rounding. Parts
+// of 512 would do, but that beside an open border it would be all that is known of a plane.
+constexpr float kFinest2 = 1.0f / (8192.0f * 8192.0f);
 
 // Facets within this part of a triangle's size are looked at first.
 constexpr float kTouching = 0.1f;
@@ -61,7 +62,7 @@ std::pair<Corners, Corners> halve(const Corners& c)
 
 } // namespace
 
-float NearestBound::bound(const Corners& triangle, const FacetIndex& index, std::span<const uint32_t> likely,
+float NearestBound::bound(const Corners& triangle, FacetIndex& index, std::span<const uint32_t> likely,
                           Allowance allowance)
 {
     const float size = sizeOf(triangle);
@@ -102,16 +103,24 @@ float NearestBound::bound(const Corners& triangle, const FacetIndex& index, std:
     return std::sqrt(worst2);
 }
 
-Bound NearestBound::boundByLikely(const Corners& triangle, const FacetIndex& index,
+Bound NearestBound::boundByLikely(const Corners& triangle, FacetIndex& index,
                                   std::span<const uint32_t> likely)
 {
     const auto few = likely.first(std::min(likely.size(), kFewLikely));
-    candidates_.load(index.facets(), few);
+    load(index, few);
     const Bound bound = bounder_.bound(triangle, candidates_.blocks(), allowed2(), 0, kFewPoints);
     if (bound.closed || few.size() == likely.size())
         return bound;
-    candidates_.load(index.facets(), likely);
+    load(index, likely);
     return bounder_.bound(triangle, candidates_.blocks(), allowed2(), 0, kQuickPoints);
+}
+
+void NearestBound::load(const FacetIndex& index, std::span<const uint32_t> facets)
+{
+    facets_.clear();
+    for (const uint32_t f : facets)
+        facets_.push_back(index.facet(f));
+    candidates_.load(facets_);
 }
 
 float NearestBound::allowed2() const
@@ -122,7 +131,7 @@ float NearestBound::allowed2() const
 
 /// Bound the distance to the facets within `radius`; if there are none, to those within a larger one. Where there
 /// are more than fit, those with the nearest centers serve.
-Bound NearestBound::boundPiece(const Corners& piece, const FacetIndex& index, float allowed2, float radius)
+Bound NearestBound::boundPiece(const Corners& piece, FacetIndex& index, float allowed2, float radius)
 {
     index.query(boxAround(piece, radius), found_);
     for (float wider = std::max(radius, 1e-3f); found_.empty(); wider *= 2)
@@ -134,13 +143,13 @@ Bound NearestBound::boundPiece(const Corners& piece, const FacetIndex& index, fl
         keepNearest(piece, index);
         radius = 0;
     }
-    candidates_.load(index.facets(), found_);
+    load(index, found_);
     return bounder_.bound(piece, candidates_.blocks(), allowed2, radius);
 }
 
 /// Drop facets that lie beyond an edge of the piece by more than `radius`: the index knows them by their boxes only.
 /// Keeps all if none would be left.
-void NearestBound::dropBesides(const Corners& piece, const FacetIndex& index, float radius)
+void NearestBound::dropBesides(const Corners& piece, FacetIndex& index, float radius)
 {
     const Float3 normal = cross(piece[1] - piece[0], piece[2] - piece[0]);
     std::array<Float3, 3> outward;
@@ -154,7 +163,7 @@ void NearestBound::dropBesides(const Corners& piece, const FacetIndex& index, fl
     }
     const auto beside = [&](uint32_t f)
     {
-        const Facet& facet = index.facets()[f];
+        const Facet facet = index.facet(f);
         for (size_t k = 0; k < 3; ++k)
         {
             const float a = hearth::dot(outward[k], facet.a);
@@ -170,13 +179,13 @@ void NearestBound::dropBesides(const Corners& piece, const FacetIndex& index, fl
         found_.erase(kept, found_.end());
 }
 
-void NearestBound::keepNearest(const Corners& piece, const FacetIndex& index)
+void NearestBound::keepNearest(const Corners& piece, FacetIndex& index)
 {
     const Float3 middle = (piece[0] + piece[1] + piece[2]) / 3.0f;
     by_distance_.clear();
     for (const uint32_t f : found_)
     {
-        const Facet& facet = index.facets()[f];
+        const Facet facet = index.facet(f);
         const Float3 away = facet.a + (facet.ab + facet.ac) / 3.0f - middle;
         by_distance_.push_back({hearth::dot(away, away), f});
     }

@@ -29,7 +29,7 @@ public:
     /// An upper bound of the distance of any point of the triangle to the surface.
     /// likely  facets that probably lie beside it, likeliest first: if they bound it well enough, no others are
     ///         searched; may be empty
-    float bound(const Corners& triangle, const FacetIndex& index, std::span<const uint32_t> likely,
+    float bound(const Corners& triangle, FacetIndex& index, std::span<const uint32_t> likely,
                 Allowance allowance);
 
     /// The facets that the last bound was taken from; some may be there twice.
@@ -39,10 +39,11 @@ public:
     uint64_t loosePieces() const { return loose_pieces_; }
 
 private:
-    Bound boundByLikely(const Corners& triangle, const FacetIndex& index, std::span<const uint32_t> likely);
-    Bound boundPiece(const Corners& piece, const FacetIndex& index, float allowed2, float radius);
-    void dropBesides(const Corners& piece, const FacetIndex& index, float radius);
-    void keepNearest(const Corners& piece, const FacetIndex& index);
+    Bound boundByLikely(const Corners& triangle, FacetIndex& index, std::span<const uint32_t> likely);
+    Bound boundPiece(const Corners& piece, FacetIndex& index, float allowed2, float radius);
+    void dropBesides(const Corners& piece, FacetIndex& index, float radius);
+    void keepNearest(const Corners& piece, FacetIndex& index);
+    void load(const FacetIndex& index, std::span<const uint32_t> facets);
     float allowed2() const;
 
     Allowance allowance_;
@@ -53,6 +54,7 @@ private:
     std::vector<Corners> stack_;
     std::vector<uint32_t> found_;
     std::vector<uint32_t> used_;
+    std::vector<Facet> facets_;
     Candidates candidates_;
     Bounder bounder_;
 };

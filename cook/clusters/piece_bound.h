@@ -28,7 +28,7 @@ inline constexpr float kSlack2 = kSlack * kSlack;
 class Candidates
 {
 public:
-    void load(std::span<const Facet> all, std::span<const uint32_t> facets)
+    void load(std::span<const Facet> facets)
     {
         HEARTH_ASSERT(!facets.empty() && facets.size() <= kMaxCandidates);
         block_count_ = (facets.size() + kLanes - 1) / kLanes;
@@ -37,7 +37,7 @@ public:
             // lanes that are left over repeat the first facet
             std::array<const Facet*, kLanes> lanes;
             for (size_t lane = 0; lane < kLanes; ++lane)
-                lanes[lane] = &all[facets[b * kLanes + lane < facets.size() ? b * kLanes + lane : 0]];
+                lanes[lane] = &facets[b * kLanes + lane < facets.size() ? b * kLanes + lane : 0];
             blocks_[b] = makeBlock(lanes);
         }
     }

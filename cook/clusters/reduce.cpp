@@ -109,7 +109,9 @@ Reduced reduceGroup(const PreparedMesh& mesh, const ClusterStore& store, std::sp
     reduced.permissive = simplified.permissive;
     reduced.pruned = simplified.pruned;
     reduced.merged = simplified.merged;
-    Deviation deviation = boundDeviation(group, simplified);
+    const Surface after(positionsOfCorners(group, simplified.corners), simplified.placement.places);
+    const SurfacePoints points = findPoints(group, simplified, after);
+    Deviation deviation = boundDeviation(group, simplified, after, points.of_position);
     reduced.loose_pieces = deviation.loose_pieces;
     for (float& error : deviation.errors)
     {
@@ -118,7 +120,7 @@ Reduced reduceGroup(const PreparedMesh& mesh, const ClusterStore& store, std::sp
     }
     const std::vector<uint32_t> vertices = makeVertices(mesh, group, simplified, reduced);
     reduced.attributes =
-        measureAttributes(group, {simplified, deviation.surface, mesh.vertices, reduced.made, vertices});
+        measureAttributes(group, {simplified, after, points.of_wedge, mesh.vertices, reduced.made, vertices});
     reduced.clusters = splitSimplified(group, simplified, vertices, deviation.errors);
     reduced.progressed = goal.exact || reduced.clusters.shapes.size() < members.size();
     return reduced;

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include "cook/clusters/facet_index.h"
+#include "cook/clusters/facet.h"
 #include "cook/clusters/piece_bound.h"
 #include "formats/math.h"
 
@@ -50,7 +50,7 @@ struct Surface
 {
     std::vector<uint32_t> positions; ///< three for each facet
     std::vector<Float3> places;      ///< of the same corners
-    FacetIndex index;
+    std::vector<Facet> facets;
     std::vector<Float3> place_of_position;
     NumberLists facets_at; ///< facets at each position
 
@@ -59,7 +59,7 @@ struct Surface
     Surface(std::vector<uint32_t> corner_positions, std::span<const Float3> all_places)
         : positions(std::move(corner_positions)),
           places(placesOf(positions, all_places)),
-          index(places),
+          facets(facetsOf(places)),
           place_of_position(all_places.begin(), all_places.end()),
           facets_at(NumberLists::byKey<3>(all_places.size(), positions))
     {
@@ -72,6 +72,15 @@ struct Surface
     }
 
 private:
+    static std::vector<Facet> facetsOf(std::span<const Float3> places)
+    {
+        std::vector<Facet> facets;
+        facets.reserve(places.size() / 3);
+        for (size_t corner = 0; corner < places.size(); corner += 3)
+            facets.push_back(makeFacet(places[corner], places[corner + 1], places[corner + 2]));
+        return facets;
+    }
+
     static std::vector<Float3> placesOf(std::span<const uint32_t> positions,
                                         std::span<const Float3> place_of_position)
     {
