@@ -224,9 +224,11 @@ bench::MeshCurve measureMesh(const std::string& name, const mesh::SourceMesh& me
     std::printf("  %.0f k triangles a user second on one thread", ktris / one.user);
     if (peer != nullptr)
         std::printf(" (clod %.0f on its machine)", peer->ktris_per_second);
-    std::printf("; time / that of meshlets and one halving by meshoptimizer 0.18: %.2f; two threads %.2f "
-                "times as fast\n",
-                one.user / calibration, one.wall / two.wall);
+    std::printf("; time / that of meshlets and one halving by meshoptimizer 0.18: %.2f",
+                one.user / calibration);
+    if (peer != nullptr && peer->calibration > 0)
+        std::printf(" (clod %.2f)", peer->calibration);
+    std::printf("; two threads %.2f times as fast\n", one.wall / two.wall);
     if (hierarchy.clusters.empty())
         return {};
     printShape(hierarchy);
