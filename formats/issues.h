@@ -127,6 +127,8 @@ enum class IssueClass : uint8_t
       "split the scene, or use a device with higher limits")                                                 \
     X(out_of_memory, 4005, internal, "the machine has not enough memory",                                    \
       "close other programs, or split the source")                                                           \
+    X(streaming_budget, 4006, usage, "the geometry that must stay in memory exceeds the budget",             \
+      "raise the budget to what the message says")                                                           \
     X(child_failed, 7001, internal, "a cooker ended abnormally", "report it, with the input")                \
     X(internal, 7000, internal, "Hearth has a defect", "report it, with the input")
 

@@ -3,6 +3,7 @@
 
 #include "runtime/pack/cut.h"
 #include "runtime/pack/pack.h"
+#include "runtime/pack/page_graph.h"
 
 #include <limits>
 
@@ -56,6 +57,23 @@ void useCuts(const PackView& view, uint32_t mesh)
     }
 }
 
+/// What is drawn of every mesh when nothing is resident but what always is.
+void useCoarsest(const PackView& view)
+{
+    const pack::PageGraph graph = pack::PageGraph::of(view);
+    std::vector<uint8_t> resident(graph.pageCount(), 0);
+    for (const uint32_t page : graph.pinned())
+        resident[page] = 1;
+    const std::vector<uint8_t> resident_groups = pack::residentGroups(view, resident);
+    for (uint32_t mesh = 0; mesh < view.meshes().size(); ++mesh)
+    {
+        const std::vector<uint32_t> cut = pack::selectCut(view, mesh, 0, resident_groups);
+        HEARTH_ASSERT(cut.empty() != (view.meshes()[mesh].clusters.count > 0));
+        for (const uint32_t cluster : cut)
+            HEARTH_ASSERT(graph.isPinned(view.clusters()[cluster].page));
+    }
+}
+
 /// The scene as a renderer walks it.
 void useScene(const PackView& view)
 {
@@ -102,6 +120,7 @@ Status exercisePack(std::span<const std::byte> bytes)
         usePage(pack, page);
     for (uint32_t mesh = 0; mesh < pack->meshes().size(); ++mesh)
         useCuts(pack.view(), mesh);
+    useCoarsest(pack.view());
     useScene(pack.view());
     for (uint32_t image = 0; image < pack->images().size(); ++image)
         useImage(pack.view(), image);

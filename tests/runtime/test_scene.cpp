@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "tests/runtime/test_scene.h"
 
-#include "cook/clusters/hierarchy.h"
 #include "formats/pack_check.h"
 #include "formats/scale_bound.h"
 
@@ -126,7 +125,12 @@ uint32_t TestScene::addImage(TexelFormat format, uint32_t width, uint32_t height
 
 uint32_t TestScene::addMesh(const mesh::SourceMesh& mesh)
 {
-    appendHierarchy(model_, clusters::buildHierarchy(mesh));
+    return addHierarchy(clusters::buildHierarchy(mesh));
+}
+
+uint32_t TestScene::addHierarchy(const clusters::Hierarchy& hierarchy)
+{
+    appendHierarchy(model_, hierarchy);
     return countOf(model_.meshes) - 1;
 }
 

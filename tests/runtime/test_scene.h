@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
+#include "cook/clusters/hierarchy.h"
 #include "cook/mesh/source_mesh.h"
 #include "formats/pack_view.h"
 #include "formats/shared/frame.h"
@@ -27,6 +28,7 @@ public:
                       const std::vector<uint32_t>& texels);
     /// Cooks the mesh; returns its number.
     uint32_t addMesh(const mesh::SourceMesh& mesh);
+    uint32_t addHierarchy(const clusters::Hierarchy& hierarchy);
     /// Sets the flags and scale_max that the importer would.
     void addInstance(uint32_t mesh, const Affine3& world_from_object);
     void addLight(const formats::LightRecord& light);

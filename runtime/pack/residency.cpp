@@ -1,0 +1,360 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "runtime/pack/residency.h"
+
+#include <algorithm>
+#include <bit>
+#include <limits>
+#include <string>
+#include <utility>
+
+namespace hearth::pack
+{
+
+namespace
+{
+
+// between them the bits of positive floats order as their values do, and halve by counting down the exponent
+constexpr float kLeastPriority = std::numeric_limits<float>::min();
+constexpr float kMostPriority = std::numeric_limits<float>::max();
+constexpr uint32_t kMantissaBits = 23;
+
+} // namespace
+
+Result<Residency> Residency::create(PageGraph graph, const ResidencyOptions& options)
+{
+    HEARTH_ASSERT(options.max_loads >= 1 && options.hysteresis >= 1);
+    if (graph.pinnedBytes() > options.budget_bytes)
+        return Error{Issue::streaming_budget, "", "",
+                     "a budget of " + std::to_string(options.budget_bytes) + " bytes, the " +
+                         std::to_string(graph.pinned().size()) + " pages that are always resident take " +
+                         std::to_string(graph.pinnedBytes())};
+    return Residency(std::move(graph), options);
+}
+
+Residency::Residency(PageGraph graph, const ResidencyOptions& options)
+    : graph_(std::move(graph)),
+      options_(options),
+      pages_(graph_.pageCount()),
+      evictable_(graph_.pageCount()),
+      bytes_in_use_(graph_.pinnedBytes())
+{
+    for (const uint32_t page : graph_.pinned())
+    {
+        pages_[page].state = State::resident;
+        claimNeeded(page);
+    }
+    requested_.reserve(graph_.pageCount());
+    wanted_.reserve(graph_.pageCount());
+    started_.reserve(options.max_loads);
+}
+
+// --- beginning of a frame
+
+FrameChanges Residency::beginFrame(uint64_t serial, uint64_t completed_serial)
+{
+    HEARTH_ASSERT(serial > serial_ && completed_serial < serial && completed_serial >= completed_serial_);
+    completed_serial_ = completed_serial;
+    retireLeaving();
+    releaseHeld(completed_serial);
+    publishLoaded();
+    told_failures_.clear();
+    told_failures_.swap(new_failures_);
+    serial_ = serial;
+    return {evicted_, published_, released_, discarded_, told_failures_};
+}
+
+void Residency::retireLeaving()
+{
+    evicted_.clear();
+    evicted_.swap(leaving_);
+    for (const uint32_t page : evicted_)
+    {
+        pages_[page].state = State::held;
+        held_.push_back({page, serial_});
+    }
+}
+
+void Residency::releaseHeld(uint64_t completed_serial)
+{
+    released_.clear();
+    const auto end = std::find_if(held_.begin(), held_.end(),
+                                  [&](const Held& held) { return held.last_serial > completed_serial; });
+    for (auto held = held_.begin(); held != end; ++held)
+    {
+        released_.push_back(held->page);
+        pages_[held->page].state = State::absent;
+        bytes_in_use_ -= graph_.sizeBytes(held->page);
+        bytes_going_ -= graph_.sizeBytes(held->page);
+    }
+    held_.erase(held_.begin(), end);
+}
+
+void Residency::publishLoaded()
+{
+    published_.clear();
+    discarded_.clear();
+    // what a page needs stands before it
+    std::sort(loaded_.begin(), loaded_.end());
+    size_t waiting = 0;
+    for (const uint32_t page : loaded_)
+    {
+        if (needsAre(page, State::resident))
+        {
+            pages_[page].state = State::resident;
+            offerForEviction(page);
+            published_.push_back(page);
+        }
+        else if (needsAre(page, State::resident, State::loaded, State::loading))
+            loaded_[waiting++] = page;
+        else
+        {
+            dropLoad(page, State::absent);
+            discarded_.push_back(page);
+        }
+    }
+    loaded_.resize(waiting);
+}
+
+// --- requests
+
+void Residency::request(uint32_t page, float priority)
+{
+    HEARTH_ASSERT(page < pages_.size() && priority >= 0);
+    float& requested = pages_[page].requested;
+    if (requested == 0)
+        requested_.push_back(page);
+    requested = std::max(requested, std::clamp(priority, kLeastPriority, kMostPriority));
+}
+
+/// The requests of the round, greatest priority first, then by number. Companions of companions are not in it: where
+/// sets follow each other, they would bring in the whole mesh.
+void Residency::orderRequests()
+{
+    requests_.clear();
+    for (const uint32_t page : requested_)
+    {
+        const float priority = std::exchange(pages_[page].requested, 0.0f);
+        requests_.push_back(Request::of(page, priority));
+        for (const uint32_t companion : graph_.companions(page))
+            requests_.push_back(Request::of(companion, priority));
+    }
+    requested_.clear();
+    std::sort(requests_.begin(), requests_.end());
+}
+
+/// From the greatest priority down, so that each page is met first with the priority that counts. What a page needs
+/// comes before it: its priority is at least as great, its number less.
+void Residency::collectWanted()
+{
+    wanted_.clear();
+    for (auto request = requests_.begin(); request != requests_.end();)
+    {
+        const float priority = request->priority();
+        const size_t first = wanted_.size();
+        for (; request != requests_.end() && request->priority() == priority; ++request)
+            want(request->page(), priority);
+        std::sort(wanted_.begin() + static_cast<ptrdiff_t>(first), wanted_.end());
+    }
+}
+
+/// The page and all that it needs, but what is wanted already.
+void Residency::want(uint32_t page, float priority)
+{
+    const auto reach = [&](uint32_t reached)
+    {
+        if (pages_[reached].round == round_)
+            return;
+        pages_[reached].round = round_;
+        pages_[reached].priority = priority;
+        wanted_.push_back(reached);
+    };
+    size_t next = wanted_.size();
+    reach(page);
+    for (; next < wanted_.size(); ++next)
+        for (const uint32_t needed : graph_.needs(wanted_[next]))
+            reach(needed);
+}
+
+// --- the end of a round
+
+std::span<const uint32_t> Residency::schedule()
+{
+    orderRequests();
+    collectWanted();
+    for (const uint32_t page : wanted_)
+        if (evictable_.contains(page))
+            evictable_.update(page, worthOf(pages_[page].priority, round_));
+    measureDemand();
+    startLoads();
+    ++round_;
+    return started_;
+}
+
+/// Pages that cannot be had until failures are retried do not count: drawing coarser would not bring them.
+void Residency::measureDemand()
+{
+    uint64_t bytes = graph_.pinnedBytes();
+    for (const uint32_t page : wanted_)
+    {
+        const auto needs = graph_.needs(page);
+        Page& wanted = pages_[page];
+        wanted.blocked =
+            wanted.state == State::failed ||
+            std::any_of(needs.begin(), needs.end(), [&](uint32_t needed) { return pages_[needed].blocked; });
+        if (!wanted.blocked && !graph_.isPinned(page) && wanted.priority > 1)
+            bytes += graph_.sizeBytes(page);
+    }
+    error_scale_.update(bytes, options_.budget_bytes);
+}
+
+void Residency::startLoads()
+{
+    started_.clear();
+    uint64_t free = options_.budget_bytes - bytes_in_use_;
+    uint64_t unpromised =
+        free + bytes_going_; // free now or soon, less what pages before in this order will take
+    uint32_t loads_left = options_.max_loads - loads_in_flight_;
+    for (const uint32_t page : wanted_)
+    {
+        if (loads_left == 0)
+            return;
+        if (!canStart(page))
+            continue;
+        const uint64_t bytes = graph_.sizeBytes(page);
+        if (bytes > unpromised)
+            unpromised += makeRoom(page, bytes - unpromised);
+        if (bytes > unpromised)
+            return;
+        unpromised -= bytes;
+        --loads_left;
+        if (bytes <= free)
+            start(page);
+        // a page that waits for memory keeps what is free
+        free -= std::min(free, bytes);
+    }
+}
+
+bool Residency::canStart(uint32_t page) const
+{
+    return pages_[page].state == State::absent &&
+           needsAre(page, State::resident, State::loaded, State::loading);
+}
+
+/// Whether all that a page needs is in one of these states.
+bool Residency::needsAre(uint32_t page, auto... states) const
+{
+    const auto needs = graph_.needs(page);
+    return std::all_of(needs.begin(), needs.end(),
+                       [&](uint32_t needed) { return ((pages_[needed].state == states) || ...); });
+}
+
+void Residency::start(uint32_t page)
+{
+    pages_[page].state = State::loading;
+    bytes_in_use_ += graph_.sizeBytes(page);
+    ++loads_in_flight_;
+    claimNeeded(page);
+    started_.push_back(page);
+}
+
+// --- the end of a load
+
+void Residency::completed(uint32_t page, bool ok)
+{
+    HEARTH_ASSERT(page < pages_.size() && pages_[page].state == State::loading);
+    --loads_in_flight_;
+    if (ok)
+    {
+        pages_[page].state = State::loaded;
+        loaded_.push_back(page);
+        return;
+    }
+    dropLoad(page, State::failed);
+    failed_.push_back(page);
+    new_failures_.push_back(page);
+}
+
+void Residency::dropLoad(uint32_t page, State state)
+{
+    pages_[page].state = state;
+    bytes_in_use_ -= graph_.sizeBytes(page);
+    unclaimNeeded(page);
+}
+
+void Residency::retryFailed()
+{
+    for (const uint32_t page : failed_)
+        pages_[page].state = State::absent;
+    failed_.clear();
+}
+
+// --- eviction
+
+/// Let pages leave until they give `bytes` together, the least worth first, and return what they give; or none of them,
+/// if those that `page` may push out do not give as much.
+uint64_t Residency::makeRoom(uint32_t page, uint64_t bytes)
+{
+    const uint64_t limit = worthOf(pages_[page].priority / options_.hysteresis, round_);
+    const size_t before = leaving_.size();
+    uint64_t given = 0;
+    while (given < bytes && !evictable_.empty() && evictable_.leastWorth() < limit)
+    {
+        const uint32_t victim = evictable_.least();
+        leave(victim);
+        given += graph_.sizeBytes(victim);
+    }
+    if (given >= bytes)
+        return given;
+    while (leaving_.size() > before)
+        stay(leaving_.back());
+    return 0;
+}
+
+void Residency::leave(uint32_t page)
+{
+    evictable_.erase(page);
+    pages_[page].state = State::leaving;
+    leaving_.push_back(page);
+    bytes_going_ += graph_.sizeBytes(page);
+    unclaimNeeded(page);
+}
+
+/// Undo the last leave.
+void Residency::stay(uint32_t page)
+{
+    claimNeeded(page);
+    bytes_going_ -= graph_.sizeBytes(page);
+    leaving_.pop_back();
+    pages_[page].state = State::resident;
+    offerForEviction(page);
+}
+
+void Residency::claimNeeded(uint32_t page)
+{
+    for (const uint32_t needed : graph_.needs(page))
+        if (pages_[needed].dependent_count++ == 0 && evictable_.contains(needed))
+            evictable_.erase(needed);
+}
+
+void Residency::unclaimNeeded(uint32_t page)
+{
+    for (const uint32_t needed : graph_.needs(page))
+        if (--pages_[needed].dependent_count == 0)
+            offerForEviction(needed);
+}
+
+void Residency::offerForEviction(uint32_t page)
+{
+    const Page& offered = pages_[page];
+    if (offered.state == State::resident && offered.dependent_count == 0 && !graph_.isPinned(page))
+        evictable_.insert(page, worthOf(offered.priority, offered.round));
+}
+
+/// Orders pages by their last priority, halved for each round since: to double it all at each round is the same, and
+/// needs no change of what is stored.
+uint64_t Residency::worthOf(float priority, uint64_t round)
+{
+    return std::bit_cast<uint32_t>(priority) + (round << kMantissaBits);
+}
+
+} // namespace hearth::pack

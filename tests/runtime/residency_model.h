@@ -1,0 +1,74 @@
+// The rules of runtime/pack/residency.h once more, by looking at every page at each call: what the tests hold it against.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "runtime/pack/residency.h"
+
+#include <cstdint>
+#include <map>
+#include <vector>
+
+namespace hearth::test
+{
+
+/// The lists of pack::FrameChanges, to keep and compare.
+struct ChangeLists
+{
+    std::vector<uint32_t> evicted, published, released, discarded, failed;
+    friend bool operator==(const ChangeLists&, const ChangeLists&) = default;
+};
+
+ChangeLists listsOf(const pack::FrameChanges& changes);
+
+class ResidencyModel
+{
+public:
+    ResidencyModel(const std::vector<pack::PageNode>& nodes, const pack::ResidencyOptions& options);
+
+    ChangeLists beginFrame(uint64_t serial, uint64_t completed_serial);
+    void request(uint32_t page, float priority);
+    std::vector<uint32_t> schedule();
+    void completed(uint32_t page, bool ok);
+    void retryFailed();
+
+    uint64_t bytesInUse() const;
+
+private:
+    enum class State
+    {
+        absent,
+        loading,
+        loaded,
+        resident,
+        leaving,
+        held,
+        failed,
+    };
+    struct Page
+    {
+        State state = State::absent;
+        bool pinned = false;
+        double priority = 0;
+        uint64_t round = 0;
+        uint64_t last_serial = 0; ///< of a held page
+    };
+    using Pages = std::vector<Page>;
+
+    std::map<uint32_t, double> wanted() const;
+    uint64_t bytesOf(const Pages& pages, std::initializer_list<State> states) const;
+    bool needsAre(const Pages& pages, uint32_t page, std::initializer_list<State> states) const;
+    bool hasDependents(const Pages& pages, uint32_t page) const;
+    double worth(const Page& page) const;
+    /// The page to evict next, or none.
+    uint32_t leastWorth(const Pages& pages) const;
+
+    std::vector<pack::PageNode> nodes_;
+    pack::ResidencyOptions options_;
+    Pages pages_;
+    std::map<uint32_t, double> requests_;
+    std::vector<uint32_t> leaving_, failures_;
+    uint64_t serial_ = 0;
+    uint64_t round_ = 1;
+};
+
+} // namespace hearth::test
