@@ -126,7 +126,7 @@ void expectWholeAtRandomSets(const CookedMesh& mesh, bool watertight, uint32_t s
         mixed += mixesLevels(mesh.view(), cut);
     }
     EXPECT_GT(partly_resident, 80u);
-    EXPECT_TRUE(mixed > 50 || !watertight) << "or seams are not tested: " << mixed;
+    EXPECT_TRUE(mixed > 30 || !watertight) << "or seams are not tested: " << mixed;
 }
 
 TEST(ResidentCut, coversTheSurfaceOnceForEveryClosedSet)
