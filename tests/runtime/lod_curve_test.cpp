@@ -95,6 +95,23 @@ formats::PackView buildRocks(TestScene& test)
     return test.build();
 }
 
+/// Over rocks seen from everywhere, with a curve that `set` gives each view.
+template <typename Set>
+Inversions inversionsWith(Set set)
+{
+    TestScene test;
+    const formats::PackView pack = buildRocks(test);
+    std::mt19937 random(9);
+    Inversions sum;
+    for (int i = 0; i < 400; ++i)
+    {
+        FrameView view = viewWith(randomCamera(random, 12), {});
+        set(view);
+        countInversions(pack, view, sum);
+    }
+    return sum;
+}
+
 } // namespace
 
 TEST(LodCurve, isLinearBetweenItsKnots)
@@ -139,12 +156,9 @@ TEST(LodCurve, faultsAreNamed)
 
 TEST(LodCurve, noGroupIsRefinedBelowOneThatIsNot)
 {
-    TestScene test;
-    const formats::PackView pack = buildRocks(test);
-    std::mt19937 random(8);
-    Inversions sum;
-    for (int i = 0; i < 400; ++i)
-        countInversions(pack, viewWith(randomCamera(random, 12), randomCurve(random)), sum);
+    std::mt19937 curves(8);
+    const Inversions sum =
+        inversionsWith([&](FrameView& view) { EXPECT_TRUE(setLodCurve(view, randomCurve(curves)).ok()); });
     EXPECT_EQ(sum.wrong, 0u);
     EXPECT_GT(sum.refined, 1000u);
     EXPECT_GT(sum.coarse, 1000u);
@@ -152,16 +166,10 @@ TEST(LodCurve, noGroupIsRefinedBelowOneThatIsNot)
 
 TEST(LodCurve, oneThatGrowsTooFastWouldTearTheCut)
 {
-    TestScene test;
-    const formats::PackView pack = buildRocks(test);
-    std::mt19937 random(8);
-    Inversions sum;
-    for (int i = 0; i < 400; ++i)
-    {
-        FrameView view = viewWith(randomCamera(random, 12), {});
-        view.lod_curve[0] = {5, 1e-3f, 1e3f, 1.0f / 5};
-        countInversions(pack, view, sum);
-    }
+    const Inversions sum = inversionsWith(
+        [](FrameView& view) {
+            view.lod_curve[0] = {5, 1e-3f, 1e3f, 1.0f / 5};
+        });
     EXPECT_GT(sum.wrong, 0u);
 }
 
