@@ -11,28 +11,39 @@ Result<DrawLayouts> DrawLayouts::create(const Device& device)
     constexpr VkShaderStageFlags kBoth = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
     std::vector<SetBinding> scene(kSceneBindingCount, {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, kBoth});
     scene[kSceneFrame] = {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, kBoth};
-    scene[kSceneBinDraws].stages = VK_SHADER_STAGE_VERTEX_BIT;
     scene[kSceneLighting] = {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, VK_SHADER_STAGE_FRAGMENT_BIT};
 
     std::vector<SetBinding> material(
         1 + shared::kTextureCount, {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_SHADER_STAGE_FRAGMENT_BIT});
     material[0] = {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, kBoth};
 
-    const SetBinding attachments[] = {{VK_DESCRIPTOR_TYPE_INPUT_ATTACHMENT, VK_SHADER_STAGE_FRAGMENT_BIT}};
+    const SetBinding bins[] = {{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_SHADER_STAGE_VERTEX_BIT}};
+    const SetBinding attachments[] = {{VK_DESCRIPTOR_TYPE_INPUT_ATTACHMENT, VK_SHADER_STAGE_FRAGMENT_BIT},
+                                      {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_SHADER_STAGE_VERTEX_BIT}};
 
     const SetBinding occlusion[] = {{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, VK_SHADER_STAGE_COMPUTE_BIT},
                                     {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_SHADER_STAGE_COMPUTE_BIT},
                                     {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_SHADER_STAGE_COMPUTE_BIT}};
 
+    const SetBinding tiles[] = {{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_SHADER_STAGE_COMPUTE_BIT},
+                                {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_SHADER_STAGE_COMPUTE_BIT},
+                                {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_SHADER_STAGE_COMPUTE_BIT}};
+
     DrawLayouts layouts;
     HEARTH_ASSIGN_OR_RETURN(layouts.scene, createSetLayout(device, scene));
     HEARTH_ASSIGN_OR_RETURN(layouts.material, createSetLayout(device, material));
+    HEARTH_ASSIGN_OR_RETURN(layouts.bins, createSetLayout(device, bins));
     HEARTH_ASSIGN_OR_RETURN(layouts.attachments, createSetLayout(device, attachments));
     HEARTH_ASSIGN_OR_RETURN(layouts.occlusion, createSetLayout(device, occlusion));
-    const VkDescriptorSetLayout sets[] = {layouts.scene.get(), layouts.material.get(),
-                                          layouts.attachments.get()};
-    HEARTH_ASSIGN_OR_RETURN(layouts.pipeline,
-                            createPipelineLayout(device, sets, kDrawPushStages, sizeof(DrawPush)));
+    HEARTH_ASSIGN_OR_RETURN(layouts.tiles, createSetLayout(device, tiles));
+    const VkDescriptorSetLayout visibility_sets[] = {layouts.scene.get(), layouts.material.get(),
+                                                     layouts.bins.get()};
+    const VkDescriptorSetLayout picture_sets[] = {layouts.scene.get(), layouts.material.get(),
+                                                  layouts.attachments.get()};
+    HEARTH_ASSIGN_OR_RETURN(layouts.visibility,
+                            createPipelineLayout(device, visibility_sets, kDrawPushStages, sizeof(DrawPush)));
+    HEARTH_ASSIGN_OR_RETURN(layouts.picture,
+                            createPipelineLayout(device, picture_sets, kDrawPushStages, sizeof(DrawPush)));
     return layouts;
 }
 

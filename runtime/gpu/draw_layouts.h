@@ -1,4 +1,5 @@
-// The descriptor sets that the drawing passes share: set 0 the scene, set 1 a material, set 2 the visibility buffer.
+// The descriptor sets that the drawing passes share: set 0 the scene, set 1 a material, set 2 what is drawn: bins, or
+// what the pixels of the visibility buffer show.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -7,8 +8,8 @@
 namespace hearth::gpu
 {
 
-/// Bindings of set 0, as runtime/shaders/scene.glsl has them. Eight storage buffers in the vertex stage, seven in the
-/// fragment stage.
+/// Bindings of set 0, as runtime/shaders/scene.glsl has them. Seven storage buffers: each set 2 adds one more to the
+/// vertex stage, and eight are what the renderer may have.
 enum SceneBinding : uint32_t
 {
     kSceneFrame = 0,
@@ -16,9 +17,23 @@ enum SceneBinding : uint32_t
     kSceneVisible = 2,
     kSceneDraws = 3,
     kScenePool = 4, ///< and the three after it
-    kSceneBinDraws = 8,
-    kSceneLighting = 9,
-    kSceneBindingCount = 10,
+    kSceneLighting = 8,
+    kSceneBindingCount = 9,
+};
+
+/// Bindings of set 2 of the picture's pipelines.
+enum AttachmentBinding : uint32_t
+{
+    kAttachmentVisibility = 0,
+    kAttachmentTileLists = 1,
+};
+
+/// Bindings of the set that the material-tiles pass has as set 1.
+enum TileBinding : uint32_t
+{
+    kTileVisibility = 0,
+    kTileMaterials = 1,
+    kTileLists = 2,
 };
 
 /// Bindings of the set that the culling passes have as set 1 and the pyramid pass as set 0.
@@ -34,7 +49,7 @@ struct DrawPush
 {
     union
     {
-        float depth;  ///< full-screen passes: material number / 65535
+        float depth;  ///< picture: material number / 65535
         uint32_t bin; ///< visibility pass
     };
     uint32_t shown_view = 0;
@@ -48,9 +63,12 @@ struct DrawLayouts
 {
     UniqueSetLayout scene;
     UniqueSetLayout material;
-    UniqueSetLayout attachments;
-    UniqueSetLayout occlusion;     ///< of the culling and pyramid passes, bindings OcclusionBinding
-    UniquePipelineLayout pipeline; ///< of all drawing pipelines
+    UniqueSetLayout bins;            ///< one binding, the draws of the bins
+    UniqueSetLayout attachments;     ///< bindings AttachmentBinding
+    UniqueSetLayout occlusion;       ///< of the culling and pyramid passes, bindings OcclusionBinding
+    UniqueSetLayout tiles;           ///< of the material-tiles pass, bindings TileBinding
+    UniquePipelineLayout visibility; ///< sets scene, material, bins
+    UniquePipelineLayout picture;    ///< sets scene, material, attachments
 
     static Result<DrawLayouts> create(const Device& device);
 };

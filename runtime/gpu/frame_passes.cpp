@@ -59,7 +59,8 @@ constexpr VkSubpassDependency kDependencies[] = {
      VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT, VK_ACCESS_SHADER_READ_BIT, 0},
     {kSubpassShading, VK_SUBPASS_EXTERNAL,
      VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT | VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT,
-     VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT, VK_ACCESS_TRANSFER_READ_BIT, 0},
+     VK_PIPELINE_STAGE_TRANSFER_BIT | VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
+     VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT, VK_ACCESS_TRANSFER_READ_BIT | VK_ACCESS_SHADER_READ_BIT, 0},
 };
 
 /// All phases have the same subpasses and dependencies, so that they share framebuffers and pipelines.
@@ -100,6 +101,14 @@ Result<UniqueRenderPass> createRenderPass(const Device& device, const Attachment
     return UniqueRenderPass(device, pass);
 }
 
+/// The same, without the picture.
+Attachments endAtVisibility(Attachments attachments)
+{
+    attachments[kVisibility].finalLayout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
+    attachments[kColor].storeOp = VK_ATTACHMENT_STORE_OP_DONT_CARE;
+    return attachments;
+}
+
 } // namespace
 
 Result<FramePasses> FramePasses::create(const Device& device)
@@ -128,10 +137,18 @@ Result<FramePasses> FramePasses::create(const Device& device)
         late[kept].initialLayout = early[kept].finalLayout;
     }
 
+    Attachments picture = whole;
+    picture[kVisibility].loadOp = VK_ATTACHMENT_LOAD_OP_LOAD;
+    picture[kVisibility].initialLayout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
+    picture[kDepth].loadOp = VK_ATTACHMENT_LOAD_OP_DONT_CARE;
+
     FramePasses passes;
     HEARTH_ASSIGN_OR_RETURN(passes.whole, createRenderPass(device, whole));
     HEARTH_ASSIGN_OR_RETURN(passes.early, createRenderPass(device, early));
     HEARTH_ASSIGN_OR_RETURN(passes.late, createRenderPass(device, late));
+    HEARTH_ASSIGN_OR_RETURN(passes.whole_visibility, createRenderPass(device, endAtVisibility(whole)));
+    HEARTH_ASSIGN_OR_RETURN(passes.late_visibility, createRenderPass(device, endAtVisibility(late)));
+    HEARTH_ASSIGN_OR_RETURN(passes.picture, createRenderPass(device, picture));
     return passes;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/gpu/frame_targets.h"
 
+#include "formats/shared/material_tiles.h"
 #include "formats/shared/occlusion.h"
 
 #include <string>
@@ -33,59 +34,60 @@ Result<FrameTargets> FrameTargets::create(const Device& device, VkRenderPass ren
         return Error{Issue::device_limit, "", "",
                      "the device cannot render " + std::to_string(extent.width) + "x" +
                          std::to_string(extent.height) + " pixels"};
+    FrameTargets t(device, extent);
+    HEARTH_TRY(t.createImages());
+    HEARTH_TRY(t.createFramebuffer(device, render_pass));
+    HEARTH_TRY(t.createPyramid(device));
+    HEARTH_TRY(t.createTileLists(device));
+    HEARTH_TRY(t.createSets(device, layouts));
+    return t;
+}
+
+Status FrameTargets::createImages()
+{
     constexpr VkImageUsageFlags kColorUsage =
         VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
     constexpr VkImageUsageFlags kDepthUsage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT;
-    FrameTargets t(device);
-    HEARTH_ASSIGN_OR_RETURN(
-        t.visibility_, t.arena_.createImage({.format = kAttachmentFormats[kVisibility],
-                                             .extent = extent,
-                                             .usage = kColorUsage | VK_IMAGE_USAGE_INPUT_ATTACHMENT_BIT}));
-    HEARTH_ASSIGN_OR_RETURN(t.depth_, t.arena_.createImage({.format = kAttachmentFormats[kDepth],
-                                                            .extent = extent,
-                                                            .usage = kDepthUsage | VK_IMAGE_USAGE_SAMPLED_BIT,
-                                                            .aspect = VK_IMAGE_ASPECT_DEPTH_BIT}));
-    HEARTH_ASSIGN_OR_RETURN(t.material_depth_,
-                            t.arena_.createImage({.format = kAttachmentFormats[kMaterialDepth],
-                                                  .extent = extent,
-                                                  .usage = kDepthUsage,
-                                                  .aspect = VK_IMAGE_ASPECT_DEPTH_BIT}));
-    HEARTH_ASSIGN_OR_RETURN(
-        t.color_,
-        t.arena_.createImage({.format = kAttachmentFormats[kColor], .extent = extent, .usage = kColorUsage}));
+    const auto create = [&](Image& image, FrameAttachment which, VkImageUsageFlags usage) -> Status
+    {
+        const bool depth = (usage & kDepthUsage) != 0;
+        HEARTH_ASSIGN_OR_RETURN(
+            image, arena_.createImage({.format = kAttachmentFormats[which],
+                                       .extent = extent_,
+                                       .usage = usage,
+                                       .aspect = VkImageAspectFlags(depth ? VK_IMAGE_ASPECT_DEPTH_BIT
+                                                                          : VK_IMAGE_ASPECT_COLOR_BIT)}));
+        return success();
+    };
+    HEARTH_TRY(create(visibility_, kVisibility,
+                      kColorUsage | VK_IMAGE_USAGE_INPUT_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT));
+    HEARTH_TRY(create(depth_, kDepth, kDepthUsage | VK_IMAGE_USAGE_SAMPLED_BIT));
+    HEARTH_TRY(create(material_depth_, kMaterialDepth, kDepthUsage));
+    return create(color_, kColor, kColorUsage);
+}
 
-    const VkImageView views[kAttachmentCount] = {t.visibility_.view.get(), t.depth_.view.get(),
-                                                 t.material_depth_.view.get(), t.color_.view.get()};
+Status FrameTargets::createFramebuffer(const Device& device, VkRenderPass render_pass)
+{
+    const VkImageView views[kAttachmentCount] = {visibility_.view.get(), depth_.view.get(),
+                                                 material_depth_.view.get(), color_.view.get()};
     VkFramebufferCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_FRAMEBUFFER_CREATE_INFO;
     info.renderPass = render_pass;
     info.attachmentCount = kAttachmentCount;
     info.pAttachments = views;
-    info.width = extent.width;
-    info.height = extent.height;
+    info.width = extent_.width;
+    info.height = extent_.height;
     info.layers = 1;
     VkFramebuffer framebuffer;
     HEARTH_TRY_VK(device.vk.vkCreateFramebuffer(device.handle, &info, device.allocator, &framebuffer),
                   "create a framebuffer");
-    t.framebuffer_ = UniqueFramebuffer(device, framebuffer);
-
-    HEARTH_TRY(t.createPyramid(device));
-    const DescriptorPoolSizes sizes{.uniforms = 1, .storages = 1, .textures = 1, .inputs = 1};
-    HEARTH_ASSIGN_OR_RETURN(t.pool_, createDescriptorPool(device, 2, sizes));
-    HEARTH_ASSIGN_OR_RETURN(t.set_, allocateSet(device, t.pool_.get(), layouts.attachments.get()));
-    DescriptorWriter(t.set_).input(0, t.visibility_.view.get()).write(device);
-    HEARTH_ASSIGN_OR_RETURN(t.occlusion_set_, allocateSet(device, t.pool_.get(), layouts.occlusion.get()));
-    DescriptorWriter(t.occlusion_set_)
-        .uniform(kOcclusionViews, t.occlusion_views_)
-        .storage(kOcclusionPyramid, t.pyramid_)
-        .texture(kOcclusionDepth, t.depth_.view.get(), t.texel_sampler_.get())
-        .write(device);
-    return t;
+    framebuffer_ = UniqueFramebuffer(device, framebuffer);
+    return success();
 }
 
 Status FrameTargets::createPyramid(const Device& device)
 {
-    const auto [width, height] = extent();
+    const auto [width, height] = extent_;
     const uint64_t texels = shared::pyramidOffset(width, height, shared::pyramidLevels(width, height) + 1);
     if (texels * sizeof(float) > device.limits.maxStorageBufferRange)
         return Error{Issue::device_limit, "", "",
@@ -100,7 +102,50 @@ Status FrameTargets::createPyramid(const Device& device)
                                                                   VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT |
                                                                       VK_BUFFER_USAGE_TRANSFER_DST_BIT,
                                                                   MemoryKind::device));
+    return success();
+}
+
+Status FrameTargets::createTileLists(const Device& device)
+{
+    constexpr VkBufferUsageFlags kUsage =
+        VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT;
+    const uint64_t tiles =
+        uint64_t{shared::materialTiles(extent_.width)} * shared::materialTiles(extent_.height);
+    const uint64_t words = tiles * shared::kMaterialsPerTile + shared::kFirstTileEntry;
+    if (words * sizeof(uint32_t) > device.limits.maxStorageBufferRange)
+        return Error{Issue::device_limit, "", "",
+                     "the device cannot bind the material tiles of " + std::to_string(extent_.width) + "x" +
+                         std::to_string(extent_.height) + " pixels"};
+    HEARTH_ASSIGN_OR_RETURN(tile_materials_,
+                            arena_.createBuffer(tiles * shared::kMaterialsPerTile * sizeof(uint32_t), kUsage,
+                                                MemoryKind::device));
+    HEARTH_ASSIGN_OR_RETURN(tile_lists_,
+                            arena_.createBuffer(words * sizeof(uint32_t), kUsage, MemoryKind::device));
+    return success();
+}
+
+Status FrameTargets::createSets(const Device& device, const DrawLayouts& layouts)
+{
     HEARTH_ASSIGN_OR_RETURN(texel_sampler_, createTexelSampler(device));
+    const DescriptorPoolSizes sizes{.uniforms = 1, .storages = 4, .textures = 2, .inputs = 1};
+    HEARTH_ASSIGN_OR_RETURN(pool_, createDescriptorPool(device, 3, sizes));
+    HEARTH_ASSIGN_OR_RETURN(set_, allocateSet(device, pool_.get(), layouts.attachments.get()));
+    DescriptorWriter(set_)
+        .input(kAttachmentVisibility, visibility_.view.get())
+        .storage(kAttachmentTileLists, tile_lists_)
+        .write(device);
+    HEARTH_ASSIGN_OR_RETURN(occlusion_set_, allocateSet(device, pool_.get(), layouts.occlusion.get()));
+    DescriptorWriter(occlusion_set_)
+        .uniform(kOcclusionViews, occlusion_views_)
+        .storage(kOcclusionPyramid, pyramid_)
+        .texture(kOcclusionDepth, depth_.view.get(), texel_sampler_.get())
+        .write(device);
+    HEARTH_ASSIGN_OR_RETURN(tile_set_, allocateSet(device, pool_.get(), layouts.tiles.get()));
+    DescriptorWriter(tile_set_)
+        .texture(kTileVisibility, visibility_.view.get(), texel_sampler_.get())
+        .storage(kTileMaterials, tile_materials_)
+        .storage(kTileLists, tile_lists_)
+        .write(device);
     return success();
 }
 

@@ -1,4 +1,4 @@
-// The images of a frame, and the depth pyramid that one frame leaves to the next.
+// The images of a frame, the depth pyramid that one frame leaves to the next, and room for lists of material tiles.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -21,7 +21,7 @@ public:
     static Result<FrameTargets> create(const Device& device, VkRenderPass render_pass,
                                        const DrawLayouts& layouts, VkExtent2D extent);
 
-    VkExtent2D extent() const { return visibility_.extent; }
+    VkExtent2D extent() const { return extent_; }
     const Image& visibility() const { return visibility_; }
     const Image& color() const { return color_; }
     VkFramebuffer framebuffer() const { return framebuffer_.get(); }
@@ -32,15 +32,26 @@ public:
     const Buffer& occlusionViews() const { return occlusion_views_; }
     VkDescriptorSet occlusionSet() const { return occlusion_set_; }
 
+    /// kMaterialsPerTile words a tile, rows of tiles from top to bottom.
+    const Buffer& tileMaterials() const { return tile_materials_; }
+    /// The tiles of each material, as shared::TileDraw says.
+    const Buffer& tileLists() const { return tile_lists_; }
+    VkDescriptorSet tileSet() const { return tile_set_; }
+
     /// From where the pyramid was drawn: the last frame with occlusion culling. level_count 0: there was none.
     const shared::OcclusionView& pyramidView() const { return pyramid_view_; }
     /// To forget it ({}), or to say that what has been written there was seen from elsewhere, at the same size.
     void setPyramidView(const shared::OcclusionView& view) { pyramid_view_ = view; }
 
 private:
-    explicit FrameTargets(const Device& device) : arena_(device) {}
+    FrameTargets(const Device& device, VkExtent2D extent) : extent_(extent), arena_(device) {}
+    Status createImages();
+    Status createFramebuffer(const Device& device, VkRenderPass render_pass);
     Status createPyramid(const Device& device);
+    Status createTileLists(const Device& device);
+    Status createSets(const Device& device, const DrawLayouts& layouts);
 
+    VkExtent2D extent_;
     MemoryArena arena_;
     Image visibility_;
     Image depth_;
@@ -49,10 +60,13 @@ private:
     UniqueFramebuffer framebuffer_;
     Buffer pyramid_;
     Buffer occlusion_views_; ///< two OcclusionView
+    Buffer tile_materials_;
+    Buffer tile_lists_;
     UniqueSampler texel_sampler_;
     UniqueDescriptorPool pool_;
     VkDescriptorSet set_ = VK_NULL_HANDLE;
     VkDescriptorSet occlusion_set_ = VK_NULL_HANDLE;
+    VkDescriptorSet tile_set_ = VK_NULL_HANDLE;
     shared::OcclusionView pyramid_view_{};
 };
 

@@ -24,6 +24,7 @@ Result<std::unique_ptr<Renderer>> Renderer::create(const DeviceDescription& desc
     HEARTH_ASSIGN_OR_RETURN(r.passes_, FramePasses::create(r.device_));
     HEARTH_ASSIGN_OR_RETURN(r.cull_, CullPass::create(r.device_, r.layouts_));
     HEARTH_ASSIGN_OR_RETURN(r.pyramid_, PyramidPass::create(r.device_, r.layouts_));
+    HEARTH_ASSIGN_OR_RETURN(r.material_tiles_, MaterialTilesPass::create(r.device_, r.layouts_));
     const VkRenderPass render_pass = r.passes_.whole.get();
     HEARTH_ASSIGN_OR_RETURN(r.visibility_, VisibilityPass::create(r.device_, r.layouts_, render_pass));
     HEARTH_ASSIGN_OR_RETURN(r.material_depth_, MaterialDepthPass::create(r.device_, r.layouts_, render_pass));
@@ -42,6 +43,7 @@ Result<std::unique_ptr<Scene>> Renderer::upload(const formats::PackView& pack, V
     HEARTH_ASSIGN_OR_RETURN(std::unique_ptr<Scene> scene,
                             uploadScene(device_, layouts_, pack, commands, options));
     HEARTH_TRY(cull_.createSets(device_, *scene));
+    HEARTH_TRY(material_tiles_.createSet(device_, *scene));
     for (SceneMaterial& material : scene->materials)
     {
         HEARTH_ASSIGN_OR_RETURN(material.pipelines, shading_.prepare(device_, layouts_, material.variant));
@@ -71,7 +73,7 @@ void Renderer::record(VkCommandBuffer commands, const Scene& scene, FrameTargets
     if (in_phases)
         cull_.record(device_, commands, scene, targets, shared::kPhaseLate);
     stamp(kTimestampLateCull);
-    recordPicture(commands, scene, targets, input, in_phases ? passes_.late.get() : passes_.whole.get());
+    recordPicture(commands, scene, targets, input, in_phases);
     if (in_phases)
         targets.setPyramidView(shared::makeOcclusionView(input.view));
 }
@@ -101,18 +103,34 @@ void Renderer::recordEarly(VkCommandBuffer commands, const Scene& scene, const F
 {
     beginPass(commands, targets, passes_.early.get());
     visibility_.record(device_, commands, layouts_, scene);
-    // the other two subpasses are there to be compatible, and store nothing
+    endAtVisibility(commands);
+}
+
+/// The other two subpasses are there to be compatible, and store nothing.
+void Renderer::endAtVisibility(VkCommandBuffer commands) const
+{
     device_.vk.vkCmdNextSubpass(commands, VK_SUBPASS_CONTENTS_INLINE);
     device_.vk.vkCmdNextSubpass(commands, VK_SUBPASS_CONTENTS_INLINE);
     device_.vk.vkCmdEndRenderPass(commands);
 }
 
+/// late  goes on from what recordEarly drew
 void Renderer::recordPicture(VkCommandBuffer commands, const Scene& scene, const FrameTargets& targets,
-                             const FrameInput& input, VkRenderPass render_pass) const
+                             const FrameInput& input, bool late) const
 {
-    beginPass(commands, targets, render_pass);
+    const bool tiles = shadesTiles(scene, input.shading.area);
+    const UniqueRenderPass& to_picture = late ? passes_.late : passes_.whole;
+    const UniqueRenderPass& to_visibility = late ? passes_.late_visibility : passes_.whole_visibility;
+    beginPass(commands, targets, (tiles ? to_visibility : to_picture).get());
     visibility_.record(device_, commands, layouts_, scene);
+    if (tiles)
+        endAtVisibility(commands);
     writeTimestamp(device_, commands, input.timestamps, kTimestampVisibility);
+    if (tiles)
+        material_tiles_.record(device_, commands, scene, targets);
+    writeTimestamp(device_, commands, input.timestamps, kTimestampMaterialTiles);
+    if (tiles)
+        beginPass(commands, targets, passes_.picture.get());
     device_.vk.vkCmdNextSubpass(commands, VK_SUBPASS_CONTENTS_INLINE);
     material_depth_.record(device_, commands, layouts_, scene, targets);
     writeTimestamp(device_, commands, input.timestamps, kTimestampMaterialDepth);

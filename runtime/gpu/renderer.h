@@ -5,6 +5,7 @@
 
 #include "runtime/gpu/cull_pass.h"
 #include "runtime/gpu/material_depth_pass.h"
+#include "runtime/gpu/material_tiles_pass.h"
 #include "runtime/gpu/pyramid_pass.h"
 #include "runtime/gpu/shading_pass.h"
 #include "runtime/gpu/visibility_pass.h"
@@ -23,6 +24,7 @@ enum FrameTimestamp : uint32_t
     kTimestampPyramid,
     kTimestampLateCull,
     kTimestampVisibility,
+    kTimestampMaterialTiles, ///< no time without material tiles
     kTimestampMaterialDepth,
     kTimestampShading,
     kTimestampCount,
@@ -61,8 +63,9 @@ public:
 private:
     Renderer() = default;
     void recordEarly(VkCommandBuffer commands, const Scene& scene, const FrameTargets& targets) const;
+    void endAtVisibility(VkCommandBuffer commands) const;
     void recordPicture(VkCommandBuffer commands, const Scene& scene, const FrameTargets& targets,
-                       const FrameInput& input, VkRenderPass render_pass) const;
+                       const FrameInput& input, bool late) const;
     void beginPass(VkCommandBuffer commands, const FrameTargets& targets, VkRenderPass render_pass) const;
 
     Device device_;
@@ -71,6 +74,7 @@ private:
     CullPass cull_;
     PyramidPass pyramid_;
     VisibilityPass visibility_;
+    MaterialTilesPass material_tiles_;
     MaterialDepthPass material_depth_;
     ShadingPass shading_;
 };

@@ -29,7 +29,7 @@ struct SceneBuffers
         bins;
     std::array<Buffer, shared::kPoolSlices> pool;
     // rewritten by every frame
-    Buffer frame, states, results, totals, counters, visible, bin_draws, material_draws;
+    Buffer frame, states, results, totals, counters, visible, bin_draws, material_draws, tile_draws;
 };
 
 /// One descriptor set for each pipeline of the culling pass.
@@ -76,8 +76,10 @@ struct Scene
     std::vector<UniqueSampler> samplers;
     UniqueDescriptorPool pool;
     VkDescriptorSet draw_set = VK_NULL_HANDLE;
+    VkDescriptorSet bins_set = VK_NULL_HANDLE;
     std::vector<SceneMaterial> materials; ///< the rows of the material table
     CullSets cull_sets{};
+    VkDescriptorSet tile_set = VK_NULL_HANDLE; ///< of the material-tiles pass
 
     std::vector<SceneBin> bins;
     std::vector<formats::InstanceRecord> instances; ///< as they were loaded
@@ -95,7 +97,7 @@ inline uint32_t blockCount(const Scene& scene)
     return (scene.item_count + shared::kScanBlockItems - 1) / shared::kScanBlockItems;
 }
 
-/// Create and fill everything but what belongs to a pass (cull_sets and the materials' pipelines); records copies into `commands`, which the
+/// Create and fill everything but what belongs to a pass (cull_sets, tile_set and the materials' pipelines); records copies into `commands`, which the
 /// caller submits and waits for before it resets `staging`. The pack has been checked (pack::Pack).
 /// errors: device_limit, device_failed, those of reading pages and images.
 Result<std::unique_ptr<Scene>> uploadScene(const Device& device, const DrawLayouts& layouts,

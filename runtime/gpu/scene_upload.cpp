@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "formats/shared/material_tiles.h"
 #include "runtime/gpu/scene.h"
 #include "runtime/gpu/scene_shading.h"
 
@@ -86,6 +87,8 @@ Status createBuffers(const Device& device, const formats::PackView& pack, const 
     f.make(b.bin_draws, "bin draws", layout.bins.size(), sizeof(shared::BinDraw), kIndirect);
     f.make(b.material_draws, "material draws", uint64_t{layout.material_rows} + 1,
            sizeof(VkDrawIndirectCommand), kIndirect);
+    f.make(b.tile_draws, "material draws", uint64_t{layout.material_rows} + 1, sizeof(shared::TileDraw),
+           kIndirect);
     return f.take();
 }
 
@@ -136,10 +139,10 @@ Status uploadGeometry(const formats::PackView& pack, const SceneLayout& layout, 
 
 Status createSets(const Device& device, const DrawLayouts& layouts, Scene& scene, uint32_t material_rows)
 {
-    // the draw set and the six sets of the culling pass, with room for what each binds
+    // two sets for drawing, six of the culling pass and one of the material tiles, with room for what each binds
     const DescriptorPoolSizes sizes{
         .uniforms = 16 + material_rows, .storages = 64, .textures = material_rows * shared::kTextureCount};
-    HEARTH_ASSIGN_OR_RETURN(scene.pool, createDescriptorPool(device, 8 + material_rows, sizes));
+    HEARTH_ASSIGN_OR_RETURN(scene.pool, createDescriptorPool(device, 9 + material_rows, sizes));
     HEARTH_ASSIGN_OR_RETURN(scene.draw_set, allocateSet(device, scene.pool.get(), layouts.scene.get()));
     const SceneBuffers& b = scene.buffers;
     DescriptorWriter writer(scene.draw_set);
@@ -147,11 +150,12 @@ Status createSets(const Device& device, const DrawLayouts& layouts, Scene& scene
         .storage(kSceneInstances, b.instances)
         .storage(kSceneVisible, b.visible)
         .storage(kSceneDraws, b.cluster_draws)
-        .storage(kSceneBinDraws, b.bin_draws)
         .uniform(kSceneLighting, b.lighting);
     for (uint32_t slice = 0; slice < shared::kPoolSlices; ++slice)
         writer.storage(kScenePool + slice, b.pool[slice]);
     writer.write(device);
+    HEARTH_ASSIGN_OR_RETURN(scene.bins_set, allocateSet(device, scene.pool.get(), layouts.bins.get()));
+    DescriptorWriter(scene.bins_set).storage(0, b.bin_draws).write(device);
     return success();
 }
 

@@ -12,7 +12,7 @@ namespace
 GraphicsDescription describe(std::span<const uint32_t> fragment, VkPipelineLayout layout,
                              VkRenderPass render_pass)
 {
-    return {.vertex = shaders::fullscreen_vert,
+    return {.vertex = shaders::shaded_area_vert,
             .fragment = fragment,
             .layout = layout,
             .render_pass = render_pass,
@@ -31,7 +31,7 @@ Result<ShadingPass> ShadingPass::create(const Device& device, const DrawLayouts&
     pass.render_pass_ = render_pass;
     HEARTH_ASSIGN_OR_RETURN(
         pass.sky_,
-        createGraphicsPipeline(device, describe(shaders::sky_frag, layouts.pipeline.get(), render_pass)));
+        createGraphicsPipeline(device, describe(shaders::sky_frag, layouts.picture.get(), render_pass)));
     return pass;
 }
 
@@ -44,7 +44,7 @@ Result<ShadingPipelines> ShadingPass::prepare(const Device& device, const DrawLa
     {
         const uint32_t constants[] = {variant.used_slices, variant.textures, variant.uv_sets, variant.unlit};
         GraphicsDescription description =
-            describe(shaders::shading_frag, layouts.pipeline.get(), render_pass_);
+            describe(shaders::shading_frag, layouts.picture.get(), render_pass_);
         description.constants = constants;
         HEARTH_ASSIGN_OR_RETURN(pipelines.final_view, createGraphicsPipeline(device, description));
         description.fragment = shaders::inspect_frag;
@@ -56,7 +56,7 @@ Result<ShadingPipelines> ShadingPass::prepare(const Device& device, const DrawLa
 void ShadingPass::record(const Device& device, VkCommandBuffer commands, const DrawLayouts& layouts,
                          const Scene& scene, const FrameTargets& targets, const ShadingView& view) const
 {
-    const VkPipelineLayout layout = layouts.pipeline.get();
+    const VkPipelineLayout layout = layouts.picture.get();
     const VkDescriptorSet attachments = targets.attachments();
     device.vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout, 0, 1,
                                       &scene.draw_set, 0, nullptr);
@@ -65,7 +65,17 @@ void ShadingPass::record(const Device& device, VkCommandBuffer commands, const D
     DrawPush push{.depth = 0, .shown_view = view.shown, .depth_scale = view.depth_scale};
     device.vk.vkCmdPushConstants(commands, layout, kDrawPushStages, 0, sizeof(push), &push);
     device.vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, sky_.get());
-    device.vk.vkCmdDraw(commands, 3, 1, 0, 0);
+    const bool tiles = shadesTiles(scene, view.area);
+    const VkBuffer draws = (tiles ? scene.buffers.tile_draws : scene.buffers.material_draws).handle.get();
+    const auto draw = [&](uint32_t number)
+    {
+        device.vk.vkCmdDrawIndirect(commands, draws, number * sizeof(VkDrawIndirectCommand), 1,
+                                    sizeof(VkDrawIndirectCommand));
+    };
+    if (tiles)
+        draw(0);
+    else
+        device.vk.vkCmdDraw(commands, 3, 1, 0, 0);
 
     for (uint32_t row = 0; row < scene.materials.size(); ++row)
     {
@@ -78,9 +88,7 @@ void ShadingPass::record(const Device& device, VkCommandBuffer commands, const D
         device.vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout, 1, 1,
                                           &material.set, 0, nullptr);
         device.vk.vkCmdPushConstants(commands, layout, kDrawPushStages, 0, sizeof(push), &push);
-        // no vertices where the culling pass found no cluster of this material
-        device.vk.vkCmdDrawIndirect(commands, scene.buffers.material_draws.handle.get(),
-                                    number * sizeof(VkDrawIndirectCommand), 1, sizeof(VkDrawIndirectCommand));
+        draw(number); // of nothing where the material is not seen
     }
 }
 

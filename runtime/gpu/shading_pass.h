@@ -11,12 +11,31 @@
 namespace hearth::gpu
 {
 
+/// Where each material is shaded. The picture is the same.
+enum class ShadedArea : uint8_t
+{
+    automatic,    ///< the tiles where it is seen, in scenes of more than kWholePictureMaterials
+    wholePicture, ///< everywhere: pixels of other materials fail the depth test
+    tiles,        ///< the tiles where it is seen
+};
+
+/// Up to so many materials a scene is shaded in one render pass. See README.md, "Material tiles".
+inline constexpr uint32_t kWholePictureMaterials = 8;
+
 /// What the picture shows.
 struct ShadingView
 {
     uint32_t shown = shared::kViewFinal; ///< one of shared::kView*
     float depth_scale = 1;               ///< metres that the depth view shows as middle grey
+    ShadedArea area = ShadedArea::automatic;
 };
+
+/// Whether the frame makes lists of tiles before it is shaded.
+inline bool shadesTiles(const Scene& scene, ShadedArea area)
+{
+    return area == ShadedArea::tiles ||
+           (area == ShadedArea::automatic && scene.materials.size() > kWholePictureMaterials);
+}
 
 class ShadingPass
 {

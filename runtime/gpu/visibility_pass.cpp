@@ -26,7 +26,7 @@ Status VisibilityPass::createPipelines(const Device& device, const DrawLayouts& 
         GraphicsDescription description{
             .vertex = shaders::visibility_vert,
             .fragment = shaders::visibility_frag,
-            .layout = layouts.pipeline.get(),
+            .layout = layouts.visibility.get(),
             .render_pass = render_pass,
             .subpass = kSubpassVisibility,
             .cull =
@@ -49,9 +49,11 @@ Status VisibilityPass::createPipelines(const Device& device, const DrawLayouts& 
 void VisibilityPass::record(const Device& device, VkCommandBuffer commands, const DrawLayouts& layouts,
                             const Scene& scene) const
 {
-    const VkPipelineLayout layout = layouts.pipeline.get();
+    const VkPipelineLayout layout = layouts.visibility.get();
     device.vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout, 0, 1,
                                       &scene.draw_set, 0, nullptr);
+    device.vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout, 2, 1,
+                                      &scene.bins_set, 0, nullptr);
     const size_t slices = scene.used_slices == 1 ? 0 : 1;
     for (uint32_t i = 0; i < scene.bins.size(); ++i)
     {

@@ -13,7 +13,7 @@
 #include "tonemap.glsl"
 
 layout(input_attachment_index = 0, set = 2, binding = 0) uniform usubpassInput visibility;
-layout(set = 0, binding = 9, std140) uniform LightingBlock { Lighting lighting; };
+layout(set = 0, binding = 8, std140) uniform LightingBlock { Lighting lighting; };
 #include "sky.glsl"
 
 // said aloud because lavapipe else shades every pixel before it tests: five times the time of a frame

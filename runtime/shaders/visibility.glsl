@@ -1,7 +1,7 @@
 // What the two vertex shaders of the visibility pass share.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 
-layout(set = 0, binding = 8, std430) readonly buffer BinDraws { BinDraw bin_draws[]; };
+layout(set = 2, binding = 0, std430) readonly buffer BinDraws { BinDraw bin_draws[]; };
 layout(push_constant) uniform Push { uint bin_index; };
 
 struct CornerOfSlot

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/viewer/frame_report.h"
 
+#include "formats/shared/material_tiles.h"
+
 #include <algorithm>
 #include <cstdio>
 #include <cstring>
@@ -29,12 +31,13 @@ std::string quoted(std::string_view text)
     return result + "\"";
 }
 
-std::array<std::pair<const char*, uint64_t>, 4> namedCounts(const FrameCounts& counts)
+std::array<std::pair<const char*, uint64_t>, 5> namedCounts(const FrameCounts& counts)
 {
     return {{{"drawn_clusters", counts.drawn_clusters},
              {"early_clusters", counts.early_clusters},
              {"dropped_clusters", counts.dropped_clusters},
-             {"drawn_triangles", counts.drawn_triangles}}};
+             {"drawn_triangles", counts.drawn_triangles},
+             {"shaded_area_pixels", counts.shaded_area}}};
 }
 
 /// A JSON array, a line a frame.
@@ -67,6 +70,25 @@ Result<VisibleList> readVisibleList(VulkanHost& host, const gpu::Renderer& rende
     HEARTH_ASSERT(slots.size() >= list.slots.size() * sizeof(shared::VisibleCluster));
     std::memcpy(list.slots.data(), slots.data(), list.slots.size() * sizeof(shared::VisibleCluster));
     return list;
+}
+
+Result<uint64_t> readShadedArea(VulkanHost& host, const gpu::Renderer& renderer, const gpu::Scene& scene,
+                                VkExtent2D extent, gpu::ShadedArea area)
+{
+    const bool tiles = gpu::shadesTiles(scene, area);
+    HEARTH_ASSIGN_OR_RETURN(
+        const std::vector<std::byte> bytes,
+        host.read(renderer.device(), tiles ? scene.buffers.tile_draws : scene.buffers.material_draws));
+    std::vector<shared::TileDraw> draws(scene.materials.size() + 1);
+    HEARTH_ASSERT(bytes.size() >= draws.size() * sizeof(shared::TileDraw));
+    std::memcpy(draws.data(), bytes.data(), draws.size() * sizeof(shared::TileDraw));
+    const uint64_t whole_picture = uint64_t{extent.width} * extent.height;
+    uint64_t pixels = tiles ? 0 : whole_picture; // the sky has no indirect draw then
+    for (const shared::TileDraw& draw : draws)
+        pixels += draw.instance_count * (draw.first_vertex == 0 ? whole_picture
+                                                                : uint64_t{shared::kMaterialTilePixels} *
+                                                                      shared::kMaterialTilePixels);
+    return pixels;
 }
 
 std::array<double, gpu::kTimestampCount> medianPassTimes(const std::vector<std::vector<double>>& frames)
@@ -123,6 +145,7 @@ std::string formatReport(const FrameReport& report, const formats::PackView& pac
             ",\"pyramid\":" + number(report.milliseconds[gpu::kTimestampPyramid]) +
             ",\"late_cull\":" + number(report.milliseconds[gpu::kTimestampLateCull]) +
             ",\"visibility\":" + number(report.milliseconds[gpu::kTimestampVisibility]) +
+            ",\"material_tiles\":" + number(report.milliseconds[gpu::kTimestampMaterialTiles]) +
             ",\"material_depth\":" + number(report.milliseconds[gpu::kTimestampMaterialDepth]) +
             ",\"shading\":" + number(report.milliseconds[gpu::kTimestampShading]) + "}");
     return text + "}\n";

@@ -17,9 +17,15 @@ struct VisibleList
 };
 Result<VisibleList> readVisibleList(VulkanHost& host, const gpu::Renderer& renderer, const gpu::Scene& scene);
 
+/// Area of what the last frame of a scene drew to shade it, in pixels: each material, and the sky, in all of its tiles or
+/// in the whole picture.
+Result<uint64_t> readShadedArea(VulkanHost& host, const gpu::Renderer& renderer, const gpu::Scene& scene,
+                                VkExtent2D extent, gpu::ShadedArea area);
+
 struct FrameCounts
 {
     uint64_t drawn_clusters = 0, early_clusters = 0, dropped_clusters = 0, drawn_triangles = 0;
+    uint64_t shaded_area = 0; ///< as readShadedArea
 };
 
 struct FrameReport

@@ -71,7 +71,9 @@ gpu::FrameInput makeFrame(const RenderOptions& options, const shared::Camera& ca
     const Status curve = shared::setLodCurve(view, options.lod_curve);
     HEARTH_ASSERT(curve.ok()); // the options have been checked
     return {.view = view,
-            .shading = {.shown = options.view, .depth_scale = length(camera.target - camera.position)}};
+            .shading = {.shown = options.view,
+                        .depth_scale = length(camera.target - camera.position),
+                        .area = options.shaded_area}};
 }
 
 void warnAboutLimits(const gpu::Scene& scene, const VisibleList& list, const std::string& name)
@@ -134,10 +136,14 @@ public:
         HEARTH_ASSIGN_OR_RETURN(const std::vector<std::byte> png,
                                 encodePng(picture, options_.width, options_.height));
         HEARTH_TRY(writeFile(picture_file, png));
+        HEARTH_ASSIGN_OR_RETURN(
+            const uint64_t shaded_area,
+            readShadedArea(host_, renderer_, scene_, targets_.extent(), options_.shaded_area));
         frames_.push_back({.drawn_clusters = list.slots.size(),
                            .early_clusters = list.counters.early_clusters,
                            .dropped_clusters = list.counters.dropped_clusters,
-                           .drawn_triangles = countTriangles(pack_, list)});
+                           .drawn_triangles = countTriangles(pack_, list),
+                           .shaded_area = shaded_area});
         if (visibility_file.empty())
             return success();
         HEARTH_ASSIGN_OR_RETURN(const std::vector<std::byte> pixels,

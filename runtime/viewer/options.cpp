@@ -33,6 +33,12 @@ const char* const kRenderHelp =
     "than\n"
     "                          the distance. Example: 0:1,50:1,500:0.4\n"
     "      --view VIEW         final, clusters, lod, triangles, normals or depth\n"
+    "      --shaded-area AREA  where each material is shaded: picture, tiles (64x64 pixels where it is "
+    "seen), "
+    "or\n"
+    "                          automatic (default), which takes tiles in scenes of many materials; the "
+    "picture\n"
+    "                          stays the same\n"
     "      --samples N         1, or 4 for a smoother picture\n"
     "      --device NAME       part of the name of the graphics device\n"
     "      --stats FILE        counts and times of the passes as JSON\n"
@@ -121,6 +127,22 @@ Status parseView(std::string_view text, RenderOptions& options)
             return success();
         }
     return usage("--view: " + quoted(text) + " is none of final, clusters, lod, triangles, normals, depth");
+}
+
+Status parseShadedArea(std::string_view text, RenderOptions& options)
+{
+    constexpr std::pair<std::string_view, gpu::ShadedArea> kAreas[] = {
+        {"automatic", gpu::ShadedArea::automatic},
+        {"picture", gpu::ShadedArea::wholePicture},
+        {"tiles", gpu::ShadedArea::tiles},
+    };
+    for (const auto& [name, area] : kAreas)
+        if (text == name)
+        {
+            options.shaded_area = area;
+            return success();
+        }
+    return usage("--shaded-area: " + quoted(text) + " is none of automatic, picture, tiles");
 }
 
 Status parseCull(std::string_view text, RenderOptions& options)
@@ -229,6 +251,7 @@ constexpr ValueOption kValueOptions[] = {
     {"--error-pixels", parseErrorPixels},
     {"--lod-curve", parseLodCurve},
     {"--view", parseView},
+    {"--shaded-area", parseShadedArea},
     {"--samples", parseSamples},
     {"--device", parseText<&RenderOptions::device>},
     {"--stats", parseText<&RenderOptions::stats>},

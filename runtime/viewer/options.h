@@ -5,6 +5,7 @@
 #include "formats/result.h"
 #include "formats/shared/frame.h"
 #include "formats/shared/lod_curve.h"
+#include "runtime/gpu/shading_pass.h"
 
 #include <optional>
 #include <span>
@@ -35,6 +36,7 @@ struct RenderOptions
     float error_pixels = 1;
     std::vector<shared::LodKnot> lod_curve; ///< checked
     uint32_t view = 0;                      ///< shared::kView*
+    gpu::ShadedArea shaded_area = gpu::ShadedArea::automatic;
     uint32_t samples = 1;
     uint32_t frames = 1;
     uint32_t cull_flags = shared::kCullEverything;

@@ -129,8 +129,9 @@ Picture GpuTest::draw(const gpu::Scene& scene, const shared::Camera& camera, con
 Picture GpuTest::draw(const gpu::Scene& scene, gpu::FrameTargets& targets, const shared::Camera& camera,
                       const DrawOptions& options)
 {
-    const gpu::FrameInput input{
-        .view = viewOf(scene, camera, options), .shading = {.shown = options.shown}, .moves = options.moves};
+    const gpu::FrameInput input{.view = viewOf(scene, camera, options),
+                                .shading = {.shown = options.shown, .area = options.area},
+                                .moves = options.moves};
     const Status status = host().run(
         [&](VkCommandBuffer commands)
         {

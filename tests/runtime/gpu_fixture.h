@@ -40,6 +40,7 @@ struct DrawOptions
     float error_pixels = 1;
     uint32_t flags = shared::kCullEverything;
     uint32_t shown = shared::kViewFinal;
+    gpu::ShadedArea area = gpu::ShadedArea::automatic;
     std::vector<shared::LodKnot> lod_curve{};
     std::span<const gpu::InstanceMove> moves{};
 };
