@@ -6,8 +6,8 @@
 #include "formats/shared/shading.h"
 #include "scene.glsl"
 #include "material.glsl"
+#include "surface_point.glsl"
 #include "resolve.glsl"
-#include "surface_textures.glsl"
 #include "tonemap.glsl"
 
 layout(input_attachment_index = 0, set = 2, binding = 0) uniform usubpassInput visibility;
@@ -51,7 +51,7 @@ void main()
     else if (shown_view == kViewTriangles)
         color = facing * colorOfNumber((s.slot.cluster * 128u + s.triangle) * 31u + s.slot.instance);
     else if (shown_view == kViewNormals)
-        color = shadingNormal(s, surfaceUvs(s)) * 0.5 + 0.5;
+        color = shadingNormal(surfacePoint(s), surfaceUvs(s)) * 0.5 + 0.5;
     else
         color = vec3(depth_scale / (depth_scale + s.distance_w));
     out_color = vec4(linearFromSrgb(color), 1.0);

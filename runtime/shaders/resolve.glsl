@@ -20,6 +20,8 @@ struct Surface
     float distance_w;  // along the view direction
 };
 
+bool isMirrored(Instance instance) { return (instance.flags & 1u) != 0u; }
+
 Surface resolveSurface(uint id, vec2 pixel)
 {
     Surface s;
@@ -54,18 +56,11 @@ Surface resolveSurface(uint id, vec2 pixel)
     s.weights = weights / (weights.x + weights.y + weights.z);
     s.position = s.corners[0] * s.weights.x + s.corners[1] * s.weights.y + s.corners[2] * s.weights.z;
     s.distance_w = w[0] * s.weights.x + w[1] * s.weights.y + w[2] * s.weights.z;
-    s.mirrored = (s.instance.flags & 1u) != 0u;
+    s.mirrored = isMirrored(s.instance);
     // y points down: a counter-clockwise triangle has a negative area
     s.front = (sum < 0.0) != s.mirrored;
     return s;
 }
-
-struct SurfaceUv
-{
-    vec2 uv;
-    vec2 dx;
-    vec2 dy;
-};
 
 // A triangle seen edge-on has gradients without end, or none: past 64 textures a pixel every mip is the last one.
 vec2 boundedGradient(vec2 gradient)
@@ -87,10 +82,33 @@ SurfaceUv surfaceUv(Surface s, uint set)
     return r;
 }
 
-vec4 surfaceColor(Surface s)
+// Those of one set are read once.
+SurfaceUvs surfaceUvs(Surface s)
 {
-    return vertexColor(s.draw, s.vertices[0]) * s.weights.x + vertexColor(s.draw, s.vertices[1]) * s.weights.y +
-           vertexColor(s.draw, s.vertices[2]) * s.weights.z;
+    SurfaceUvs uvs;
+    SurfaceUv none = SurfaceUv(vec2(0.0), vec2(0.0), vec2(0.0));
+    for (uint slot = 0u; slot < kTextureCount; ++slot)
+    {
+        uvs.slots[slot] = none;
+        if (!hasTexture(slot))
+            continue;
+        bool known = false;
+        for (uint before = 0u; before < slot; ++before)
+            if (hasTexture(before) && uvSetOf(before) == uvSetOf(slot) && !known)
+            {
+                uvs.slots[slot] = uvs.slots[before];
+                known = true;
+            }
+        if (!known)
+            uvs.slots[slot] = surfaceUv(s, uvSetOf(slot));
+    }
+    return uvs;
+}
+
+vec3 surfaceColor(Surface s)
+{
+    return vertexColor(s.draw, s.vertices[0]).rgb * s.weights.x + vertexColor(s.draw, s.vertices[1]).rgb * s.weights.y +
+           vertexColor(s.draw, s.vertices[2]).rgb * s.weights.z;
 }
 
 vec3 worldVector(Instance instance, vec3 v)
@@ -100,20 +118,13 @@ vec3 worldVector(Instance instance, vec3 v)
 }
 
 // Normals move with the cofactor matrix: the inverse transpose up to a positive factor once the mirror is taken out.
-vec3 worldNormal(Surface s, vec3 n)
+vec3 worldNormal(Instance instance, vec3 n)
 {
-    vec3 x = s.instance.world_from_object_x.xyz;
-    vec3 y = s.instance.world_from_object_y.xyz;
-    vec3 z = s.instance.world_from_object_z.xyz;
+    vec3 x = instance.world_from_object_x.xyz;
+    vec3 y = instance.world_from_object_y.xyz;
+    vec3 z = instance.world_from_object_z.xyz;
     vec3 r = vec3(dot(cross(y, z), n), dot(cross(z, x), n), dot(cross(x, y), n));
-    return s.mirrored ? -r : r;
-}
-
-// `v`, or `fallback` where v is too short to have a direction.
-vec3 normalizeOr(vec3 v, vec3 fallback)
-{
-    float len2 = dot(v, v);
-    return len2 > 1e-30 ? v * inversesqrt(len2) : fallback;
+    return isMirrored(instance) ? -r : r;
 }
 
 vec3 geometricNormal(Surface s)
@@ -131,7 +142,7 @@ vec3 smoothNormal(Surface s)
     vec3 n = vec3(0.0);
     for (uint i = 0u; i < 3u; ++i)
         n += vertexNormal(s.draw, s.vertices[i]) * s.weights[i];
-    return normalizeOr(worldNormal(s, n), flat_normal);
+    return normalizeOr(worldNormal(s.instance, n), flat_normal);
 }
 
 // Tangent and bitangent (unit, world), from the vertices or else from the gradients of the UVs that the normal map uses.
@@ -160,7 +171,18 @@ void tangentFrame(Surface s, vec3 normal, uint uv_set, out vec3 tangent, out vec
         // v points down in the texture, the bitangent up: a chart that is not mirrored has a negative area
         side *= area > 0.0 ? -1.0 : 1.0;
     }
-    vec3 across = abs(normal.x) < 0.5 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0);
-    tangent = normalizeOr(t, normalize(cross(normal, across)));
-    bitangent = normalizeOr(cross(normal, tangent), across) * side;
+    completeFrame(normal, t, side, tangent, bitangent);
+}
+
+SurfacePoint surfacePoint(Surface s)
+{
+    SurfacePoint point;
+    point.position = s.position;
+    point.normal = smoothNormal(s);
+    point.tangent = point.bitangent = vec3(0.0);
+    if (hasTexture(kTextureNormal))
+        tangentFrame(s, point.normal, uvSetOf(kTextureNormal), point.tangent, point.bitangent);
+    point.color = surfaceColor(s);
+    point.front = s.front;
+    return point;
 }

@@ -1,5 +1,4 @@
-// Shades the pixels of one material: rebuilds the surface, samples the textures with exact derivatives, adds the
-// lights and the sky. See runtime/gpu/README.md for units and exposure.
+// Shades the pixels of one material: rebuilds the surface, and shades it with exact derivatives of its UVs.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #version 450
 #extension GL_GOOGLE_include_directive : require
@@ -7,88 +6,18 @@
 #include "formats/shared/shading.h"
 #include "scene.glsl"
 #include "material.glsl"
+#include "surface_point.glsl"
 #include "resolve.glsl"
-#include "surface_textures.glsl"
-#include "brdf.glsl"
-#include "tonemap.glsl"
+#include "lighting.glsl"
 
 layout(input_attachment_index = 0, set = 2, binding = 0) uniform usubpassInput visibility;
-layout(set = 0, binding = 8, std140) uniform LightingBlock { Lighting lighting; };
-#include "sky.glsl"
 
 // said aloud because lavapipe else shades every pixel before it tests: five times the time of a frame
 layout(early_fragment_tests) in;
 layout(location = 0) out vec4 out_color;
 
-layout(constant_id = 3) const bool kUnlit = false;
-
-// formats::LightType
-const uint kLightDirectional = 0u;
-const uint kLightSpot = 2u;
-
-// Irradiance of a light on a surface that faces it, and where it comes from. KHR_lights_punctual.
-vec3 irradianceOf(Light light, vec3 position, out vec3 to_light)
-{
-    if (light.type == kLightDirectional)
-    {
-        to_light = -light.direction;
-        return light.intensity;
-    }
-    vec3 offset = (light.position - view.eye) - position;
-    float distance2 = max(dot(offset, offset), 1e-8);
-    to_light = offset * inversesqrt(distance2);
-    float attenuation = 1.0 / distance2;
-    if (light.range > 0.0)
-    {
-        float ratio2 = distance2 / (light.range * light.range);
-        attenuation *= clamp(1.0 - ratio2 * ratio2, 0.0, 1.0);
-    }
-    if (light.type == kLightSpot)
-    {
-        float cone = clamp(dot(light.direction, -to_light) * light.cone_scale + light.cone_offset, 0.0, 1.0);
-        attenuation *= cone * cone;
-    }
-    return light.intensity * attenuation;
-}
-
-vec3 lit(Surface s, SurfaceUvs uvs, vec3 base)
-{
-    vec3 normal = shadingNormal(s, uvs);
-    vec4 metallic_roughness = sampleSurface(s, uvs, kTextureMetallicRoughness, metallic_roughness_texture);
-    float metallic = clamp(material.metallic * metallic_roughness.b, 0.0, 1.0);
-    Shading shading;
-    // below 0.045 the highlight of a punctual light is smaller than half floats resolve
-    shading.roughness = clamp(material.roughness * metallic_roughness.g, 0.045, 1.0);
-    shading.diffuse = base * (1.0 - metallic);
-    shading.f0 = mix(vec3(0.04), base, metallic);
-    shading.normal = normal;
-    shading.to_eye = normalizeOr(-s.position, normal);
-    shading.n_dot_v = clamp(abs(dot(normal, shading.to_eye)), 1e-4, 1.0);
-
-    vec3 radiance = vec3(0.0);
-    for (uint i = 0u; i < lighting.light_count; ++i)
-    {
-        vec3 to_light;
-        vec3 irradiance = irradianceOf(lighting.lights[i], s.position, to_light);
-        radiance += irradiance * reflected(shading, to_light);
-    }
-
-    float occlusion =
-        mix(1.0, sampleSurface(s, uvs, kTextureOcclusion, occlusion_texture).r, material.occlusion_strength);
-    vec2 scale_bias = specularScaleBias(shading.roughness, shading.n_dot_v);
-    vec3 specular = shading.f0 * scale_bias.x + scale_bias.y;
-    vec3 mirror = reflect(-shading.to_eye, normal);
-    radiance += occlusion * ((1.0 - specular) * shading.diffuse * skyIrradiance(normal) +
-                             specular * skyRadiance(mirror, shading.roughness));
-    return radiance + material.emissive * sampleSurface(s, uvs, kTextureEmissive, emissive_texture).rgb;
-}
-
 void main()
 {
     Surface s = resolveSurface(subpassLoad(visibility).x, gl_FragCoord.xy);
-    SurfaceUvs uvs = surfaceUvs(s);
-    vec3 base = material.base_color.rgb * surfaceColor(s).rgb *
-                sampleSurface(s, uvs, kTextureBaseColor, base_color_texture).rgb;
-    // unlit colours are display colours: no light, no tone mapping
-    out_color = vec4(kUnlit ? base : toneMap(lit(s, uvs, base)), 1.0);
+    out_color = vec4(displayColor(surfacePoint(s), surfaceUvs(s)), 1.0);
 }

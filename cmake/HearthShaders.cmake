@@ -1,0 +1,35 @@
+# GLSL -> SPIR-V 1.3 (Vulkan 1.1) at build time, checked by spirv-val, embedded as words. Nothing of the machine, no
+# path and no debug information, goes in.
+
+# hearth_shader_library(NAME HEADER ... SHADERS ...): a static library with the words of the shaders, which stand in the
+# current folder; HEADER declares a span for each, in namespace hearth::shaders.
+function(hearth_shader_library name)
+  cmake_parse_arguments(ARG "" "HEADER" "SHADERS" ${ARGN})
+  find_package(Vulkan REQUIRED COMPONENTS glslc)
+  find_program(HEARTH_SPIRV_VAL spirv-val REQUIRED)
+  set(embedded "// Generated.\n#include \"${ARG_HEADER}\"\n\nnamespace hearth::shaders\n{\n")
+  set(words_files)
+  foreach(shader ${ARG_SHADERS})
+    set(words ${CMAKE_CURRENT_BINARY_DIR}/${shader}.inc)
+    set(glslc ${Vulkan_GLSLC_EXECUTABLE} -Werror -O --target-env=vulkan1.1 -I ${PROJECT_SOURCE_DIR})
+    add_custom_command(
+      OUTPUT ${words}
+      COMMAND ${glslc} -MD -MF ${words}.d -MT ${words} ${CMAKE_CURRENT_SOURCE_DIR}/${shader} -o ${words}.spv
+      COMMAND ${HEARTH_SPIRV_VAL} --target-env vulkan1.1 ${words}.spv
+      COMMAND ${glslc} -mfmt=num ${CMAKE_CURRENT_SOURCE_DIR}/${shader} -o ${words}
+      DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${shader}
+      DEPFILE ${words}.d
+      COMMENT "Compiling ${shader}"
+      VERBATIM)
+    list(APPEND words_files ${words})
+    string(REPLACE "." "_" variable ${shader})
+    string(APPEND embedded "static constexpr uint32_t ${variable}_words[] = {\n#include \"${shader}.inc\"\n};\n"
+                           "const std::span<const uint32_t> ${variable}(${variable}_words);\n\n")
+  endforeach()
+  string(APPEND embedded "} // namespace hearth::shaders\n")
+  file(CONFIGURE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/embedded.cpp CONTENT "${embedded}" @ONLY)
+
+  hearth_library(${name} SOURCES ${CMAKE_CURRENT_BINARY_DIR}/embedded.cpp ${words_files})
+  target_include_directories(${name} PRIVATE ${CMAKE_CURRENT_BINARY_DIR})
+  target_compile_options(${name} PRIVATE -fno-exceptions)
+endfunction()

@@ -1,0 +1,79 @@
+// What a point of a surface looks like: its material under the lights and the sky. See runtime/gpu/README.md for units
+// and exposure.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+
+layout(set = 0, binding = 8, std140) uniform LightingBlock { Lighting lighting; };
+#include "brdf.glsl"
+#include "sky.glsl"
+#include "tonemap.glsl"
+
+layout(constant_id = 3) const bool kUnlit = false;
+
+// formats::LightType
+const uint kLightDirectional = 0u;
+const uint kLightSpot = 2u;
+
+// Irradiance of a light on a surface that faces it, and where it comes from. KHR_lights_punctual.
+vec3 irradianceOf(Light light, vec3 position, out vec3 to_light)
+{
+    if (light.type == kLightDirectional)
+    {
+        to_light = -light.direction;
+        return light.intensity;
+    }
+    vec3 offset = (light.position - view.eye) - position;
+    float distance2 = max(dot(offset, offset), 1e-8);
+    to_light = offset * inversesqrt(distance2);
+    float attenuation = 1.0 / distance2;
+    if (light.range > 0.0)
+    {
+        float ratio2 = distance2 / (light.range * light.range);
+        attenuation *= clamp(1.0 - ratio2 * ratio2, 0.0, 1.0);
+    }
+    if (light.type == kLightSpot)
+    {
+        float cone = clamp(dot(light.direction, -to_light) * light.cone_scale + light.cone_offset, 0.0, 1.0);
+        attenuation *= cone * cone;
+    }
+    return light.intensity * attenuation;
+}
+
+vec3 lit(SurfacePoint point, SurfaceUvs uvs, vec3 base)
+{
+    vec3 normal = shadingNormal(point, uvs);
+    vec4 metallic_roughness = sampleSurface(uvs, kTextureMetallicRoughness, metallic_roughness_texture);
+    float metallic = clamp(material.metallic * metallic_roughness.b, 0.0, 1.0);
+    Shading shading;
+    // below 0.045 the highlight of a punctual light is smaller than half floats resolve
+    shading.roughness = clamp(material.roughness * metallic_roughness.g, 0.045, 1.0);
+    shading.diffuse = base * (1.0 - metallic);
+    shading.f0 = mix(vec3(0.04), base, metallic);
+    shading.normal = normal;
+    shading.to_eye = normalizeOr(-point.position, normal);
+    shading.n_dot_v = clamp(abs(dot(normal, shading.to_eye)), 1e-4, 1.0);
+
+    vec3 radiance = vec3(0.0);
+    for (uint i = 0u; i < lighting.light_count; ++i)
+    {
+        vec3 to_light;
+        vec3 irradiance = irradianceOf(lighting.lights[i], point.position, to_light);
+        radiance += irradiance * reflected(shading, to_light);
+    }
+
+    float occlusion =
+        mix(1.0, sampleSurface(uvs, kTextureOcclusion, occlusion_texture).r, material.occlusion_strength);
+    vec2 scale_bias = specularScaleBias(shading.roughness, shading.n_dot_v);
+    vec3 specular = shading.f0 * scale_bias.x + scale_bias.y;
+    vec3 mirror = reflect(-shading.to_eye, normal);
+    radiance += occlusion * ((1.0 - specular) * shading.diffuse * skyIrradiance(normal) +
+                             specular * skyRadiance(mirror, shading.roughness));
+    return radiance + material.emissive * sampleSurface(uvs, kTextureEmissive, emissive_texture).rgb;
+}
+
+// Display-linear. Unlit colours are display colours: no light, no tone mapping.
+vec3 displayColor(SurfacePoint point, SurfaceUvs uvs)
+{
+    vec3 base =
+        material.base_color.rgb * point.color * sampleSurface(uvs, kTextureBaseColor, base_color_texture).rgb;
+    return kUnlit ? base : toneMap(lit(point, uvs, base));
+}

@@ -1,0 +1,39 @@
+// The same shading as the picture's, of what the rasteriser interpolates and differentiates.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#include "formats/shared/decisions.h"
+#include "formats/shared/shading.h"
+#include "runtime/shaders/scene.glsl"
+#include "runtime/shaders/material.glsl"
+#include "runtime/shaders/surface_point.glsl"
+#include "runtime/shaders/lighting.glsl"
+
+layout(location = 0) in vec3 in_position;
+layout(location = 1) in vec3 in_normal;
+layout(location = 2) in vec3 in_tangent;
+layout(location = 3) in vec3 in_color;
+layout(location = 4) in vec4 in_uvs;
+layout(location = 5) flat in float in_side;
+layout(location = 6) flat in uint in_mirrored;
+layout(location = 0) out vec4 out_color;
+
+void main()
+{
+    SurfacePoint point;
+    point.position = in_position;
+    point.normal = normalizeOr(in_normal, vec3(0.0, 1.0, 0.0));
+    completeFrame(point.normal, in_tangent, in_side, point.tangent, point.bitangent);
+    point.color = in_color;
+    // where both sides are drawn, mirrored instances are not drawn with the other front face
+    bool turned = (material.flags & kMaterialDoubleSided) != 0u && in_mirrored != 0u;
+    point.front = gl_FrontFacing != turned;
+
+    SurfaceUvs uvs;
+    for (uint slot = 0u; slot < kTextureCount; ++slot)
+    {
+        vec2 uv = uvSetOf(slot) == 0u ? in_uvs.xy : in_uvs.zw;
+        uvs.slots[slot] = SurfaceUv(uv, dFdx(uv), dFdy(uv));
+    }
+    out_color = vec4(displayColor(point, uvs), 1.0);
+}

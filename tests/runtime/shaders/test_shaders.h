@@ -1,0 +1,15 @@
+// The compiled shaders of the tests; each is named after its file.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+namespace hearth::shaders
+{
+
+extern const std::span<const uint32_t> forward_vert;
+extern const std::span<const uint32_t> forward_frag;
+extern const std::span<const uint32_t> uv_derivatives_frag;
+
+} // namespace hearth::shaders

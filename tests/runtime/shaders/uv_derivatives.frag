@@ -1,0 +1,23 @@
+// The derivatives of UV set 0 as the picture's shading uses them: by x in the first two channels, by y in the others.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#include "formats/shared/decisions.h"
+#include "formats/shared/shading.h"
+#include "runtime/shaders/scene.glsl"
+#include "runtime/shaders/material.glsl"
+#include "runtime/shaders/surface_point.glsl"
+#include "runtime/shaders/resolve.glsl"
+
+layout(input_attachment_index = 0, set = 2, binding = 0) uniform usubpassInput visibility;
+layout(location = 0) out vec4 out_derivatives;
+
+void main()
+{
+    uint id = subpassLoad(visibility).x;
+    out_derivatives = vec4(0.0);
+    if (id == kNothingVisible)
+        return;
+    SurfaceUv at = surfaceUv(resolveSurface(id, gl_FragCoord.xy), 0u);
+    out_derivatives = vec4(at.dx, at.dy);
+}
