@@ -40,7 +40,7 @@ std::array<std::pair<const char*, uint64_t>, 5> namedCounts(const FrameCounts& c
              {"shaded_area_pixels", counts.shaded_area}}};
 }
 
-/// A JSON array, a line a frame.
+/// A JSON array.
 std::string formatFrames(std::span<const FrameCounts> frames)
 {
     std::string text;
@@ -49,6 +49,7 @@ std::string formatFrames(std::span<const FrameCounts> frames)
         std::string members;
         for (const auto& [name, count] : namedCounts(frame))
             members += (members.empty() ? "{\"" : ",\"") + std::string(name) + "\":" + std::to_string(count);
+        members += ",\"culling\":" + formatCullReport(frame.culling);
         text += (text.empty() ? "[\n  " : ",\n  ") + members + "}";
     }
     return text + "]";
@@ -105,10 +106,10 @@ std::array<double, gpu::kTimestampCount> medianPassTimes(const std::vector<std::
     return medians;
 }
 
-uint64_t countTriangles(const formats::PackView& pack, const VisibleList& list)
+uint64_t countTriangles(const formats::PackView& pack, std::span<const shared::VisibleCluster> slots)
 {
     uint64_t triangles = 0;
-    for (const shared::VisibleCluster& slot : list.slots)
+    for (const shared::VisibleCluster& slot : slots)
         triangles += pack.clusters()[slot.cluster].triangle_count;
     return triangles;
 }
@@ -133,6 +134,7 @@ std::string formatReport(const FrameReport& report, const formats::PackView& pac
     add("source_triangles", std::to_string(source_triangles));
     for (const auto& [name, count] : namedCounts(report.frames.back()))
         add(name, std::to_string(count));
+    add("culling", formatCullReport(report.frames.back().culling));
     add("dropped_lights", std::to_string(report.dropped_lights));
     add("scene_bytes", std::to_string(report.scene_bytes));
     add("target_bytes", std::to_string(report.target_bytes));

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
+#include "runtime/viewer/cull_report.h"
 #include "runtime/viewer/vulkan_host.h"
 
 #include <array>
@@ -26,6 +27,7 @@ struct FrameCounts
 {
     uint64_t drawn_clusters = 0, early_clusters = 0, dropped_clusters = 0, drawn_triangles = 0;
     uint64_t shaded_area = 0; ///< as readShadedArea
+    CullReport culling;
 };
 
 struct FrameReport
@@ -43,7 +45,7 @@ struct FrameReport
 /// Medians over frames of the times between timestamps.
 std::array<double, gpu::kTimestampCount> medianPassTimes(const std::vector<std::vector<double>>& frames);
 
-uint64_t countTriangles(const formats::PackView& pack, const VisibleList& list);
+uint64_t countTriangles(const formats::PackView& pack, std::span<const shared::VisibleCluster> slots);
 
 /// JSON text; "schema" names its form.
 std::string formatReport(const FrameReport& report, const formats::PackView& pack);

@@ -1,6 +1,7 @@
 // hearth-render: draws a pack into a PNG file.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "formats/program.h"
+#include "runtime/gpu/cull_statistics_pass.h"
 #include "runtime/pack/pack.h"
 #include "runtime/viewer/camera_fit.h"
 #include "runtime/viewer/camera_path.h"
@@ -9,7 +10,9 @@
 #include "runtime/viewer/options.h"
 #include "runtime/viewer/pyramid_start.h"
 
+#include <algorithm>
 #include <cstdio>
+#include <cstring>
 #include <memory>
 
 namespace hearth::viewer
@@ -136,14 +139,8 @@ public:
         HEARTH_ASSIGN_OR_RETURN(const std::vector<std::byte> png,
                                 encodePng(picture, options_.width, options_.height));
         HEARTH_TRY(writeFile(picture_file, png));
-        HEARTH_ASSIGN_OR_RETURN(
-            const uint64_t shaded_area,
-            readShadedArea(host_, renderer_, scene_, targets_.extent(), options_.shaded_area));
-        frames_.push_back({.drawn_clusters = list.slots.size(),
-                           .early_clusters = list.counters.early_clusters,
-                           .dropped_clusters = list.counters.dropped_clusters,
-                           .drawn_triangles = countTriangles(pack_, list),
-                           .shaded_area = shaded_area});
+        if (!options_.stats.empty())
+            HEARTH_TRY(count(list));
         if (visibility_file.empty())
             return success();
         HEARTH_ASSIGN_OR_RETURN(const std::vector<std::byte> pixels,
@@ -170,6 +167,37 @@ public:
     }
 
 private:
+    /// Add what the last frame drew, and what it did not, to the statistics.
+    Status count(const VisibleList& list)
+    {
+        const gpu::Device& device = renderer_.device();
+        HEARTH_ASSIGN_OR_RETURN(const gpu::CullStatisticsPass pass,
+                                gpu::CullStatisticsPass::create(device, scene_));
+        HEARTH_TRY(host_.run(
+            [&](VkCommandBuffer commands)
+            {
+                pass.record(device, commands, scene_);
+                return success();
+            }));
+        HEARTH_ASSIGN_OR_RETURN(const std::vector<std::byte> bytes, host_.read(device, pass.statistics()));
+        shared::CullStatistics statistics;
+        std::memcpy(&statistics, bytes.data(), sizeof(statistics));
+        HEARTH_ASSIGN_OR_RETURN(
+            const uint64_t shaded_area,
+            readShadedArea(host_, renderer_, scene_, targets_.extent(), options_.shaded_area));
+        const std::span slots(list.slots);
+        const uint64_t early =
+            countTriangles(pack_, slots.first(std::min<size_t>(slots.size(), list.counters.early_clusters)));
+        const uint64_t drawn = countTriangles(pack_, slots);
+        frames_.push_back({.drawn_clusters = slots.size(),
+                           .early_clusters = list.counters.early_clusters,
+                           .dropped_clusters = list.counters.dropped_clusters,
+                           .drawn_triangles = drawn,
+                           .shaded_area = shaded_area,
+                           .culling = makeCullReport(statistics, list.counters, early, drawn)});
+        return success();
+    }
+
     const RenderOptions& options_;
     const formats::PackView& pack_;
     VulkanHost& host_;

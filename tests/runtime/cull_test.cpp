@@ -1,5 +1,6 @@
 // The culling passes against their C++ twin: every buffer, every bit.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "runtime/gpu/cull_statistics_pass.h"
 #include "tests/cook/shapes.h"
 #include "tests/runtime/cull_twin.h"
 #include "tests/runtime/gpu_fixture.h"
@@ -69,8 +70,35 @@ protected:
                              twin.material_draws));
         EXPECT_TRUE(sameBits(picture.list.slots, twin.visible));
         EXPECT_EQ(picture.list.counters.early_clusters, twin.early_clusters);
+        expectStatistics(scene, twin, layout.instanced_clusters);
         drawn_ += twin.visible.size();
         late_ += twin.visible.size() - twin.early_clusters;
+    }
+
+    void expectStatistics(const gpu::Scene& scene, const Twin& twin, uint64_t instanced_clusters)
+    {
+        const gpu::Device& device = renderer().device();
+        auto pass = gpu::CullStatisticsPass::create(device, scene);
+        ASSERT_TRUE(pass.ok());
+        ASSERT_TRUE(host()
+                        .run(
+                            [&](VkCommandBuffer commands)
+                            {
+                                pass->record(device, commands, scene);
+                                return success();
+                            })
+                        .ok());
+        const auto counted = read<CullStatistics>(pass->statistics(), 1);
+        EXPECT_TRUE(sameBits(counted, {twin.statistics}));
+        for (uint32_t outcome = 0; outcome < kOutcomeCount; ++outcome)
+            outcomes_[outcome] += counted[0].clusters[outcome];
+        const viewer::CullReport report = viewer::makeCullReport(
+            counted[0], {static_cast<uint32_t>(twin.visible.size()), 0, twin.early_clusters, 0}, 0, 0);
+        EXPECT_EQ(report.instances.tested, scene.instance_count);
+        const viewer::CullCounts& clusters = report.clusters;
+        EXPECT_EQ(clusters.tested, instanced_clusters);
+        EXPECT_EQ(clusters.tested, clusters.instance + clusters.lod + clusters.frustum + clusters.cone +
+                                       clusters.occlusion + clusters.drawn);
     }
 
     Pyramid readPyramid(const gpu::FrameTargets& targets)
@@ -82,6 +110,7 @@ protected:
 
     size_t late_ = 0;
     size_t drawn_ = 0;
+    std::array<size_t, kOutcomeCount> outcomes_{};
 };
 
 } // namespace
@@ -140,6 +169,8 @@ TEST_F(CullTest, equalsItsTwinWhateverTheFrameBeforeLeft)
     }
     EXPECT_GT(drawn_, 1000u);
     EXPECT_GT(late_, 100u) << "a late phase that finds nothing is not tested";
+    for (const size_t clusters : outcomes_)
+        EXPECT_GT(clusters, 100u) << "a test that culls nothing is not counted";
 }
 
 TEST_F(CullTest, thePyramidHoldsTheFarthestDepthOfEveryTexel)

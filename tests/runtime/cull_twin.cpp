@@ -76,6 +76,10 @@ public:
             phase(kPhaseEarly);
             phase(kPhaseLate);
         }
+        countInstances();
+        for (const WorkItem& item : layout_.items)
+            for (uint32_t lane = 0; lane < item.count; ++lane)
+                countCluster(item, clusters_[layout_.order[item.first + lane]]);
         return std::move(twin_);
     }
 
@@ -143,6 +147,56 @@ private:
             groups_[cluster.refined_group == kNoGroup ? cluster.group : cluster.refined_group];
         return decideCluster(view_, instances_[item.instance], state, cluster, groups_[cluster.group],
                              refined, (item.flags & kItemDoubleSided) != 0);
+    }
+
+    void countInstances()
+    {
+        CullStatistics& counts = twin_.statistics;
+        for (uint32_t i = 0; i < instances_.size(); ++i)
+        {
+            const MeshBounds& mesh = layout_.bounds[instances_[i].mesh];
+            const bool hidden_at_once =
+                decideInstance(view_, instances_[i], layout_.inverses[i], mesh).visible == kInstanceHidden;
+            const uint32_t visible = twin_.states[i].visible;
+            ++(hidden_at_once
+                   ? mesh.box_min.x > mesh.box_max.x ? counts.empty_instances : counts.outside_instances
+               : visible == kInstanceVisible ? counts.visible_instances
+               : visible == kInstanceLate    ? counts.late_instances
+                                             : counts.occluded_instances);
+        }
+    }
+
+    void countCluster(const WorkItem& item, const Cluster& cluster)
+    {
+        const uint32_t outcome = outcomeOf(item, cluster);
+        CullStatistics& counts = twin_.statistics;
+        ++counts.clusters[outcome];
+        const uint64_t triangles =
+            (uint64_t{counts.triangles_high[outcome]} << 32 | counts.triangles_low[outcome]) +
+            (cluster.counts & 0xFFFF);
+        counts.triangles_low[outcome] = static_cast<uint32_t>(triangles);
+        counts.triangles_high[outcome] = static_cast<uint32_t>(triangles >> 32);
+    }
+
+    /// The tests one after the other.
+    uint32_t outcomeOf(const WorkItem& item, const Cluster& cluster) const
+    {
+        const InstanceState& state = twin_.states[item.instance];
+        const Instance& instance = instances_[item.instance];
+        if (state.visible == kInstanceHidden)
+            return kOutcomeInstance;
+        const bool has_refined = cluster.refined_group != kNoGroup;
+        const Group& refined = groups_[has_refined ? cluster.refined_group : cluster.group];
+        if (!clusterInCut(view_, instance, groups_[cluster.group], has_refined, refined))
+            return kOutcomeLod;
+        if ((view_.flags & kCullFrustum) != 0 &&
+            boxOutsideFrustum(view_, instance, clusterBoxMin(cluster, state.grid_step),
+                              clusterBoxMax(cluster, state.grid_step)))
+            return kOutcomeFrustum;
+        if ((view_.flags & kCullCone) != 0 && (item.flags & kItemDoubleSided) == 0 && state.cone_valid != 0 &&
+            coneFacesAway(state, cluster))
+            return kOutcomeCone;
+        return state.visible == kInstanceLate ? kOutcomeLateCandidate : kOutcomeCandidate;
     }
 
     /// Offsets, totals, the list and the draws, from the masks.

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "formats/pack_view.h"
+#include "formats/shared/cull_statistics.h"
 #include "formats/shared/occlusion.h"
 #include "runtime/gpu/scene_layout.h"
 
@@ -30,6 +31,7 @@ struct Twin
     std::vector<shared::BinDraw> bin_draws;
     std::vector<uint32_t> material_draws;
     uint32_t early_clusters = 0;
+    shared::CullStatistics statistics{}; ///< as CullStatisticsPass leaves them
 };
 
 /// Without kCullOcclusion in the view's flags the pyramids are not looked at.

@@ -3,6 +3,7 @@
 #include "formats/shared/shading.h"
 #include "runtime/viewer/camera_fit.h"
 #include "runtime/viewer/camera_path.h"
+#include "runtime/viewer/cull_report.h"
 #include "runtime/viewer/file_output.h"
 #include "runtime/viewer/options.h"
 #include "tests/cook/shapes.h"
@@ -78,6 +79,8 @@ TEST(RenderOptions, everyOptionIsRead)
                                 "0:1,50:0.5",
                                 "--hzb",
                                 "noise:7",
+                                "--shaded-area",
+                                "tiles",
                                 "--validate",
                                 "-v",
                                 "--output=b.png",
@@ -99,11 +102,37 @@ TEST(RenderOptions, everyOptionIsRead)
     EXPECT_EQ(options->cull_flags, shared::kCullCone | shared::kCullOcclusion);
     EXPECT_EQ(options->pyramid, PyramidStart::noise);
     EXPECT_EQ(options->noise_seed, 7u);
+    EXPECT_EQ(options->shaded_area, gpu::ShadedArea::tiles);
     ASSERT_EQ(options->lod_curve.size(), 2u);
     EXPECT_EQ(options->lod_curve[1].distance, 50);
     EXPECT_EQ(options->lod_curve[1].factor, 0.5f);
     EXPECT_TRUE(options->validate);
     EXPECT_TRUE(options->verbose);
+}
+
+TEST(CullReport, everythingIsCountedAtTheFirstTestThatItFails)
+{
+    shared::CullStatistics statistics{};
+    statistics.empty_instances = 1;
+    statistics.outside_instances = 2;
+    statistics.occluded_instances = 3;
+    statistics.late_instances = 4;
+    statistics.visible_instances = 5;
+    for (uint32_t i = 0; i < shared::kOutcomeCount; ++i)
+    {
+        statistics.clusters[i] = 10 * (i + 1);
+        statistics.triangles_low[i] = 1000 * (i + 1);
+    }
+    statistics.triangles_high[shared::kOutcomeLod] = 1;
+    // of 50 clusters of instances that were seen at once 20 are drawn early, and 70 of all 110 in the end
+    const viewer::CullReport report = viewer::makeCullReport(statistics, {70, 0, 20, 0}, 2000, 7000);
+    EXPECT_EQ(viewer::formatCullReport(report),
+              "{\"instances\":{\"tested\":15,\"empty\":1,\"frustum\":2,\"occlusion_early\":7,\"occlusion\":3,"
+              "\"drawn\":9},\n"
+              "  \"clusters\":{\"tested\":210,\"instance\":10,\"lod\":20,\"frustum\":30,\"cone\":40,"
+              "\"occlusion_early\":30,\"occlusion\":40,\"drawn\":70},\n"
+              "  \"triangles\":{\"tested\":4294988296,\"instance\":1000,\"lod\":4294969296,\"frustum\":3000,"
+              "\"cone\":4000,\"occlusion_early\":3000,\"occlusion\":4000,\"drawn\":7000}}");
 }
 
 TEST(RenderOptions, mistakesAreNamed)
@@ -119,6 +148,7 @@ TEST(RenderOptions, mistakesAreNamed)
          {"1,2,3", "0,0,0,0,0,0,45", "0,0,0,1,0,0,0", "0,0,0,1,0,nan,45", "0,0,0,1,0,0,171"})
         expectUsage({"a.hearth", "-o", "a.png", "--camera", camera}, camera);
     expectUsage({"a.hearth", "-o", "a.png", "--error-pixels", "-1"}, "-1");
+    expectUsage({"a.hearth", "-o", "a.png", "--shaded-area", "half"}, "half");
     expectUsage({"a.hearth", "-o", "a.png", "--view", "pretty"}, "pretty");
     expectUsage({"a.hearth", "-o", "a.png", "--samples", "2"}, "2");
     for (const char* tests : {"", "some", "cone,", "all,cone"})
