@@ -79,6 +79,9 @@ HEARTH_CONSTANT uint kViewLod = 2;
 HEARTH_CONSTANT uint kViewTriangles = 3;
 HEARTH_CONSTANT uint kViewNormals = 4;
 HEARTH_CONSTANT uint kViewDepth = 5;
+HEARTH_CONSTANT uint kViewMaterials = 6;
+HEARTH_CONSTANT uint kViewError = 7;
+HEARTH_CONSTANT uint kViewCones = 8;
 
 HEARTH_SHARED_END
 

@@ -29,6 +29,9 @@ Result<DrawLayouts> DrawLayouts::create(const Device& device)
                                 {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_SHADER_STAGE_COMPUTE_BIT},
                                 {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_SHADER_STAGE_COMPUTE_BIT}};
 
+    std::vector<SetBinding> inspection(5, {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_SHADER_STAGE_FRAGMENT_BIT});
+    inspection[kInspectionFrame].type = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
+
     DrawLayouts layouts;
     HEARTH_ASSIGN_OR_RETURN(layouts.scene, createSetLayout(device, scene));
     HEARTH_ASSIGN_OR_RETURN(layouts.material, createSetLayout(device, material));
@@ -36,6 +39,7 @@ Result<DrawLayouts> DrawLayouts::create(const Device& device)
     HEARTH_ASSIGN_OR_RETURN(layouts.attachments, createSetLayout(device, attachments));
     HEARTH_ASSIGN_OR_RETURN(layouts.occlusion, createSetLayout(device, occlusion));
     HEARTH_ASSIGN_OR_RETURN(layouts.tiles, createSetLayout(device, tiles));
+    HEARTH_ASSIGN_OR_RETURN(layouts.inspection, createSetLayout(device, inspection));
     const VkDescriptorSetLayout visibility_sets[] = {layouts.scene.get(), layouts.material.get(),
                                                      layouts.bins.get()};
     const VkDescriptorSetLayout picture_sets[] = {layouts.scene.get(), layouts.material.get(),
@@ -44,6 +48,9 @@ Result<DrawLayouts> DrawLayouts::create(const Device& device)
                             createPipelineLayout(device, visibility_sets, kDrawPushStages, sizeof(DrawPush)));
     HEARTH_ASSIGN_OR_RETURN(layouts.picture,
                             createPipelineLayout(device, picture_sets, kDrawPushStages, sizeof(DrawPush)));
+    const VkDescriptorSetLayout cluster_sets[] = {layouts.inspection.get(), layouts.attachments.get()};
+    HEARTH_ASSIGN_OR_RETURN(layouts.clusters,
+                            createPipelineLayout(device, cluster_sets, kDrawPushStages, sizeof(DrawPush)));
     return layouts;
 }
 

@@ -36,6 +36,16 @@ enum TileBinding : uint32_t
     kTileLists = 2,
 };
 
+/// Bindings of the set that the views of clusters have as set 0; set 1 is the attachments'.
+enum InspectionBinding : uint32_t
+{
+    kInspectionFrame = 0,
+    kInspectionInstances = 1,
+    kInspectionVisible = 2,
+    kInspectionClusters = 3,
+    kInspectionGroups = 4,
+};
+
 /// Bindings of the set that the culling passes have as set 1 and the pyramid pass as set 0.
 enum OcclusionBinding : uint32_t
 {
@@ -67,8 +77,10 @@ struct DrawLayouts
     UniqueSetLayout attachments;     ///< bindings AttachmentBinding
     UniqueSetLayout occlusion;       ///< of the culling and pyramid passes, bindings OcclusionBinding
     UniqueSetLayout tiles;           ///< of the material-tiles pass, bindings TileBinding
+    UniqueSetLayout inspection;      ///< bindings InspectionBinding
     UniquePipelineLayout visibility; ///< sets scene, material, bins
     UniquePipelineLayout picture;    ///< sets scene, material, attachments
+    UniquePipelineLayout clusters;   ///< of the views of clusters: sets inspection, attachments
 
     static Result<DrawLayouts> create(const Device& device);
 };

@@ -77,6 +77,7 @@ struct Scene
     UniqueDescriptorPool pool;
     VkDescriptorSet draw_set = VK_NULL_HANDLE;
     VkDescriptorSet bins_set = VK_NULL_HANDLE;
+    VkDescriptorSet inspection_set = VK_NULL_HANDLE;
     std::vector<SceneMaterial> materials; ///< the rows of the material table
     CullSets cull_sets{};
     VkDescriptorSet tile_set = VK_NULL_HANDLE; ///< of the material-tiles pass

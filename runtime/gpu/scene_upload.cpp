@@ -139,10 +139,10 @@ Status uploadGeometry(const formats::PackView& pack, const SceneLayout& layout, 
 
 Status createSets(const Device& device, const DrawLayouts& layouts, Scene& scene, uint32_t material_rows)
 {
-    // two sets for drawing, six of the culling pass and one of the material tiles, with room for what each binds
+    // three sets for drawing, six of the culling pass and one of the material tiles, with room for what each binds
     const DescriptorPoolSizes sizes{
         .uniforms = 16 + material_rows, .storages = 64, .textures = material_rows * shared::kTextureCount};
-    HEARTH_ASSIGN_OR_RETURN(scene.pool, createDescriptorPool(device, 9 + material_rows, sizes));
+    HEARTH_ASSIGN_OR_RETURN(scene.pool, createDescriptorPool(device, 10 + material_rows, sizes));
     HEARTH_ASSIGN_OR_RETURN(scene.draw_set, allocateSet(device, scene.pool.get(), layouts.scene.get()));
     const SceneBuffers& b = scene.buffers;
     DescriptorWriter writer(scene.draw_set);
@@ -156,6 +156,15 @@ Status createSets(const Device& device, const DrawLayouts& layouts, Scene& scene
     writer.write(device);
     HEARTH_ASSIGN_OR_RETURN(scene.bins_set, allocateSet(device, scene.pool.get(), layouts.bins.get()));
     DescriptorWriter(scene.bins_set).storage(0, b.bin_draws).write(device);
+    HEARTH_ASSIGN_OR_RETURN(scene.inspection_set,
+                            allocateSet(device, scene.pool.get(), layouts.inspection.get()));
+    DescriptorWriter(scene.inspection_set)
+        .uniform(kInspectionFrame, b.frame)
+        .storage(kInspectionInstances, b.instances)
+        .storage(kInspectionVisible, b.visible)
+        .storage(kInspectionClusters, b.clusters)
+        .storage(kInspectionGroups, b.groups)
+        .write(device);
     return success();
 }
 

@@ -32,6 +32,11 @@ Result<ShadingPass> ShadingPass::create(const Device& device, const DrawLayouts&
     HEARTH_ASSIGN_OR_RETURN(
         pass.sky_,
         createGraphicsPipeline(device, describe(shaders::sky_frag, layouts.picture.get(), render_pass)));
+    GraphicsDescription clusters =
+        describe(shaders::inspect_clusters_frag, layouts.clusters.get(), render_pass);
+    clusters.vertex = shaders::fullscreen_vert;
+    clusters.depth_compare = VK_COMPARE_OP_LESS; // drawn at depth 0, which is the sky's
+    HEARTH_ASSIGN_OR_RETURN(pass.clusters_, createGraphicsPipeline(device, clusters));
     return pass;
 }
 
@@ -56,27 +61,54 @@ Result<ShadingPipelines> ShadingPass::prepare(const Device& device, const DrawLa
 void ShadingPass::record(const Device& device, VkCommandBuffer commands, const DrawLayouts& layouts,
                          const Scene& scene, const FrameTargets& targets, const ShadingView& view) const
 {
+    recordSky(device, commands, layouts, scene, targets, view);
+    if (view.shown == shared::kViewError || view.shown == shared::kViewCones)
+        recordClusters(device, commands, layouts, scene, targets, view);
+    else
+        recordMaterials(device, commands, layouts, scene, view);
+}
+
+void ShadingPass::recordSky(const Device& device, VkCommandBuffer commands, const DrawLayouts& layouts,
+                            const Scene& scene, const FrameTargets& targets, const ShadingView& view) const
+{
     const VkPipelineLayout layout = layouts.picture.get();
     const VkDescriptorSet attachments = targets.attachments();
     device.vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout, 0, 1,
                                       &scene.draw_set, 0, nullptr);
     device.vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout, 2, 1, &attachments,
                                       0, nullptr);
-    DrawPush push{.depth = 0, .shown_view = view.shown, .depth_scale = view.depth_scale};
+    const DrawPush push{.depth = 0, .shown_view = view.shown, .depth_scale = view.depth_scale};
     device.vk.vkCmdPushConstants(commands, layout, kDrawPushStages, 0, sizeof(push), &push);
     device.vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, sky_.get());
-    const bool tiles = shadesTiles(scene, view.area);
-    const VkBuffer draws = (tiles ? scene.buffers.tile_draws : scene.buffers.material_draws).handle.get();
-    const auto draw = [&](uint32_t number)
-    {
-        device.vk.vkCmdDrawIndirect(commands, draws, number * sizeof(VkDrawIndirectCommand), 1,
+    if (shadesTiles(scene, view.area))
+        device.vk.vkCmdDrawIndirect(commands, scene.buffers.tile_draws.handle.get(), 0, 1,
                                     sizeof(VkDrawIndirectCommand));
-    };
-    if (tiles)
-        draw(0);
     else
         device.vk.vkCmdDraw(commands, 3, 1, 0, 0);
+}
 
+void ShadingPass::recordClusters(const Device& device, VkCommandBuffer commands, const DrawLayouts& layouts,
+                                 const Scene& scene, const FrameTargets& targets,
+                                 const ShadingView& view) const
+{
+    const VkPipelineLayout layout = layouts.clusters.get();
+    const VkDescriptorSet sets[] = {scene.inspection_set, targets.attachments()};
+    const DrawPush push{.depth = 0, .shown_view = view.shown};
+    device.vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, clusters_.get());
+    device.vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout, 0, 2, sets, 0,
+                                      nullptr);
+    device.vk.vkCmdPushConstants(commands, layout, kDrawPushStages, 0, sizeof(push), &push);
+    device.vk.vkCmdDraw(commands, 3, 1, 0, 0);
+}
+
+/// With the sets that recordSky has bound.
+void ShadingPass::recordMaterials(const Device& device, VkCommandBuffer commands, const DrawLayouts& layouts,
+                                  const Scene& scene, const ShadingView& view) const
+{
+    const VkPipelineLayout layout = layouts.picture.get();
+    const VkBuffer draws =
+        (shadesTiles(scene, view.area) ? scene.buffers.tile_draws : scene.buffers.material_draws)
+            .handle.get();
     for (uint32_t row = 0; row < scene.materials.size(); ++row)
     {
         const SceneMaterial& material = scene.materials[row];
@@ -84,11 +116,15 @@ void ShadingPass::record(const Device& device, VkCommandBuffer commands, const D
                                     view.shown == shared::kViewFinal ? material.pipelines.final_view
                                                                      : material.pipelines.inspection);
         const uint32_t number = row + 1; // 0 is the sky
-        push.depth = static_cast<float>(number) / 65535.0f;
+        const DrawPush push{.depth = static_cast<float>(number) / 65535.0f,
+                            .shown_view = view.shown,
+                            .depth_scale = view.depth_scale};
         device.vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout, 1, 1,
                                           &material.set, 0, nullptr);
         device.vk.vkCmdPushConstants(commands, layout, kDrawPushStages, 0, sizeof(push), &push);
-        draw(number); // of nothing where the material is not seen
+        // draws nothing where the material is not seen
+        device.vk.vkCmdDrawIndirect(commands, draws, number * sizeof(VkDrawIndirectCommand), 1,
+                                    sizeof(VkDrawIndirectCommand));
     }
 }
 

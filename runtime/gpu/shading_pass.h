@@ -57,8 +57,16 @@ private:
         UniquePipeline final_view;
         UniquePipeline inspection;
     };
+    void recordSky(const Device& device, VkCommandBuffer commands, const DrawLayouts& layouts,
+                   const Scene& scene, const FrameTargets& targets, const ShadingView& view) const;
+    void recordClusters(const Device& device, VkCommandBuffer commands, const DrawLayouts& layouts,
+                        const Scene& scene, const FrameTargets& targets, const ShadingView& view) const;
+    void recordMaterials(const Device& device, VkCommandBuffer commands, const DrawLayouts& layouts,
+                         const Scene& scene, const ShadingView& view) const;
+
     VkRenderPass render_pass_ = VK_NULL_HANDLE;
     UniquePipeline sky_;
+    UniquePipeline clusters_;
     std::map<ShadingVariant, Variant> variants_;
 };
 

@@ -1,4 +1,4 @@
-// Shows what is drawn instead of how it looks: clusters, levels, triangles, normals, depth.
+// Shows what is drawn instead of how it looks: clusters, levels, triangles, materials, normals, depth.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #version 450
 #extension GL_GOOGLE_include_directive : require
@@ -50,6 +50,8 @@ void main()
         color = facing * (0.15 + 0.85 * colorOfLevel(levelOf(s.draw)));
     else if (shown_view == kViewTriangles)
         color = facing * colorOfNumber((s.slot.cluster * 128u + s.triangle) * 31u + s.slot.instance);
+    else if (shown_view == kViewMaterials)
+        color = facing * colorOfNumber(s.draw.material);
     else if (shown_view == kViewNormals)
         color = shadingNormal(surfacePoint(s), surfaceUvs(s)) * 0.5 + 0.5;
     else

@@ -29,6 +29,7 @@ extern const std::span<const uint32_t> material_depth_frag;
 extern const std::span<const uint32_t> shaded_area_vert;
 extern const std::span<const uint32_t> shading_frag;
 extern const std::span<const uint32_t> inspect_frag;
+extern const std::span<const uint32_t> inspect_clusters_frag;
 extern const std::span<const uint32_t> sky_frag;
 
 } // namespace hearth::shaders

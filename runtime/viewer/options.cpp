@@ -32,7 +32,10 @@ const char* const kRenderHelp =
     "      --lod-curve D:F,... factor F on the error at D metres, linear between; no factor may grow faster "
     "than\n"
     "                          the distance. Example: 0:1,50:1,500:0.4\n"
-    "      --view VIEW         final, clusters, lod, triangles, normals or depth\n"
+    "      --view VIEW         final, clusters, lod, triangles, materials, normals, depth, error (yellow: as "
+    "large "
+    "as\n"
+    "                          allowed) or cones (red: none)\n"
     "      --shaded-area AREA  where each material is shaded: picture, tiles (64x64 pixels where it is "
     "seen), "
     "or\n"
@@ -116,9 +119,15 @@ Status parseSceneCamera(std::string_view text, RenderOptions& options)
 Status parseView(std::string_view text, RenderOptions& options)
 {
     constexpr std::pair<std::string_view, uint32_t> kViews[] = {
-        {"final", shared::kViewFinal},     {"clusters", shared::kViewClusters},
-        {"lod", shared::kViewLod},         {"triangles", shared::kViewTriangles},
-        {"normals", shared::kViewNormals}, {"depth", shared::kViewDepth},
+        {"final", shared::kViewFinal},
+        {"clusters", shared::kViewClusters},
+        {"lod", shared::kViewLod},
+        {"triangles", shared::kViewTriangles},
+        {"normals", shared::kViewNormals},
+        {"depth", shared::kViewDepth},
+        {"materials", shared::kViewMaterials},
+        {"error", shared::kViewError},
+        {"cones", shared::kViewCones},
     };
     for (const auto& [name, view] : kViews)
         if (text == name)
@@ -126,7 +135,9 @@ Status parseView(std::string_view text, RenderOptions& options)
             options.view = view;
             return success();
         }
-    return usage("--view: " + quoted(text) + " is none of final, clusters, lod, triangles, normals, depth");
+    return usage("--view: " + quoted(text) +
+                 " is none of final, clusters, lod, triangles, materials, normals, depth, "
+                 "error, cones");
 }
 
 Status parseShadedArea(std::string_view text, RenderOptions& options)
