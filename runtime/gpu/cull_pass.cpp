@@ -39,6 +39,7 @@ struct EmitDrawsPush
     uint32_t item_count;
     uint32_t block_count;
     uint32_t slot_capacity;
+    uint32_t phase;
 };
 
 uint32_t groupsOf(uint32_t count, uint32_t group_size)
@@ -155,7 +156,7 @@ void CullPass::record(const Device& device, VkCommandBuffer commands, const Scen
     const uint32_t blocks = blockCount(scene);
     const auto bins = static_cast<uint32_t>(scene.bins.size());
 
-    // the draws of the early phase have read what the late one replaces
+    // the draws of the early phase have read what the late one adds to
     if (phase == shared::kPhaseLate)
         barrier(device, commands, VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT | VK_PIPELINE_STAGE_VERTEX_SHADER_BIT,
                 0, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, 0);
@@ -173,7 +174,7 @@ void CullPass::record(const Device& device, VkCommandBuffer commands, const Scen
     dispatch(device, commands, emit_visible_, {sets.emit_visible}, items,
              EmitPush{items, scene.slot_capacity});
     dispatch(device, commands, emit_draws_, {sets.emit_draws}, groupsOf(bins, 64),
-             EmitDrawsPush{bins, items, blocks, scene.slot_capacity});
+             EmitDrawsPush{bins, items, blocks, scene.slot_capacity, phase});
     barrier(device, commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
             VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT | VK_PIPELINE_STAGE_VERTEX_SHADER_BIT |
                 VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,

@@ -25,8 +25,8 @@ public:
                          const FrameTargets& targets, const shared::FrameView& view,
                          std::span<const InstanceMove> moves) const;
 
-    /// kPhaseWhole; or kPhaseEarly, and when its clusters are drawn and the pyramid is made, kPhaseLate, which replaces
-    /// the draws and adds to the list. Outside a render pass; what it writes is visible to indirect draws, vertex and
+    /// kPhaseWhole; or kPhaseEarly, and when its clusters are drawn and the pyramid is made, kPhaseLate, which adds
+    /// draws and adds to the list. Outside a render pass; what it writes is visible to indirect draws, vertex and
     /// fragment shaders, and transfers that follow. Clobbers the compute state.
     void record(const Device& device, VkCommandBuffer commands, const Scene& scene,
                 const FrameTargets& targets, uint32_t phase) const;

@@ -22,6 +22,7 @@
     X(vkCmdBeginRenderPass)                                                                                  \
     X(vkCmdBindDescriptorSets)                                                                               \
     X(vkCmdBindPipeline)                                                                                     \
+    X(vkCmdClearAttachments)                                                                                 \
     X(vkCmdCopyBuffer)                                                                                       \
     X(vkCmdCopyBufferToImage)                                                                                \
     X(vkCmdDispatch)                                                                                         \

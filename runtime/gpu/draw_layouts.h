@@ -73,11 +73,11 @@ struct DrawLayouts
 {
     UniqueSetLayout scene;
     UniqueSetLayout material;
-    UniqueSetLayout bins;            ///< one binding, the draws of the bins
-    UniqueSetLayout attachments;     ///< bindings AttachmentBinding
-    UniqueSetLayout occlusion;       ///< of the culling and pyramid passes, bindings OcclusionBinding
-    UniqueSetLayout tiles;           ///< of the material-tiles pass, bindings TileBinding
-    UniqueSetLayout inspection;      ///< bindings InspectionBinding
+    UniqueSetLayout bins;        ///< one binding: the draws of the bins, behind them those of the late phase
+    UniqueSetLayout attachments; ///< bindings AttachmentBinding
+    UniqueSetLayout occlusion;   ///< of the culling and pyramid passes, bindings OcclusionBinding
+    UniqueSetLayout tiles;       ///< of the material-tiles pass, bindings TileBinding
+    UniqueSetLayout inspection;  ///< bindings InspectionBinding
     UniquePipelineLayout visibility; ///< sets scene, material, bins
     UniquePipelineLayout picture;    ///< sets scene, material, attachments
     UniquePipelineLayout clusters;   ///< of the views of clusters: sets inspection, attachments

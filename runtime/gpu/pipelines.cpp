@@ -141,6 +141,9 @@ Result<UniquePipeline> createGraphicsPipeline(const Device& device, const Graphi
     depth.depthWriteEnable = description.depth_write ? VK_TRUE : VK_FALSE;
     depth.depthCompareOp = description.depth_compare;
     VkPipelineColorBlendAttachmentState blend{};
+    blend.blendEnable = description.add ? VK_TRUE : VK_FALSE;
+    blend.srcColorBlendFactor = blend.dstColorBlendFactor = VK_BLEND_FACTOR_ONE;
+    blend.srcAlphaBlendFactor = blend.dstAlphaBlendFactor = VK_BLEND_FACTOR_ONE;
     blend.colorWriteMask = VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT | VK_COLOR_COMPONENT_B_BIT |
                            VK_COLOR_COMPONENT_A_BIT;
     VkPipelineColorBlendStateCreateInfo color{};

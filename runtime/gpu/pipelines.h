@@ -51,9 +51,10 @@ struct GraphicsDescription
     VkCompareOp depth_compare;
     bool depth_write;
     bool color;
+    bool add = false;                      ///< to the colour target, which else is replaced
     std::span<const uint32_t> constants{}; ///< value of specialization constant i, for both stages
 };
-/// Triangles without vertex buffers; viewport and scissor dynamic; at most one colour target, not blended.
+/// Triangles without vertex buffers; viewport and scissor dynamic; at most one colour target.
 Result<UniquePipeline> createGraphicsPipeline(const Device& device, const GraphicsDescription& description);
 
 /// Gathers writes to one descriptor set.

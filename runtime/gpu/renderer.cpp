@@ -26,7 +26,7 @@ Result<std::unique_ptr<Renderer>> Renderer::create(const DeviceDescription& desc
     HEARTH_ASSIGN_OR_RETURN(r.pyramid_, PyramidPass::create(r.device_, r.layouts_));
     HEARTH_ASSIGN_OR_RETURN(r.material_tiles_, MaterialTilesPass::create(r.device_, r.layouts_));
     const VkRenderPass render_pass = r.passes_.whole.get();
-    HEARTH_ASSIGN_OR_RETURN(r.visibility_, VisibilityPass::create(r.device_, r.layouts_, render_pass));
+    HEARTH_ASSIGN_OR_RETURN(r.visibility_, BinPass::createVisibility(r.device_, r.layouts_, render_pass));
     HEARTH_ASSIGN_OR_RETURN(r.material_depth_, MaterialDepthPass::create(r.device_, r.layouts_, render_pass));
     HEARTH_ASSIGN_OR_RETURN(r.shading_, ShadingPass::create(r.device_, r.layouts_, render_pass));
     return renderer;
@@ -49,6 +49,15 @@ Result<std::unique_ptr<Scene>> Renderer::upload(const formats::PackView& pack, V
         HEARTH_ASSIGN_OR_RETURN(material.pipelines, shading_.prepare(device_, layouts_, material.variant));
     }
     return scene;
+}
+
+Status Renderer::prepareOverdraw()
+{
+    if (!overdraw_)
+    {
+        HEARTH_ASSIGN_OR_RETURN(overdraw_, BinPass::createOverdraw(device_, layouts_, passes_.whole.get()));
+    }
+    return success();
 }
 
 void Renderer::record(VkCommandBuffer commands, const Scene& scene, FrameTargets& targets,
@@ -102,7 +111,7 @@ void Renderer::beginPass(VkCommandBuffer commands, const FrameTargets& targets,
 void Renderer::recordEarly(VkCommandBuffer commands, const Scene& scene, const FrameTargets& targets) const
 {
     beginPass(commands, targets, passes_.early.get());
-    visibility_.record(device_, commands, layouts_, scene);
+    visibility_.record(device_, commands, layouts_, scene, shared::kPhaseEarly);
     endAtVisibility(commands);
 }
 
@@ -114,6 +123,17 @@ void Renderer::endAtVisibility(VkCommandBuffer commands) const
     device_.vk.vkCmdEndRenderPass(commands);
 }
 
+/// What both phases have drawn; the late one nothing where culling had only one.
+void Renderer::recordOverdraw(VkCommandBuffer commands, const Scene& scene, const FrameTargets& targets) const
+{
+    HEARTH_ASSERT(overdraw_);
+    const VkClearAttachment black{VK_IMAGE_ASPECT_COLOR_BIT, 0, {.color = {.float32 = {0, 0, 0, 1}}}};
+    const VkClearRect everywhere{{{0, 0}, targets.extent()}, 0, 1};
+    device_.vk.vkCmdClearAttachments(commands, 1, &black, 1, &everywhere);
+    for (const uint32_t phase : {shared::kPhaseEarly, shared::kPhaseLate})
+        overdraw_->record(device_, commands, layouts_, scene, phase);
+}
+
 /// late  goes on from what recordEarly drew
 void Renderer::recordPicture(VkCommandBuffer commands, const Scene& scene, const FrameTargets& targets,
                              const FrameInput& input, bool late) const
@@ -122,7 +142,7 @@ void Renderer::recordPicture(VkCommandBuffer commands, const Scene& scene, const
     const UniqueRenderPass& to_picture = late ? passes_.late : passes_.whole;
     const UniqueRenderPass& to_visibility = late ? passes_.late_visibility : passes_.whole_visibility;
     beginPass(commands, targets, (tiles ? to_visibility : to_picture).get());
-    visibility_.record(device_, commands, layouts_, scene);
+    visibility_.record(device_, commands, layouts_, scene, late ? shared::kPhaseLate : shared::kPhaseWhole);
     if (tiles)
         endAtVisibility(commands);
     writeTimestamp(device_, commands, input.timestamps, kTimestampVisibility);
@@ -135,7 +155,10 @@ void Renderer::recordPicture(VkCommandBuffer commands, const Scene& scene, const
     material_depth_.record(device_, commands, layouts_, scene, targets);
     writeTimestamp(device_, commands, input.timestamps, kTimestampMaterialDepth);
     device_.vk.vkCmdNextSubpass(commands, VK_SUBPASS_CONTENTS_INLINE);
-    shading_.record(device_, commands, layouts_, scene, targets, input.shading);
+    if (input.shading.shown == shared::kViewOverdraw)
+        recordOverdraw(commands, scene, targets);
+    else
+        shading_.record(device_, commands, layouts_, scene, targets, input.shading);
     device_.vk.vkCmdEndRenderPass(commands);
     writeTimestamp(device_, commands, input.timestamps, kTimestampShading);
 }

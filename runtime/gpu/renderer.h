@@ -3,14 +3,15 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
+#include "runtime/gpu/bin_pass.h"
 #include "runtime/gpu/cull_pass.h"
 #include "runtime/gpu/material_depth_pass.h"
 #include "runtime/gpu/material_tiles_pass.h"
 #include "runtime/gpu/pyramid_pass.h"
 #include "runtime/gpu/shading_pass.h"
-#include "runtime/gpu/visibility_pass.h"
 
 #include <memory>
+#include <optional>
 
 namespace hearth::gpu
 {
@@ -54,6 +55,9 @@ public:
     Result<std::unique_ptr<Scene>> upload(const formats::PackView& pack, VkCommandBuffer commands,
                                           const SceneOptions& options = {});
 
+    /// The pipelines of the overdraw view, to be made before a frame that shows it. errors: device_failed.
+    Status prepareOverdraw();
+
     /// Record culling and drawing of one frame, outside a render pass. Clobbers compute and graphics state.
     /// Afterwards targets.visibility() and targets.color() can be copied from. Frames with occlusion culling leave
     /// their depth pyramid to the next one with these targets, which must be submitted after them.
@@ -63,6 +67,7 @@ public:
 private:
     Renderer() = default;
     void recordEarly(VkCommandBuffer commands, const Scene& scene, const FrameTargets& targets) const;
+    void recordOverdraw(VkCommandBuffer commands, const Scene& scene, const FrameTargets& targets) const;
     void endAtVisibility(VkCommandBuffer commands) const;
     void recordPicture(VkCommandBuffer commands, const Scene& scene, const FrameTargets& targets,
                        const FrameInput& input, bool late) const;
@@ -73,7 +78,8 @@ private:
     FramePasses passes_;
     CullPass cull_;
     PyramidPass pyramid_;
-    VisibilityPass visibility_;
+    BinPass visibility_;
+    std::optional<BinPass> overdraw_;
     MaterialTilesPass material_tiles_;
     MaterialDepthPass material_depth_;
     ShadingPass shading_;

@@ -84,7 +84,7 @@ Status createBuffers(const Device& device, const formats::PackView& pack, const 
     f.make(b.totals, "scan totals", uint64_t{blockCount(scene)} + 1, sizeof(uint32_t), kWork);
     f.make(b.counters, "counters", 1, sizeof(shared::FrameCounters), kWork);
     f.make(b.visible, "visible clusters", scene.slot_capacity, sizeof(shared::VisibleCluster), kWork);
-    f.make(b.bin_draws, "bin draws", layout.bins.size(), sizeof(shared::BinDraw), kIndirect);
+    f.make(b.bin_draws, "bin draws", 2 * layout.bins.size(), sizeof(shared::BinDraw), kIndirect);
     f.make(b.material_draws, "material draws", uint64_t{layout.material_rows} + 1,
            sizeof(VkDrawIndirectCommand), kIndirect);
     f.make(b.tile_draws, "material draws", uint64_t{layout.material_rows} + 1, sizeof(shared::TileDraw),

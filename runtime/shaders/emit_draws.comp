@@ -16,6 +16,7 @@ layout(push_constant) uniform Push
     uint item_count;
     uint block_count;
     uint slot_capacity;
+    uint phase;
 };
 
 uint slotOfItem(uint item)
@@ -31,5 +32,13 @@ void main()
         return;
     uint first = slotOfItem(bins[i].first_item);
     uint end = slotOfItem(bins[i].first_item + bins[i].item_count);
-    bin_draws[i] = BinDraw(kClusterVertices, end - first, 0u, 0u, first, 0u, 0u, 0u);
+    BinDraw draw = BinDraw(kClusterVertices, end - first, 0u, 0u, first, 0u, 0u, 0u);
+    // the draws of the late phase stand behind those of all bins
+    if (phase == kPhaseLate)
+        bin_draws[bin_count + i] = draw;
+    else
+    {
+        bin_draws[i] = draw;
+        bin_draws[bin_count + i] = BinDraw(0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u);
+    }
 }

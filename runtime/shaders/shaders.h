@@ -24,6 +24,8 @@ extern const std::span<const uint32_t> visibility_vert;
 extern const std::span<const uint32_t> visibility_frag;
 extern const std::span<const uint32_t> visibility_masked_vert;
 extern const std::span<const uint32_t> visibility_masked_frag;
+extern const std::span<const uint32_t> overdraw_frag;
+extern const std::span<const uint32_t> overdraw_masked_frag;
 extern const std::span<const uint32_t> fullscreen_vert;
 extern const std::span<const uint32_t> material_depth_frag;
 extern const std::span<const uint32_t> shaded_area_vert;

@@ -1,33 +1,19 @@
-// Alpha mask by the cutoff; blended surfaces are drawn as a pattern of holes that covers alpha of the pixels.
+// As visibility.frag, with holes.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "formats/shared/shading.h"
 #include "material.glsl"
+#include "alpha_test.glsl"
 
 layout(location = 0) flat in uint in_id;
 layout(location = 1) in vec2 in_uv;
 layout(location = 2) in float in_alpha;
 layout(location = 0) out uint out_id;
 
-// Thresholds 1/128, 3/128 ... 127/128, each once in 8x8 pixels. B. Bayer, "An optimum method for two-level rendition
-// of continuous-tone pictures", 1973.
-float ditherThreshold(uvec2 pixel)
-{
-    uint x = pixel.x ^ pixel.y;
-    uint y = pixel.y;
-    uint rank = (x & 1u) << 5 | (y & 1u) << 4 | (x & 2u) << 2 | (y & 2u) << 1 | (x & 4u) >> 1 | (y & 4u) >> 2;
-    return (float(rank) + 0.5) / 64.0;
-}
-
 void main()
 {
-    float alpha = in_alpha;
-    if ((material.textures & 1u) != 0u)
-        alpha *= texture(base_color_texture, in_uv).a;
-    float threshold =
-        material.alpha_mode == kAlphaMask ? material.alpha_cutoff : ditherThreshold(uvec2(gl_FragCoord.xy));
-    if (alpha < threshold)
+    if (isHole(in_uv, in_alpha))
         discard;
     out_id = in_id;
 }

@@ -214,6 +214,8 @@ Status drawPack(const RenderOptions& options, const formats::PackView& pack, Vul
     HEARTH_ASSIGN_OR_RETURN(const std::vector<shared::Camera> cameras, chooseCameras(options, pack));
     HEARTH_ASSIGN_OR_RETURN(const std::unique_ptr<gpu::Renderer> renderer,
                             gpu::Renderer::create(host.description()));
+    if (options.view == shared::kViewOverdraw)
+        HEARTH_TRY(renderer->prepareOverdraw());
     std::unique_ptr<gpu::Scene> scene;
     HEARTH_TRY(host.run(
         [&](VkCommandBuffer commands) -> Status

@@ -32,10 +32,9 @@ const char* const kRenderHelp =
     "      --lod-curve D:F,... factor F on the error at D metres, linear between; no factor may grow faster "
     "than\n"
     "                          the distance. Example: 0:1,50:1,500:0.4\n"
-    "      --view VIEW         final, clusters, lod, triangles, materials, normals, depth, error (yellow: as "
-    "large "
+    "      --view VIEW         final, clusters, lod, triangles, materials, normals, depth, error (yellow: "
     "as\n"
-    "                          allowed) or cones (red: none)\n"
+    "                          large as allowed), cones (red: none) or overdraw (white: 16)\n"
     "      --shaded-area AREA  where each material is shaded: picture, tiles (64x64 pixels where it is "
     "seen), "
     "or\n"
@@ -128,6 +127,7 @@ Status parseView(std::string_view text, RenderOptions& options)
         {"materials", shared::kViewMaterials},
         {"error", shared::kViewError},
         {"cones", shared::kViewCones},
+        {"overdraw", shared::kViewOverdraw},
     };
     for (const auto& [name, view] : kViews)
         if (text == name)
@@ -137,7 +137,7 @@ Status parseView(std::string_view text, RenderOptions& options)
         }
     return usage("--view: " + quoted(text) +
                  " is none of final, clusters, lod, triangles, materials, normals, depth, "
-                 "error, cones");
+                 "error, cones, overdraw");
 }
 
 Status parseShadedArea(std::string_view text, RenderOptions& options)

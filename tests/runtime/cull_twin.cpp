@@ -70,7 +70,10 @@ public:
         twin_.results.resize(layout_.items.size());
         twin_.material_draws.assign((size_t{layout_.material_rows} + 1) * 4, 0);
         if ((view_.flags & kCullOcclusion) == 0)
+        {
             phase(kPhaseWhole);
+            twin_.bin_draws.resize(2 * layout_.bins.size(), BinDraw{}); // no late ones
+        }
         else
         {
             phase(kPhaseEarly);
@@ -90,7 +93,7 @@ private:
             twin_.states[i] = stateOf(i, which);
         for (uint32_t i = 0; i < layout_.items.size(); ++i)
             twin_.results[i] = resultOf(i, which);
-        emit();
+        emit(which);
         if (which != kPhaseLate)
             twin_.early_clusters = static_cast<uint32_t>(twin_.visible.size());
     }
@@ -200,7 +203,7 @@ private:
     }
 
     /// Offsets, totals, the list and the draws, from the masks.
-    void emit()
+    void emit(uint32_t which)
     {
         auto slot = static_cast<uint32_t>(twin_.visible.size());
         uint32_t block_start = slot;
@@ -221,7 +224,8 @@ private:
         }
         twin_.totals.push_back(slot);
         slot_of_item.push_back(slot);
-        twin_.bin_draws.clear();
+        if (which != kPhaseLate)
+            twin_.bin_draws.clear();
         for (const gpu::SceneBin& bin : layout_.bins)
         {
             const uint32_t first = slot_of_item[bin.items.first_item];

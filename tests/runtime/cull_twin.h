@@ -28,7 +28,7 @@ struct Twin
     std::vector<shared::WorkResult> results;
     std::vector<uint32_t> totals;
     std::vector<shared::VisibleCluster> visible;
-    std::vector<shared::BinDraw> bin_draws;
+    std::vector<shared::BinDraw> bin_draws; ///< of all bins, then those of the late phase
     std::vector<uint32_t> material_draws;
     uint32_t early_clusters = 0;
     shared::CullStatistics statistics{}; ///< as CullStatisticsPass leaves them

@@ -129,6 +129,8 @@ Picture GpuTest::draw(const gpu::Scene& scene, const shared::Camera& camera, con
 Picture GpuTest::draw(const gpu::Scene& scene, gpu::FrameTargets& targets, const shared::Camera& camera,
                       const DrawOptions& options)
 {
+    if (options.shown == shared::kViewOverdraw)
+        HEARTH_ASSERT(renderer().prepareOverdraw().ok());
     const gpu::FrameInput input{.view = viewOf(scene, camera, options),
                                 .shading = {.shown = options.shown, .area = options.area},
                                 .moves = options.moves};

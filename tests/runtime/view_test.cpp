@@ -28,6 +28,23 @@ Float3 mix(Float3 a, Float3 b, float along)
     return a * (1 - along) + b * along;
 }
 
+/// What an sRGB target stores of so many steps, each added to what it has stored of those before.
+int addedUp(float step, int count)
+{
+    int stored = 0;
+    for (int i = 0; i < count; ++i)
+    {
+        const float encoded = static_cast<float>(stored) / 255;
+        const float before =
+            encoded <= 0.04045f ? encoded / 12.92f : std::pow((encoded + 0.055f) / 1.055f, 2.4f);
+        const float linear = std::min(before + step, 1.0f);
+        stored = static_cast<int>(
+            (linear <= 0.0031308f ? linear * 12.92f : 1.055f * std::pow(linear, 1 / 2.4f) - 0.055f) * 255 +
+            0.5f);
+    }
+    return stored;
+}
+
 class ViewTest : public GpuTest
 {
 protected:
@@ -167,6 +184,80 @@ TEST_F(ViewTest, thingsHaveAColourEach)
     EXPECT_EQ(countHues(kViewMaterials, [&](const VisibleCluster& slot, uint32_t)
                         { return uint64_t{clusterOf(slot).material}; }),
               2u);
+}
+
+TEST_F(ViewTest, overdrawCountsEveryLayer)
+{
+    // one-sided and two-sided squares and a mirrored one, each smaller than the one behind it; half of the last is holes
+    TestScene test;
+    formats::MaterialRecord two_sided = plainMaterial();
+    two_sided.flags = formats::kMaterialDoubleSided;
+    formats::MaterialRecord holes = plainMaterial();
+    holes.alpha_mode = static_cast<uint32_t>(formats::AlphaMode::blend);
+    holes.base_color.w = 0.5f;
+    const uint32_t materials[] = {test.addMaterial(plainMaterial()), test.addMaterial(two_sided),
+                                  test.addMaterial(holes)};
+    constexpr int kLayers = 8;
+    for (int i = 0; i < kLayers; ++i)
+    {
+        const float size = 2 - 0.25f * static_cast<float>(i);
+        const uint32_t quad =
+            test.addMesh(withMaterial(makeQuad(size, size), materials[i == kLayers - 1 ? 2 : i % 2]));
+        Affine3 place = translated({0, 0, 0.001f * static_cast<float>(i)});
+        place.m[0][0] = i == 4 ? -1.0f : 1.0f;
+        test.addInstance(quad, place);
+    }
+    const formats::PackView pack = test.build();
+    const auto scene = upload(pack);
+    const auto expectLayers = [&](const Picture& picture, uint32_t x, int layers)
+    {
+        for (int c = 0; c < 3; ++c)
+            EXPECT_NEAR(channel(picture.at(x, 64), c), addedUp(kOverdrawStep[c], layers), 1)
+                << "x " << x << " layers " << layers;
+    };
+    // the square of side 2 fills the picture
+    const Camera front{
+        .position = {0, 0, 2}, .target = {0, 0, 0}, .y_fov_rad = 2 * std::atan(0.5f), .z_near = 0.01f};
+    gpu::FrameTargets targets = makeTargets(128, 128);
+    for (const uint32_t flags : {0u, kCullEverything, kCullEverything})
+    {
+        const Picture picture = draw(*scene, targets, front,
+                                     {.width = 128, .height = 128, .flags = flags, .shown = kViewOverdraw});
+        for (uint32_t i = 0; i < kLayers - 1; ++i)
+            expectLayers(picture, 4 + 8 * i, static_cast<int>(i) + 1);
+        int covered = 0; // of the 16 x 16 pixels of the last one
+        for (uint32_t y = 56; y < 72; ++y)
+            for (uint32_t x = 56; x < 72; ++x)
+                covered += channel(picture.at(x, y), 2) > addedUp(kOverdrawStep.z, kLayers - 1) + 2 ? 1 : 0;
+        EXPECT_EQ(covered, 128);
+    }
+}
+
+TEST_F(ViewTest, overdrawShowsBothPhases)
+{
+    gpu::FrameTargets targets = makeTargets(320, 200);
+    const DrawOptions options{.width = 320, .height = 200, .shown = kViewOverdraw};
+    std::mt19937 random(91);
+    size_t covered = 0, many = 0, late = 0;
+    for (int i = 0; i < 5; ++i)
+    {
+        // what is hidden from there need not be hidden from here
+        Camera before = rocksCamera();
+        before.position += {uniform(random, -4, 4), uniform(random, -4, 4), uniform(random, -4, 4)};
+        draw(*scene_, targets, before, options);
+        const Picture picture = draw(*scene_, targets, rocksCamera(), options);
+        late += picture.list.slots.size() - picture.list.counters.early_clusters;
+        for (size_t pixel = 0; pixel < picture.color.size(); ++pixel)
+        {
+            const int layers = channel(picture.color[pixel], 2);
+            ASSERT_EQ(layers > 0, picture.visibility[pixel] != kNothingVisible) << pixel;
+            covered += layers > 0 ? 1u : 0u;
+            many += layers > addedUp(kOverdrawStep.z, 1) + 2 ? 1u : 0u;
+        }
+    }
+    EXPECT_GT(late, 20u);
+    EXPECT_GT(covered, 10000u);
+    EXPECT_GT(many, covered / 20);
 }
 
 } // namespace hearth::test

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "runtime/gpu/bin_pass.h"
+
+#include "runtime/gpu/frame_targets.h"
+#include "runtime/shaders/shaders.h"
+
+namespace hearth::gpu
+{
+
+Result<BinPass> BinPass::createVisibility(const Device& device, const DrawLayouts& layouts,
+                                          VkRenderPass render_pass)
+{
+    BinPass pass;
+    HEARTH_TRY(pass.createPipelines(
+        device,
+        {.vertex = shaders::visibility_vert,
+         .fragment = shaders::visibility_frag,
+         .layout = layouts.visibility.get(),
+         .render_pass = render_pass,
+         .subpass = kSubpassVisibility,
+         .depth_compare = VK_COMPARE_OP_GREATER, // reversed: 1 at the near plane, 0 infinitely far away
+         .depth_write = true,
+         .color = true},
+        shaders::visibility_masked_frag));
+    return pass;
+}
+
+Result<BinPass> BinPass::createOverdraw(const Device& device, const DrawLayouts& layouts,
+                                        VkRenderPass render_pass)
+{
+    BinPass pass;
+    HEARTH_TRY(pass.createPipelines(device,
+                                    {.vertex = shaders::visibility_vert,
+                                     .fragment = shaders::overdraw_frag,
+                                     .layout = layouts.visibility.get(),
+                                     .render_pass = render_pass,
+                                     .subpass = kSubpassShading,
+                                     .depth_compare = VK_COMPARE_OP_ALWAYS,
+                                     .depth_write = false,
+                                     .color = true,
+                                     .add = true},
+                                    shaders::overdraw_masked_frag));
+    return pass;
+}
+
+Status BinPass::createPipelines(const Device& device, GraphicsDescription opaque,
+                                std::span<const uint32_t> alpha_tested_fragment)
+{
+    for (const size_t slices : {size_t{0}, size_t{1}})
+        for (const Facing facing : {Facing::culled, Facing::mirrored, Facing::doubleSided})
+        {
+            const uint32_t used_slices = slices == 0 ? 1 : shared::kPoolSlices;
+            opaque.constants = {&used_slices, 1};
+            opaque.cull =
+                VkCullModeFlags(facing == Facing::doubleSided ? VK_CULL_MODE_NONE : VK_CULL_MODE_BACK_BIT);
+            opaque.front_face =
+                facing == Facing::mirrored ? VK_FRONT_FACE_CLOCKWISE : VK_FRONT_FACE_COUNTER_CLOCKWISE;
+            GraphicsDescription alpha_tested = opaque;
+            alpha_tested.vertex = shaders::visibility_masked_vert;
+            alpha_tested.fragment = alpha_tested_fragment;
+            const auto index = static_cast<size_t>(facing);
+            HEARTH_ASSIGN_OR_RETURN(opaque_[slices][index], createGraphicsPipeline(device, opaque));
+            HEARTH_ASSIGN_OR_RETURN(alpha_tested_[slices][index],
+                                    createGraphicsPipeline(device, alpha_tested));
+        }
+    return success();
+}
+
+void BinPass::record(const Device& device, VkCommandBuffer commands, const DrawLayouts& layouts,
+                     const Scene& scene, uint32_t phase) const
+{
+    const VkPipelineLayout layout = layouts.visibility.get();
+    device.vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout, 0, 1,
+                                      &scene.draw_set, 0, nullptr);
+    device.vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout, 2, 1,
+                                      &scene.bins_set, 0, nullptr);
+    const size_t slices = scene.used_slices == 1 ? 0 : 1;
+    const auto bin_count = static_cast<uint32_t>(scene.bins.size());
+    for (uint32_t i = 0; i < bin_count; ++i)
+    {
+        const SceneBin& bin = scene.bins[i];
+        const Pipelines& pipelines = (bin.alpha_tested ? alpha_tested_ : opaque_)[slices];
+        device.vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS,
+                                    pipelines[static_cast<size_t>(bin.facing)].get());
+        if (bin.alpha_tested)
+            device.vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout, 1, 1,
+                                              &scene.materials[bin.material_row].set, 0, nullptr);
+        const DrawPush push{.bin = phase == shared::kPhaseLate ? bin_count + i : i};
+        device.vk.vkCmdPushConstants(commands, layout, kDrawPushStages, 0, sizeof(push), &push);
+        device.vk.vkCmdDrawIndirect(commands, scene.buffers.bin_draws.handle.get(),
+                                    push.bin * sizeof(shared::BinDraw), 1, sizeof(shared::BinDraw));
+    }
+}
+
+} // namespace hearth::gpu

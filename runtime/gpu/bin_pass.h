@@ -1,0 +1,35 @@
+// Draws the visible clusters, one indirect draw a bin: into the visibility buffer in the first subpass of the frame; or,
+// for the overdraw view, once more in the last one, where every fragment adds to the picture.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "runtime/gpu/scene.h"
+
+namespace hearth::gpu
+{
+
+class BinPass
+{
+public:
+    static Result<BinPass> createVisibility(const Device& device, const DrawLayouts& layouts,
+                                            VkRenderPass render_pass);
+    static Result<BinPass> createOverdraw(const Device& device, const DrawLayouts& layouts,
+                                          VkRenderPass render_pass);
+
+    /// Inside the subpass, with viewport and scissor set. Clobbers the graphics state.
+    /// phase  whose clusters are drawn
+    void record(const Device& device, VkCommandBuffer commands, const DrawLayouts& layouts,
+                const Scene& scene, uint32_t phase) const;
+
+private:
+    /// For each Facing.
+    using Pipelines = UniquePipeline[3];
+    Status createPipelines(const Device& device, GraphicsDescription opaque,
+                           std::span<const uint32_t> alpha_tested_fragment);
+
+    // [0] for scenes whose geometry lies in one slice of the pool, [1] for all others
+    Pipelines opaque_[2];
+    Pipelines alpha_tested_[2];
+};
+
+} // namespace hearth::gpu
