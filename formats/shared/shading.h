@@ -1,4 +1,4 @@
-// What the shading pass reads: materials and lights as uniform blocks (std140), written once for C++ and GLSL.
+// What the shading pass reads: materials and lights as blocks (std140), written once for C++ and GLSL.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #ifndef HEARTH_SHARED_SHADING_H
 #define HEARTH_SHARED_SHADING_H
@@ -46,8 +46,7 @@ struct Light
     float reserved2;
 };
 
-/// Lights beyond this number are not drawn, and the renderer says so. 8 KiB, half of the smallest uniform block range
-/// that Vulkan allows.
+/// Lights beyond this number are not drawn, and the renderer says so. 8 KiB: they stay in the cache.
 HEARTH_CONSTANT uint kMaxLights = 128;
 
 struct Lighting

@@ -11,7 +11,7 @@ Result<DrawLayouts> DrawLayouts::create(const Device& device)
     constexpr VkShaderStageFlags kBoth = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
     std::vector<SetBinding> scene(kSceneBindingCount, {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, kBoth});
     scene[kSceneFrame] = {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, kBoth};
-    scene[kSceneLighting] = {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, VK_SHADER_STAGE_FRAGMENT_BIT};
+    scene[kSceneLighting].stages = VK_SHADER_STAGE_FRAGMENT_BIT;
 
     std::vector<SetBinding> material(
         1 + shared::kTextureCount, {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_SHADER_STAGE_FRAGMENT_BIT});

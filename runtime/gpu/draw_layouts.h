@@ -8,8 +8,8 @@
 namespace hearth::gpu
 {
 
-/// Bindings of set 0, as runtime/shaders/scene.glsl has them. Seven storage buffers: each set 2 adds one more to the
-/// vertex stage, and eight are what the renderer may have.
+/// Bindings of set 0, as runtime/shaders/scene.glsl has them. Seven storage buffers in the vertex stage, to which each
+/// set 2 adds one, and eight in the fragment stage: as many as the renderer may have.
 enum SceneBinding : uint32_t
 {
     kSceneFrame = 0,

@@ -67,7 +67,7 @@ Status createBuffers(const Device& device, const formats::PackView& pack, const 
     SceneBuffers& b = scene.buffers;
     BufferFactory f(device, pack, scene);
     f.make(b.frame, "frame constants", 1, sizeof(shared::FrameView), kUniform);
-    f.make(b.lighting, "lights", 1, sizeof(shared::Lighting), kUniform);
+    f.make(b.lighting, "lights", 1, sizeof(shared::Lighting), kTable);
     f.make(b.instances, "instances", pack.instances().size(), sizeof(shared::Instance), kTable);
     f.make(b.inverses, "instances", pack.instances().size(), sizeof(shared::InstanceInverse), kTable);
     f.make(b.bounds, "mesh bounds", pack.meshes().size(), sizeof(shared::MeshBounds), kTable);
@@ -150,7 +150,7 @@ Status createSets(const Device& device, const DrawLayouts& layouts, Scene& scene
         .storage(kSceneInstances, b.instances)
         .storage(kSceneVisible, b.visible)
         .storage(kSceneDraws, b.cluster_draws)
-        .uniform(kSceneLighting, b.lighting);
+        .storage(kSceneLighting, b.lighting);
     for (uint32_t slice = 0; slice < shared::kPoolSlices; ++slice)
         writer.storage(kScenePool + slice, b.pool[slice]);
     writer.write(device);

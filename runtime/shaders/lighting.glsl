@@ -2,7 +2,7 @@
 // and exposure.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 
-layout(set = 0, binding = 8, std140) uniform LightingBlock { Lighting lighting; };
+layout(set = 0, binding = 8, std140) readonly buffer LightingBlock { Lighting lighting; };
 #include "brdf.glsl"
 #include "sky.glsl"
 #include "tonemap.glsl"

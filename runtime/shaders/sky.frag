@@ -7,7 +7,7 @@
 #include "tonemap.glsl"
 
 layout(set = 0, binding = 0, std140) uniform Frame { FrameView view; };
-layout(set = 0, binding = 8, std140) uniform LightingBlock { Lighting lighting; };
+layout(set = 0, binding = 8, std140) readonly buffer LightingBlock { Lighting lighting; };
 #include "sky.glsl"
 
 layout(push_constant) uniform Push
