@@ -23,6 +23,7 @@ Result<std::unique_ptr<Renderer>> Renderer::create(const DeviceDescription& desc
     HEARTH_ASSIGN_OR_RETURN(r.layouts_, DrawLayouts::create(r.device_));
     HEARTH_ASSIGN_OR_RETURN(r.passes_, FramePasses::create(r.device_));
     HEARTH_ASSIGN_OR_RETURN(r.cull_, CullPass::create(r.device_, r.layouts_));
+    HEARTH_ASSIGN_OR_RETURN(r.page_requests_, PageRequestPass::create(r.device_));
     HEARTH_ASSIGN_OR_RETURN(r.pyramid_, PyramidPass::create(r.device_, r.layouts_));
     const VkRenderPass render_pass = r.passes_.whole.get();
     HEARTH_ASSIGN_OR_RETURN(r.visibility_, VisibilityPass::create(r.device_, r.layouts_, render_pass));
@@ -42,6 +43,8 @@ Result<std::unique_ptr<Scene>> Renderer::upload(const formats::PackView& pack, V
     HEARTH_ASSIGN_OR_RETURN(std::unique_ptr<Scene> scene,
                             uploadScene(device_, layouts_, pack, commands, options));
     HEARTH_TRY(cull_.createSets(device_, *scene));
+    if (scene->stream != nullptr)
+        HEARTH_TRY(page_requests_.createSet(device_, *scene));
     for (SceneMaterial& material : scene->materials)
     {
         HEARTH_ASSIGN_OR_RETURN(material.pipelines, shading_.prepare(device_, layouts_, material.variant));
@@ -58,9 +61,16 @@ void Renderer::record(VkCommandBuffer commands, const Scene& scene, FrameTargets
     const auto stamp = [&](FrameTimestamp which)
     { writeTimestamp(device_, commands, input.timestamps, which); };
     stamp(kTimestampBegin);
-    cull_.recordConstants(device_, commands, scene, targets, input.view, input.moves);
+    cull_.recordConstants(device_, commands, scene, targets,
+                          scene.stream == nullptr ? input.view : scene.stream->scaled(input.view),
+                          input.moves);
     const bool in_phases = (input.view.flags & shared::kCullOcclusion) != 0;
     cull_.record(device_, commands, scene, targets, in_phases ? shared::kPhaseEarly : shared::kPhaseWhole);
+    if (scene.stream != nullptr)
+    {
+        page_requests_.record(device_, commands, scene);
+        scene.stream->recordFeedback(commands, scene.buffers);
+    }
     stamp(kTimestampCull);
     if (in_phases)
         recordEarly(commands, scene, targets);

@@ -5,6 +5,7 @@
 
 #include "runtime/gpu/cull_pass.h"
 #include "runtime/gpu/material_depth_pass.h"
+#include "runtime/gpu/page_request_pass.h"
 #include "runtime/gpu/pyramid_pass.h"
 #include "runtime/gpu/shading_pass.h"
 #include "runtime/gpu/visibility_pass.h"
@@ -54,7 +55,8 @@ public:
 
     /// Record culling and drawing of one frame, outside a render pass. Clobbers compute and graphics state.
     /// Afterwards targets.visibility() and targets.color() can be copied from. Frames with occlusion culling leave
-    /// their depth pyramid to the next one with these targets, which must be submitted after them.
+    /// their depth pyramid to the next one with these targets, which must be submitted after them. A frame of a streamed
+    /// scene is that which SceneStream::beginFrame began; its threshold is scaled as the stream says.
     void record(VkCommandBuffer commands, const Scene& scene, FrameTargets& targets,
                 const FrameInput& input) const;
 
@@ -69,6 +71,7 @@ private:
     DrawLayouts layouts_;
     FramePasses passes_;
     CullPass cull_;
+    PageRequestPass page_requests_;
     PyramidPass pyramid_;
     VisibilityPass visibility_;
     MaterialDepthPass material_depth_;

@@ -14,6 +14,7 @@ extern const std::span<const uint32_t> scan_blocks_comp;
 extern const std::span<const uint32_t> scan_totals_comp;
 extern const std::span<const uint32_t> emit_visible_comp;
 extern const std::span<const uint32_t> emit_draws_comp;
+extern const std::span<const uint32_t> page_requests_comp;
 extern const std::span<const uint32_t> pyramid_tiles_comp;
 extern const std::span<const uint32_t> pyramid_top_comp;
 extern const std::span<const uint32_t> visibility_vert;

@@ -110,14 +110,14 @@ TEST(SceneLayout, pagesLieApartAndInsideTheirSlices)
     uint32_t end = 0;
     for (size_t page = 0; page < pack.pages().size(); ++page)
     {
-        EXPECT_GE(layout->page_addresses[page], end);
-        end = layout->page_addresses[page] + pack.pages()[page].size / 4;
+        EXPECT_GE(layout->pool.page_addresses[page], end);
+        end = layout->pool.page_addresses[page] + pack.pages()[page].size / 4;
     }
-    EXPECT_EQ(layout->slice_words[0], end);
+    EXPECT_EQ(layout->pool.slice_words[0], end);
     for (size_t c = 0; c < pack.clusters().size(); ++c)
     {
         const ClusterRecord& cluster = pack.clusters()[c];
-        EXPECT_EQ(layout->draws[c].address, layout->page_addresses[cluster.page] + cluster.page_word +
+        EXPECT_EQ(layout->draws[c].address, layout->pool.page_addresses[cluster.page] + cluster.page_word +
                                                 uvBaseWords(pack.meshes()[0].attributes));
         EXPECT_EQ(layout->draws[c].counts,
                   cluster.vertex_count | cluster.triangle_count << 9u | cluster.level << 17u);
