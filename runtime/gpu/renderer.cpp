@@ -67,10 +67,7 @@ void Renderer::record(VkCommandBuffer commands, const Scene& scene, FrameTargets
     const bool in_phases = (input.view.flags & shared::kCullOcclusion) != 0;
     cull_.record(device_, commands, scene, targets, in_phases ? shared::kPhaseEarly : shared::kPhaseWhole);
     if (scene.stream != nullptr)
-    {
-        page_requests_.record(device_, commands, scene);
-        scene.stream->recordFeedback(commands, scene.buffers);
-    }
+        recordRequests(commands, scene);
     stamp(kTimestampCull);
     if (in_phases)
         recordEarly(commands, scene, targets);
@@ -84,6 +81,22 @@ void Renderer::record(VkCommandBuffer commands, const Scene& scene, FrameTargets
     recordPicture(commands, scene, targets, input, in_phases ? passes_.late.get() : passes_.whole.get());
     if (in_phases)
         targets.setPyramidView(shared::makeOcclusionView(input.view));
+}
+
+void Renderer::recordPrefetch(VkCommandBuffer commands, const Scene& scene, const FrameTargets& targets,
+                              const shared::FrameView& view) const
+{
+    HEARTH_ASSERT(scene.stream != nullptr && view.instance_count == scene.instance_count);
+    cull_.recordConstants(device_, commands, scene, targets, scene.stream->scaled(view), {});
+    cull_.record(device_, commands, scene, targets, shared::kPhaseWhole);
+    recordRequests(commands, scene);
+}
+
+/// After the first culling phase.
+void Renderer::recordRequests(VkCommandBuffer commands, const Scene& scene) const
+{
+    page_requests_.record(device_, commands, scene);
+    scene.stream->recordFeedback(commands, scene.buffers);
 }
 
 void Renderer::beginPass(VkCommandBuffer commands, const FrameTargets& targets,

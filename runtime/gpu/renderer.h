@@ -60,8 +60,14 @@ public:
     void record(VkCommandBuffer commands, const Scene& scene, FrameTargets& targets,
                 const FrameInput& input) const;
 
+    /// The same without drawing: asks for what a frame with this view asks for. For a streamed scene, in place of record.
+    /// Clobbers compute state, and leaves the depth pyramid as it is.
+    void recordPrefetch(VkCommandBuffer commands, const Scene& scene, const FrameTargets& targets,
+                        const shared::FrameView& view) const;
+
 private:
     Renderer() = default;
+    void recordRequests(VkCommandBuffer commands, const Scene& scene) const;
     void recordEarly(VkCommandBuffer commands, const Scene& scene, const FrameTargets& targets) const;
     void recordPicture(VkCommandBuffer commands, const Scene& scene, const FrameTargets& targets,
                        const FrameInput& input, VkRenderPass render_pass) const;

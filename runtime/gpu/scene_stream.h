@@ -55,8 +55,8 @@ public:
     /// Failed pages may be tried again.
     void retryFailed() { pages_.retryFailed(); }
 
-    /// The last frame that drew all that it wanted and could get. To prefetch a view, draw it (at any size, into anything)
-    /// until this reaches the serial of the first such frame.
+    /// The last frame that drew all that it wanted and could get. To prefetch a view, record frames of it
+    /// (Renderer::recordPrefetch) until this reaches the serial of the first of them.
     uint64_t settledSerial() const { return pages_.settledSerial(); }
 
     /// The scene must not be destroyed before this is 0: reads write to its memory.

@@ -31,12 +31,6 @@ uint32_t pop(std::vector<uint32_t>& stack)
 
 } // namespace
 
-PageReader readAtOnce(const Pack& pack)
-{
-    return [&pack](uint32_t page, std::span<std::byte> destination, ReadDone done)
-    { done(pack.readPage(page, destination).ok()); };
-}
-
 Result<PageStream> PageStream::create(const formats::PackView& view, PageGraph graph,
                                       const PageStreamOptions& options, std::span<std::byte> staging)
 {
@@ -141,7 +135,6 @@ void PageStream::freeSlot(uint32_t page)
 void PageStream::request(uint32_t page, float priority)
 {
     residency_.request(page, priority);
-    ++requests_;
 }
 
 void PageStream::schedule(uint64_t feedback_serial)
@@ -158,7 +151,6 @@ void PageStream::schedule(uint64_t feedback_serial)
     if (residency_.atRest() && feedback_serial >= changed_serial_)
         settled_serial_ = feedback_serial;
     startReads();
-    statistics_.pages_requested = std::exchange(requests_, 0);
     updateStatistics();
 }
 

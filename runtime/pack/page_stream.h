@@ -4,7 +4,6 @@
 #pragma once
 
 #include "runtime/pack/completion_queue.h"
-#include "runtime/pack/pack.h"
 #include "runtime/pack/residency.h"
 #include "runtime/pack/resident_groups.h"
 
@@ -28,12 +27,9 @@ private:
     uint32_t page_;
 };
 
-/// Starts to read a page: decoded into `destination`, whose size is the page's (Pack::readPage does), then `done`. May
+/// Starts to read a page: decoded into `destination`, whose size is the page's (PackView::decodePage does), then `done`. May
 /// do so at once or later, on any thread, reads in any order. Called from beginFrame and schedule.
 using PageReader = std::function<void(uint32_t page, std::span<std::byte> destination, ReadDone done)>;
-
-/// Reads at once, on the calling thread. The pack outlives what reads from it.
-PageReader readAtOnce(const Pack& pack);
 
 struct PageStreamOptions
 {
@@ -67,8 +63,7 @@ struct StreamStatistics
     uint64_t bytes_resident = 0; ///< decoded bytes of the resident pages
     uint64_t bytes_streamed = 0; ///< decoded bytes of all pages read so far
     uint32_t pages_resident = 0;
-    uint32_t pages_requested = 0; ///< in the last round
-    uint32_t failures = 0;        ///< so far
+    uint32_t failures = 0; ///< so far
     float error_scale = 1;
 };
 
@@ -149,7 +144,6 @@ private:
     uint64_t serial_ = 0;
     uint64_t changed_serial_ = 0; ///< the last frame in which anything changed
     uint64_t settled_serial_ = 0;
-    uint32_t requests_ = 0; ///< of this round
     StreamStatistics statistics_;
 };
 

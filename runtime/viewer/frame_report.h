@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include "runtime/viewer/vulkan_host.h"
+#include "runtime/viewer/stream_report.h"
 
 #include <array>
 
@@ -29,7 +29,8 @@ struct FrameReport
     float error_pixels = 0;
     uint64_t scene_bytes = 0, target_bytes = 0;
     uint32_t dropped_lights = 0;
-    std::vector<FrameCounts> frames; ///< at least one
+    std::vector<FrameCounts> frames;     ///< at least one
+    std::vector<StreamCounts> streaming; ///< the same frames; empty where all is resident
     std::array<double, gpu::kTimestampCount>
         milliseconds{}; ///< of the pass that ends with the timestamp; [0] is the frame
 };

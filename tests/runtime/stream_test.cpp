@@ -84,18 +84,23 @@ private:
     std::vector<Read> reads_;
 };
 
-/// Rocks of many pages and a two-sided terrain, moved about.
+/// Rocks of many pages, one with levels made by hand, and a two-sided terrain, moved about.
 void fillScene(TestScene& scene, std::mt19937& random)
 {
     formats::MaterialRecord two_sided = plainMaterial();
     two_sided.flags = formats::kMaterialDoubleSided;
     const uint32_t plain = scene.addMaterial(plainMaterial());
     const uint32_t sheet = scene.addMaterial(two_sided);
-    const uint32_t meshes[] = {scene.addMesh(withMaterial(shapes::rock(72, 0.3f), plain)),
-                               scene.addMesh(withMaterial(shapes::terrain(96), sheet))};
+    const uint32_t meshes[] = {
+        scene.addMesh(withMaterial(shapes::rock(72, 0.3f), plain)),
+        scene.addMesh(withMaterial(shapes::terrain(96), sheet)),
+        scene.addHierarchy(clusters::buildHierarchy(withMaterial(shapes::rock(60, 0.3f), plain),
+                                                    std::vector{withMaterial(shapes::rock(36, 0.3f), plain),
+                                                                withMaterial(shapes::rock(20, 0.28f), plain)},
+                                                    {}))};
     scene.addInstance(meshes[0], Affine3{});
-    for (int i = 1; i < 6; ++i)
-        scene.addInstance(meshes[i % 3 == 2 ? 1 : 0], randomAffine(random, 3));
+    for (size_t i = 1; i < 6; ++i)
+        scene.addInstance(meshes[i % 3], randomAffine(random, 3));
 }
 
 Camera lookingAtOrigin(Float3 position)
