@@ -103,10 +103,11 @@ public:
     {
     }
 
-    /// Streams until a frame of this camera has all that it wants, or for a time that is enough in any case that rests.
+    /// Streams until a frame of this camera has all that it wants.
     Status prefetch(const shared::Camera& camera)
     {
-        constexpr uint64_t kMostFrames = 10000;
+        // 256 frames fill the largest pool, 60 raise the error scale to its most: what takes longer does not rest
+        constexpr uint64_t kMostFrames = 1000;
         const shared::FrameView view = makeFrame(options_, camera, pack_, targets_.extent()).view;
         const uint64_t first = serial_ + 1;
         while (scene_.stream->settledSerial() < first && serial_ < first + kMostFrames)
