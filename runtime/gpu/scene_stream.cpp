@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/gpu/scene_stream.h"
 
+#include "formats/shared/decisions.h"
 #include "runtime/gpu/pipelines.h"
 #include "runtime/gpu/scene.h"
 

@@ -3,7 +3,6 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include "formats/shared/decisions.h"
 #include "runtime/gpu/memory.h"
 #include "runtime/gpu/pool_layout.h"
 #include "runtime/pack/page_stream.h"
@@ -18,6 +17,7 @@ struct SceneBuffers;
 
 struct StreamOptions
 {
+    /// Writes to memory of the scene: all reads have ended, or never will, before the scene is destroyed.
     pack::PageReader read;
 
     /// Reads that run at once, >= 1. Twice as many slots of staging memory are made, which the budget does not count.
@@ -58,9 +58,6 @@ public:
     /// The last frame that drew all that it wanted and could get. To prefetch a view, record frames of it
     /// (Renderer::recordPrefetch) until this reaches the serial of the first of them.
     uint64_t settledSerial() const { return pages_.settledSerial(); }
-
-    /// The scene must not be destroyed before this is 0: reads write to its memory.
-    uint32_t readsInFlight() const { return pages_.readsInFlight(); }
 
     const pack::StreamStatistics& statistics() const { return pages_.statistics(); }
     const pack::PageStream& pages() const { return pages_; }

@@ -28,7 +28,8 @@ private:
 };
 
 /// Starts to read a page: decoded into `destination`, whose size is the page's (PackView::decodePage does), then `done`. May
-/// do so at once or later, on any thread, reads in any order. Called from beginFrame and schedule.
+/// do so at once or later, on any thread, reads in any order; all have ended, or never will, before the stream does. Called
+/// from beginFrame and schedule.
 using PageReader = std::function<void(uint32_t page, std::span<std::byte> destination, ReadDone done)>;
 
 struct PageStreamOptions
@@ -58,8 +59,7 @@ struct StreamChanges
 struct StreamStatistics
 {
     uint64_t budget_bytes = 0;
-    uint64_t bytes_in_use =
-        0; ///< of the budget: pinned pages, and slots that are resident, loading or not yet free
+    uint64_t bytes_in_use = 0;   ///< of the budget: pinned pages, and slots that are not free
     uint64_t bytes_resident = 0; ///< decoded bytes of the resident pages
     uint64_t bytes_streamed = 0; ///< decoded bytes of all pages read so far
     uint32_t pages_resident = 0;
@@ -83,11 +83,6 @@ public:
     static Result<PageStream> create(const formats::PackView& view, PageGraph graph,
                                      const PageStreamOptions& options, std::span<std::byte> staging);
 
-    /// No read may be in flight when a stream ends: readsInFlight.
-    ~PageStream() = default;
-    PageStream(PageStream&&) = default;
-    PageStream& operator=(PageStream&&) = default;
-
     /// As Residency::beginFrame. All changes are recorded into frame `serial`, whose copies read the staging memory until
     /// it has completed.
     StreamChanges beginFrame(uint64_t serial, uint64_t completed_serial);
@@ -103,13 +98,12 @@ public:
     /// the error scale stayed. 0: none yet. A view that was first drawn in frame n has converged once this is >= n.
     uint64_t settledSerial() const { return settled_serial_; }
 
-    /// Reads that have started and whose `done` has not been looked at.
+    /// Reads that have started and whose end no frame has seen yet.
     uint32_t readsInFlight() const { return reads_in_flight_; }
 
     void retryFailed() { residency_.retryFailed(); }
 
     const Residency& residency() const { return residency_; }
-    const ResidentGroups& groups() const { return groups_; }
     uint32_t slotOf(uint32_t page) const { return slot_of_page_[page]; } ///< kNone: none
     const StreamStatistics& statistics() const { return statistics_; }
 

@@ -181,7 +181,9 @@ public:
                                  .width = targets_.extent().width,
                                  .height = targets_.extent().height,
                                  .error_pixels = options_.error_pixels,
-                                 .scene_bytes = scene_.arena.allocatedBytes(),
+                                 .scene_bytes =
+                                     scene_.arena.allocatedBytes() +
+                                     (scene_.stream == nullptr ? 0 : scene_.stream->allocatedBytes()),
                                  .target_bytes = targets_.allocatedBytes(),
                                  .dropped_lights = scene_.dropped_lights,
                                  .frames = frames_,

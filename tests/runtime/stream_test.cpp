@@ -30,16 +30,14 @@ public:
 
     uint32_t failures_of_64 = 0;  ///< reads
     std::set<uint32_t> bad_pages; ///< whose reads fail always
-    uint32_t most_frames = 1;     ///< that a read takes; 0: all end at once
+    uint32_t most_frames = 1;     ///< that a read takes, >= 1
 
     pack::PageReader reader(std::mt19937& random)
     {
         return [this, &random](uint32_t page, std::span<std::byte> destination, pack::ReadDone done)
         {
             ++read_counts[page];
-            reads_.push_back({page, destination, done, most_frames == 0 ? 0 : 1 + random() % most_frames});
-            if (most_frames == 0)
-                frame(random);
+            reads_.push_back({page, destination, done, 1 + random() % most_frames});
         };
     }
 
@@ -55,6 +53,9 @@ public:
                 end(read, random);
         reads_ = std::move(waiting);
     }
+
+    /// No read that is under way ends.
+    void forget() { reads_.clear(); }
 
     std::map<uint32_t, uint32_t> read_counts;
 
@@ -131,16 +132,9 @@ protected:
         layout_ = *layout;
     }
 
-    void TearDown() override
-    {
-        // reads that are still under way write to the memory of the scene
-        while (streamed_ != nullptr && streamed_->stream->readsInFlight() > 0)
-            frame(lookingAtOrigin({0, 0, 9}), {.width = 16, .height = 16});
-        GpuTest::TearDown();
-    }
-
     void stream(uint64_t budget_bytes, uint32_t max_loads = 32)
     {
+        disk_->forget(); // reads for another scene
         streamed_ = upload(
             *pack_,
             {.geometry_budget = budget_bytes,
@@ -287,7 +281,7 @@ TEST_F(StreamTest, everyFrameIsWholeWhateverReadsDo)
 {
     uint32_t moved = 0, failures = 0;
     float most_scale = 1;
-    for (int run = 0; run < 12; ++run)
+    for (int run = 0; run < 9; ++run)
     {
         disk_->failures_of_64 = run % 3 == 2 ? 8 : 0;
         disk_->most_frames = 1 + static_cast<uint32_t>(run % 4);
@@ -314,11 +308,9 @@ TEST_F(StreamTest, everyFrameIsWholeWhateverReadsDo)
         }
         moved += streamed_->stream->statistics().bytes_streamed > 0 ? 1u : 0u;
         failures += static_cast<uint32_t>(failed_.size());
-        while (streamed_->stream->readsInFlight() > 0)
-            frame(camera, {.width = 16, .height = 16});
         EXPECT_EQ(failed_.size(), streamed_->stream->statistics().failures) << "each is told once";
     }
-    EXPECT_EQ(moved, 12u);
+    EXPECT_EQ(moved, 9u);
     EXPECT_GT(failures, 10u) << "or failures are not tested";
     EXPECT_GT(most_scale, 1.0f) << "or too small a budget is not tested";
 }
