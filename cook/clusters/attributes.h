@@ -17,11 +17,8 @@ struct AttributeWeights
     float uv = 0; ///< of the first set
     float color = 0;
 
-    uint32_t rows() const
-    {
-        const uint32_t count = (normal > 0 ? 3u : 0u) + (uv > 0 ? 2u : 0u) + (color > 0 ? 4u : 0u);
-        return (count + uint32_t{kLanes} - 1) / uint32_t{kLanes};
-    }
+    uint32_t count() const { return (normal > 0 ? 3u : 0u) + (uv > 0 ? 2u : 0u) + (color > 0 ? 4u : 0u); }
+    uint32_t rows() const { return (count() + uint32_t{kLanes} - 1) / uint32_t{kLanes}; }
 };
 
 /// Write a vertex's attributes, weighted, to rows() rows; what is left over is 0.

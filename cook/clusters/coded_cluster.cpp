@@ -37,7 +37,8 @@ struct StepRange
 /// The nearest point of the grid of steps 2^-n. Exact: a float times a power of two.
 int32_t uvPoint(float coordinate, uint32_t fraction_bits)
 {
-    return static_cast<int32_t>(std::nearbyint(std::ldexp(coordinate, static_cast<int>(fraction_bits))));
+    const auto steps_in_unit = static_cast<float>(1u << fraction_bits);
+    return static_cast<int32_t>(std::nearbyint(coordinate * steps_in_unit));
 }
 
 /// Whether the grid reaches all UVs of the set.

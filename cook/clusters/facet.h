@@ -84,44 +84,32 @@ struct FacetBlock
     Lanes distance2(Float3 point) const { return nearest(point).distance2; }
 };
 
-/// Row r of the four facets' numbers: four numbers of each.
-struct FacetRow
-{
-    Lanes of[kLanes];
-};
-
 /// From numbers facet by facet to facets number by number.
-inline FacetRow transpose(const std::array<const Facet*, kLanes>& facets, size_t row)
+/// row  of four numbers
+inline std::array<Lanes, kLanes> transposedRow(const std::array<const Facet*, kLanes>& facets, size_t row)
 {
-    Lanes r[kLanes];
+    std::array<Lanes, kLanes> of_facets;
     for (size_t i = 0; i < kLanes; ++i)
-        std::memcpy(&r[i], reinterpret_cast<const float*>(facets[i]) + row * kLanes, sizeof(Lanes));
-    const Lanes low01 = __builtin_shufflevector(r[0], r[1], 0, 4, 1, 5);
-    const Lanes high01 = __builtin_shufflevector(r[0], r[1], 2, 6, 3, 7);
-    const Lanes low23 = __builtin_shufflevector(r[2], r[3], 0, 4, 1, 5);
-    const Lanes high23 = __builtin_shufflevector(r[2], r[3], 2, 6, 3, 7);
-    return {{__builtin_shufflevector(low01, low23, 0, 1, 4, 5),
-             __builtin_shufflevector(low01, low23, 2, 3, 6, 7),
-             __builtin_shufflevector(high01, high23, 0, 1, 4, 5),
-             __builtin_shufflevector(high01, high23, 2, 3, 6, 7)}};
+        std::memcpy(&of_facets[i], reinterpret_cast<const float*>(facets[i]) + row * kLanes, sizeof(Lanes));
+    return transposed(of_facets);
 }
 
 inline FacetBlock makeBlock(const std::array<const Facet*, kLanes>& facets)
 {
     static_assert(sizeof(Facet) == 4 * sizeof(Lanes));
-    const FacetRow r0 = transpose(facets, 0);
-    const FacetRow r1 = transpose(facets, 1);
-    const FacetRow r2 = transpose(facets, 2);
-    const FacetRow r3 = transpose(facets, 3);
-    return {.a = {r0.of[0], r0.of[1], r0.of[2]},
-            .ab = {r0.of[3], r1.of[0], r1.of[1]},
-            .ac = {r1.of[2], r1.of[3], r2.of[0]},
-            .ab_ab = r2.of[1],
-            .ab_ac = r2.of[2],
-            .ac_ac = r2.of[3],
-            .inverse_det = r3.of[0],
-            .inverse_ab = r3.of[1],
-            .inverse_ac = r3.of[2]};
+    const std::array<Lanes, kLanes> r0 = transposedRow(facets, 0);
+    const std::array<Lanes, kLanes> r1 = transposedRow(facets, 1);
+    const std::array<Lanes, kLanes> r2 = transposedRow(facets, 2);
+    const std::array<Lanes, kLanes> r3 = transposedRow(facets, 3);
+    return {.a = {r0[0], r0[1], r0[2]},
+            .ab = {r0[3], r1[0], r1[1]},
+            .ac = {r1[2], r1[3], r2[0]},
+            .ab_ab = r2[1],
+            .ab_ac = r2[2],
+            .ac_ac = r2[3],
+            .inverse_det = r3[0],
+            .inverse_ab = r3[1],
+            .inverse_ac = r3[2]};
 }
 
 } // namespace hearth::clusters

@@ -201,6 +201,7 @@ void gatherAttributes(GroupMesh& group, const mesh::SourceMesh& vertices, const 
     group.weights.uv = config.uv_weight * group.uv_length;
     if (!vertices.colors.empty())
         group.weights.color = config.color_weight;
+    group.attribute_count = group.weights.count();
     group.attribute_rows = group.weights.rows();
     group.attributes.assign(group.attribute_rows * group.vertex_of_wedge.size(), Lanes{});
     for (size_t wedge = 0; wedge < group.vertex_of_wedge.size(); ++wedge)

@@ -32,6 +32,7 @@ struct GroupMesh
     float uv_length = 0; ///< local length of one unit of UV; 0 where that is no useful number
     AttributeWeights weights;
     std::vector<float> errors;     ///< for each triangle: its distance from the source, local
+    uint32_t attribute_count = 0;  ///< that a wedge has
     uint32_t attribute_rows = 0;   ///< rows of four attributes that a wedge has
     std::vector<Lanes> attributes; ///< rows of each wedge, weighted: differences are local lengths
 

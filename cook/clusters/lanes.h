@@ -58,6 +58,19 @@ inline Lanes clampToUnit(Lanes x)
     return minimum(maximum(x, allLanes(0)), allLanes(1));
 }
 
+/// Rows to columns.
+inline std::array<Lanes, kLanes> transposed(const std::array<Lanes, kLanes>& r)
+{
+    const Lanes low01 = __builtin_shufflevector(r[0], r[1], 0, 4, 1, 5);
+    const Lanes high01 = __builtin_shufflevector(r[0], r[1], 2, 6, 3, 7);
+    const Lanes low23 = __builtin_shufflevector(r[2], r[3], 0, 4, 1, 5);
+    const Lanes high23 = __builtin_shufflevector(r[2], r[3], 2, 6, 3, 7);
+    return {__builtin_shufflevector(low01, low23, 0, 1, 4, 5),
+            __builtin_shufflevector(low01, low23, 2, 3, 6, 7),
+            __builtin_shufflevector(high01, high23, 0, 1, 4, 5),
+            __builtin_shufflevector(high01, high23, 2, 3, 6, 7)};
+}
+
 struct LaneVector
 {
     Lanes x, y, z;
@@ -81,6 +94,12 @@ inline Lanes dot(LaneVector a, LaneVector b)
 inline LaneVector allLanes(Float3 p)
 {
     return {allLanes(p.x), allLanes(p.y), allLanes(p.z)};
+}
+/// x, y, z and 0.
+inline Lanes sumsOfLanes(LaneVector v)
+{
+    const std::array<Lanes, kLanes> columns = transposed({v.x, v.y, v.z, Lanes{}});
+    return (columns[0] + columns[1]) + (columns[2] + columns[3]);
 }
 
 } // namespace hearth::clusters

@@ -24,6 +24,11 @@ struct Placement
     std::vector<Lanes> attributes;     ///< rows of each wedge, weighted as the group's
 };
 
+/// A local place in object space, on the grid.
+Float3 objectPlace(const GroupMesh& group, Float3 local);
+
+Float3 localPlace(const GroupMesh& group, Float3 object);
+
 /// Move each position that is `movable` to where its quadrics are least, on the mesh's grid, and give its wedges the
 /// attributes that are best there; positions whose triangles would turn over go half as far, or stay.
 Placement placeOptimally(const GroupMesh& group, StarMesh& mesh, const Quadrics& quadrics,

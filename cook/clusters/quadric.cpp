@@ -26,40 +26,16 @@ GradientBasis gradientBasis(Float3 e1, Float3 e2)
     return {(e1 * d22 - e2 * d12) / det, (e2 * d11 - e1 * d12) / det};
 }
 
-/// The A of several planes, lane by lane.
-struct PlaneSums
-{
-    Lanes a00{}, a11{}, a22{}, a01{}, a02{}, a12{};
-
-    void add(LaneVector normal, LaneVector weighted)
-    {
-        a00 += normal.x * weighted.x;
-        a11 += normal.y * weighted.y;
-        a22 += normal.z * weighted.z;
-        a01 += normal.x * weighted.y;
-        a02 += normal.x * weighted.z;
-        a12 += normal.y * weighted.z;
-    }
-
-    void addTo(PositionQuadric& quadric) const
-    {
-        quadric.a00 += sumOfLanes(a00);
-        quadric.a11 += sumOfLanes(a11);
-        quadric.a22 += sumOfLanes(a22);
-        quadric.a01 += sumOfLanes(a01);
-        quadric.a02 += sumOfLanes(a02);
-        quadric.a12 += sumOfLanes(a12);
-    }
-};
-
 void addTriangle(Quadrics& quadrics, const GroupMesh& group, size_t first_corner)
 {
     uint32_t wedge[3];
     uint32_t position[3];
+    bool free[3];
     for (size_t k = 0; k < 3; ++k)
     {
         wedge[k] = group.corners[first_corner + k];
         position[k] = group.position_of_wedge[wedge[k]];
+        free[k] = group.locked[position[k]] == 0;
     }
     const Float3 e1 = group.positions[position[1]] - group.positions[position[0]];
     const Float3 e2 = group.positions[position[2]] - group.positions[position[0]];
@@ -85,22 +61,22 @@ void addTriangle(Quadrics& quadrics, const GroupMesh& group, size_t first_corner
         const LaneVector gradient = of_e1 * (s1 - s0) + of_e2 * (s2 - s0);
         const LaneVector weighted = gradient * allLanes(weight);
         planes.add(gradient, weighted);
-        for (const uint32_t w : wedge)
-        {
-            LaneVector& sum = quadrics.gradients[size_t{w} * rows + r].gradient;
-            sum = sum + weighted;
-        }
+        for (size_t k = 0; k < 3; ++k)
+            if (free[k])
+            {
+                LaneVector& sum = quadrics.gradients[size_t{wedge[k]} * rows + r].gradient;
+                sum = sum + weighted;
+            }
     }
     planes.addTo(quadric);
-    quadric.a00 += kSpread * weight;
-    quadric.a11 += kSpread * weight;
-    quadric.a22 += kSpread * weight;
+    const float spread = kSpread * weight;
+    quadric.diagonal_c += Lanes{spread, spread, spread, 0};
     for (size_t k = 0; k < 3; ++k)
-    {
-        quadrics.wedge_weight[wedge[k]] += weight;
-        if (group.locked[position[k]] == 0)
+        if (free[k])
+        {
+            quadrics.wedge_weight[wedge[k]] += weight;
             quadrics.position[position[k]].add(quadric);
-    }
+        }
 }
 
 } // namespace
@@ -128,8 +104,8 @@ void Quadrics::move(const GroupMesh& group, uint32_t from, uint32_t to, std::spa
             goal.offset += g.offset + dot(g.gradient, t_lanes) - weight * delta;
         }
     }
-    moved.c += sumOfLanes(moved_c);
-    moved.b += {sumOfLanes(moved_b.x), sumOfLanes(moved_b.y), sumOfLanes(moved_b.z)};
+    moved.diagonal_c[3] += sumOfLanes(moved_c);
+    moved.b += sumsOfLanes(moved_b);
     position[to].addMoved(moved, t);
 }
 

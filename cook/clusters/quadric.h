@@ -7,6 +7,8 @@
 #include "cook/clusters/group_mesh.h"
 #include "formats/math.h"
 
+#include <algorithm>
+#include <array>
 #include <span>
 #include <vector>
 
@@ -16,54 +18,86 @@ namespace hearth::clusters
 /// E(x) = x^T A x + 2 b.x + c, where x is the offset from the vertex's own place: near zero, so that floats suffice.
 struct PositionQuadric
 {
-    float a00 = 0, a11 = 0, a22 = 0, a01 = 0, a02 = 0, a12 = 0;
-    Float3 b;
-    float c = 0;
+    Lanes diagonal_c{}; ///< a00, a11, a22, c
+    Lanes mixed{};      ///< a01, a02, a12
+    Lanes b{};
 
+    /// A plane through the vertex itself: b and c get nothing.
     void addPlane(Float3 unit_normal, float weight)
     {
-        // the plane goes through the vertex itself: b and c get nothing
-        const Float3 n = unit_normal * weight;
-        a00 += n.x * unit_normal.x;
-        a11 += n.y * unit_normal.y;
-        a22 += n.z * unit_normal.z;
-        a01 += n.x * unit_normal.y;
-        a02 += n.x * unit_normal.z;
-        a12 += n.y * unit_normal.z;
+        const Lanes n{unit_normal.x, unit_normal.y, unit_normal.z, 0};
+        const Lanes weighted = n * allLanes(weight);
+        diagonal_c += n * weighted;
+        mixed += __builtin_shufflevector(n, n, 0, 0, 1, 3) * __builtin_shufflevector(weighted, n, 1, 2, 2, 3);
     }
 
     /// Add one of the same vertex.
     void add(const PositionQuadric& other)
     {
-        a00 += other.a00;
-        a11 += other.a11;
-        a22 += other.a22;
-        a01 += other.a01;
-        a02 += other.a02;
-        a12 += other.a12;
+        diagonal_c += other.diagonal_c;
+        mixed += other.mixed;
         b += other.b;
-        c += other.c;
     }
 
-    Float3 timesA(Float3 x) const
+    Lanes timesA(Float3 x) const
     {
-        return {a00 * x.x + a01 * x.y + a02 * x.z, a01 * x.x + a11 * x.y + a12 * x.z,
-                a02 * x.x + a12 * x.y + a22 * x.z};
+        // a00 x + a01 y + a02 z, a01 x + a11 y + a12 z, a02 x + a12 y + a22 z
+        const Lanes xyz{x.x, x.y, x.z, 0};
+        const Lanes of_y = __builtin_shufflevector(xyz, xyz, 1, 0, 0, 3);
+        const Lanes of_z = __builtin_shufflevector(xyz, xyz, 2, 2, 1, 3);
+        return diagonal_c * xyz + __builtin_shufflevector(mixed, mixed, 0, 0, 1, 3) * of_y +
+               __builtin_shufflevector(mixed, mixed, 1, 2, 2, 3) * of_z;
     }
 
-    float at(Float3 x) const { return dot(x, timesA(x)) + 2 * dot(b, x) + c; }
+    float at(Float3 x) const
+    {
+        const Lanes xyz{x.x, x.y, x.z, 0};
+        return sumOfLanes(xyz * (timesA(x) + b + b)) + diagonal_c[3];
+    }
+
+    /// At four offsets.
+    Lanes at(LaneVector x) const
+    {
+        const auto all = [](float value) { return allLanes(value); };
+        const Lanes twice{2, 2, 2, 2};
+        const Lanes of_x =
+            all(diagonal_c[0]) * x.x + twice * (all(mixed[0]) * x.y + all(mixed[1]) * x.z + all(b[0]));
+        const Lanes of_y = all(diagonal_c[1]) * x.y + twice * (all(mixed[2]) * x.z + all(b[1]));
+        const Lanes of_z = all(diagonal_c[2]) * x.z + twice * all(b[2]);
+        return x.x * of_x + x.y * of_y + x.z * of_z + all(diagonal_c[3]);
+    }
 
     /// Add `other` when its vertex moves by `t` to this one.
     void addMoved(const PositionQuadric& other, Float3 t)
     {
-        c += other.at(t);
+        const float c = other.at(t);
         b += other.b + other.timesA(t);
-        a00 += other.a00;
-        a11 += other.a11;
-        a22 += other.a22;
-        a01 += other.a01;
-        a02 += other.a02;
-        a12 += other.a12;
+        diagonal_c += Lanes{other.diagonal_c[0], other.diagonal_c[1], other.diagonal_c[2], c};
+        mixed += other.mixed;
+    }
+};
+
+/// The A of several planes, lane by lane.
+struct PlaneSums
+{
+    Lanes a00{}, a11{}, a22{}, a01{}, a02{}, a12{};
+
+    void add(LaneVector normal, LaneVector weighted)
+    {
+        a00 += normal.x * weighted.x;
+        a11 += normal.y * weighted.y;
+        a22 += normal.z * weighted.z;
+        a01 += normal.x * weighted.y;
+        a02 += normal.x * weighted.z;
+        a12 += normal.y * weighted.z;
+    }
+
+    void addTo(PositionQuadric& quadric) const
+    {
+        const std::array<Lanes, kLanes> diagonal = transposed({a00, a11, a22, Lanes{}});
+        const std::array<Lanes, kLanes> mixed = transposed({a01, a02, a12, Lanes{}});
+        quadric.diagonal_c += (diagonal[0] + diagonal[1]) + (diagonal[2] + diagonal[3]);
+        quadric.mixed += (mixed[0] + mixed[1]) + (mixed[2] + mixed[3]);
     }
 };
 
@@ -95,6 +129,33 @@ struct Quadrics
         {
             const Lanes delta = to[r] - from[r];
             error += delta * (weight * delta - 2 * (dot(g[r].gradient, t) + g[r].offset));
+        }
+        return error;
+    }
+
+    /// Errors of collapses from a position with one wedge to four ends.
+    /// t  how far away they are
+    Lanes errorsOfFour(const GroupMesh& group, uint32_t position_from, uint32_t wedge,
+                       const std::array<uint32_t, kLanes>& to, LaneVector t) const
+    {
+        Lanes error = position[position_from].at(t);
+        const Lanes weight = allLanes(wedge_weight[wedge]);
+        const Lanes* from = group.attributesOf(wedge);
+        const AttributeGradients* g = gradients.data() + size_t{wedge} * group.attribute_rows;
+        for (uint32_t r = 0, left = group.attribute_count; r < group.attribute_rows; ++r)
+        {
+            const std::array<Lanes, kLanes> of_ends =
+                transposed({group.attributesOf(to[0])[r], group.attributesOf(to[1])[r],
+                            group.attributesOf(to[2])[r], group.attributesOf(to[3])[r]});
+            const uint32_t count = std::min(left, uint32_t{kLanes});
+            left -= count;
+            for (uint32_t i = 0; i < count; ++i)
+            {
+                const Lanes delta = of_ends[i] - allLanes(from[r][i]);
+                const Lanes change = allLanes(g[r].gradient.x[i]) * t.x + allLanes(g[r].gradient.y[i]) * t.y +
+                                     allLanes(g[r].gradient.z[i]) * t.z + allLanes(g[r].offset[i]);
+                error += delta * (weight * delta - (change + change));
+            }
         }
         return error;
     }

@@ -8,6 +8,7 @@
 #include "cook/clusters/islands.h"
 #include "cook/clusters/simplify.h"
 #include "cook/clusters/split.h"
+#include "cook/clusters/surface_fit.h"
 
 #include <algorithm>
 #include <utility>
@@ -109,8 +110,9 @@ Reduced reduceGroup(const PreparedMesh& mesh, const ClusterStore& store, std::sp
     reduced.permissive = simplified.permissive;
     reduced.pruned = simplified.pruned;
     reduced.merged = simplified.merged;
-    const Surface after(positionsOfCorners(group, simplified.corners), simplified.placement.places);
-    const SurfacePoints points = findPoints(group, simplified, after);
+    Surface after(positionsOfCorners(group, simplified.corners), simplified.placement.places);
+    SurfacePoints points = findPoints(group, simplified, after);
+    fitToGroup(group, simplified, after, points);
     Deviation deviation = boundDeviation(group, simplified, after, points.of_position);
     reduced.loose_pieces = deviation.loose_pieces;
     for (float& error : deviation.errors)

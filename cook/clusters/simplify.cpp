@@ -58,6 +58,7 @@ public:
           quadrics_(initialQuadrics(group)),
           version_(group.positions.size(), 0),
           best_target_(group.positions.size(), kNoPosition),
+          outdated_(group.positions.size(), 0),
           target_(group.positions.size()),
           edges_held_(group.positions.size(), 0),
           wedge_blocked_(group.positions.size(), 0),
@@ -109,7 +110,7 @@ private:
     bool turnsOver(uint32_t from, uint32_t to);
     bool valid(uint32_t from, uint32_t to) { return mesh_.linkHolds(from, to) && !turnsOver(from, to); }
     void step();
-    void evaluateAround(uint32_t removed, uint32_t center);
+    void noteAround(uint32_t center);
 
     const GroupMesh& group_;
     StarMesh mesh_;
@@ -117,6 +118,7 @@ private:
     Quadrics quadrics_;
     std::vector<uint32_t> version_;      ///< heap entries with another version are stale
     std::vector<uint32_t> best_target_;  ///< of the entry in the heap, or kNoPosition
+    std::vector<uint8_t> outdated_;      ///< 1 where the cost in the heap is that of before a collapse
     std::vector<uint32_t> target_;       ///< of removed positions, the next one
     std::vector<uint8_t> edges_held_;    ///< 1 where holdEdges was
     std::vector<uint8_t> wedge_blocked_; ///< 1 where wedges without a way ruled out a collapse
@@ -177,16 +179,24 @@ void Collapser::forEachOfFan(uint32_t position, Visit visit) const
     if (mesh_.degree(position) <= 2)
         return;
     const Float3 place = group_.positions[position];
-    const PositionQuadric& quadric = quadrics_.position[position];
-    for (const FanEnd end : mesh_.fan())
+    const auto fan = mesh_.fan();
+    for (size_t first = 0; first < fan.size(); first += kLanes)
     {
-        if (mesh_.degree(end.position) <= 2)
-            continue;
-        const Float3 t = group_.positions[end.position] - place;
-        const Lanes of_attributes =
-            quadrics_.attributeError(group_, {mesh_.fanWedge(), end.wedge}, allLanes(t));
-        const float cost = std::max(quadric.at(t) + sumOfLanes(of_attributes), 0.0f);
-        visit(Candidate{cost, end.position, true});
+        // behind the last, that again
+        const auto end = [&](size_t i) { return fan[std::min(first + i, fan.size() - 1)]; };
+        const std::array<FanEnd, kLanes> ends{end(0), end(1), end(2), end(3)};
+        const auto to = [&](size_t i) { return group_.positions[ends[i].position] - place; };
+        const std::array<Float3, kLanes> t{to(0), to(1), to(2), to(3)};
+        const LaneVector t_lanes{{t[0].x, t[1].x, t[2].x, t[3].x},
+                                 {t[0].y, t[1].y, t[2].y, t[3].y},
+                                 {t[0].z, t[1].z, t[2].z, t[3].z}};
+        const Lanes costs = maximum(
+            quadrics_.errorsOfFour(group_, position, mesh_.fanWedge(),
+                                   {ends[0].wedge, ends[1].wedge, ends[2].wedge, ends[3].wedge}, t_lanes),
+            Lanes{});
+        for (size_t i = 0; i < std::min(kLanes, fan.size() - first); ++i)
+            if (mesh_.degree(ends[i].position) > 2)
+                visit(Candidate{costs[i], ends[i].position, true});
     }
 }
 
@@ -265,6 +275,7 @@ std::optional<Candidate> Collapser::nextCandidate(uint32_t position)
 void Collapser::evaluateGathered(uint32_t position)
 {
     ++version_[position];
+    outdated_[position] = 0;
     best_target_[position] = kNoPosition;
     if (mesh_.plain())
     {
@@ -285,6 +296,7 @@ void Collapser::evaluateGathered(uint32_t position)
 void Collapser::evaluateValid(uint32_t position, float popped_cost)
 {
     ++version_[position];
+    outdated_[position] = 0;
     best_target_[position] = kNoPosition;
     gatherCandidates(position, false);
     while (auto candidate = nextCandidate(position))
@@ -310,24 +322,25 @@ bool Collapser::turnsOver(uint32_t from, uint32_t to)
     return false;
 }
 
-/// After `removed` went to `center`: new collapses for the center, for those that wanted to go to `removed`, and for
-/// those that had none.
-void Collapser::evaluateAround(uint32_t removed, uint32_t center)
+/// After a collapse to `center`. Its own cost has risen, most likely, and is asked for again when it comes out of the
+/// heap, like that of those that wanted to go where nothing is any more. Those that had nowhere to go may have now.
+void Collapser::noteAround(uint32_t center)
 {
-    gather(center);
+    outdated_[center] = 1;
     around_.clear();
     const auto note = [&](uint32_t position)
     {
-        if (group_.locked[position] == 0 &&
-            (best_target_[position] == removed || best_target_[position] == kNoPosition))
+        if (best_target_[position] == kNoPosition && group_.locked[position] == 0)
             around_.push_back(position);
     };
-    for (const FanEnd& end : mesh_.fan())
-        note(end.position);
-    for (const Spoke& spoke : mesh_.ring())
-        note(spoke.position);
-    if (group_.locked[center] == 0)
-        evaluateGathered(center);
+    note(center);
+    for (const Corner corner : mesh_.star(center))
+    {
+        note(mesh_.positionAt(nextCorner(corner)));
+        note(mesh_.positionAt(previousCorner(corner)));
+    }
+    std::sort(around_.begin(), around_.end());
+    around_.erase(std::unique(around_.begin(), around_.end()), around_.end());
     for (const uint32_t position : around_)
         evaluate(position);
 }
@@ -340,6 +353,11 @@ void Collapser::step()
     if (entry.version != version_[entry.position])
         return;
     gather(entry.position);
+    if (outdated_[entry.position] != 0 || mesh_.degree(entry.target) == 0)
+    {
+        evaluateGathered(entry.position);
+        return;
+    }
     if (!wedges_.mapTo(entry.position, entry.target) || !valid(entry.position, entry.target))
     {
         evaluateValid(entry.position, entry.cost);
@@ -352,7 +370,7 @@ void Collapser::step()
     target_[entry.position] = entry.target;
     grown_[entry.target] = 1;
     ++version_[entry.position];
-    evaluateAround(entry.position, entry.target);
+    noteAround(entry.target);
 }
 
 bool Collapser::pruneIslands(size_t target_triangles)

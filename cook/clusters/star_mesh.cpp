@@ -64,14 +64,14 @@ std::span<const Corner> StarMesh::star(uint32_t position)
 
 void StarMesh::clearGathered()
 {
-    mark_value_ += static_cast<uint32_t>(ring_.size() + fan_.size()) + 1;
+    mark_value_ += static_cast<uint32_t>(ring_.size()) + fan_size_ + 1;
     if (mark_value_ > std::numeric_limits<uint32_t>::max() / 2)
     {
         std::fill(mark_.begin(), mark_.end(), 0u);
         mark_value_ = 1;
     }
     ring_.clear();
-    fan_.clear();
+    fan_size_ = 0;
 }
 
 bool StarMesh::gatherFan(uint32_t center)
@@ -80,19 +80,26 @@ bool StarMesh::gatherFan(uint32_t center)
     const auto corners = star(center);
     if (corners.empty())
         return false;
+    if (fan_.size() < corners.size())
+        fan_.resize(corners.size() * 2);
     fan_wedge_ = wedge_of_corner_[corners.front()];
     // the wedges that triangles run to are those that triangles come from: then the sums of their hashes are equal
     uint64_t difference = 0;
     bool plain = true;
+    FanEnd* end = fan_.data();
+    uint32_t mark = mark_value_;
     for (const Corner corner : corners)
     {
         const Corner next = nextCorner(corner);
-        const FanEnd end{position_of_corner_[next], wedge_of_corner_[next]};
-        plain &= wedge_of_corner_[corner] == fan_wedge_ && !gathered(end.position);
-        difference += hash_of_wedge_[end.wedge] - hash_of_wedge_[wedge_of_corner_[previousCorner(corner)]];
-        mark_[end.position] = mark_value_ + static_cast<uint32_t>(fan_.size());
-        fan_.push_back(end);
+        *end = {position_of_corner_[next], wedge_of_corner_[next]};
+        uint32_t& mark_of_end = mark_[end->position];
+        // marks of other positions are smaller
+        plain &= wedge_of_corner_[corner] == fan_wedge_ && mark_of_end < mark_value_;
+        difference += hash_of_wedge_[end->wedge] - hash_of_wedge_[wedge_of_corner_[previousCorner(corner)]];
+        mark_of_end = mark++;
+        ++end;
     }
+    fan_size_ = static_cast<uint32_t>(corners.size());
     if (plain && difference == 0)
         return true;
     clearGathered();
@@ -130,8 +137,41 @@ void StarMesh::gather(uint32_t center)
         layers_ = std::min(layers_, std::max(spoke.out_count, spoke.in_count));
 }
 
+/// The same around a plain fan: no branch but the last depends on what the stars are like.
+bool StarMesh::linkHoldsInFan(uint32_t from, uint32_t to)
+{
+    const uint32_t size = fan_size_;
+    const auto star_from = star(from);
+    const auto star_to = star(to);
+    // one triangle runs from here to there, and one back
+    uint32_t tip_out = 0, tip_in = 0;
+    for (const Corner corner : star_from)
+    {
+        const uint32_t next = position_of_corner_[nextCorner(corner)];
+        const uint32_t previous = position_of_corner_[previousCorner(corner)];
+        tip_out = next == to ? previous : tip_out;
+        tip_in = previous == to ? next : tip_in;
+    }
+    // the tips are the only common neighbours
+    uint32_t others = 0;
+    for (const Corner corner : star_to)
+        for (const uint32_t p :
+             {position_of_corner_[nextCorner(corner)], position_of_corner_[previousCorner(corner)]})
+            others += static_cast<uint32_t>(mark_[p] >= mark_value_) & static_cast<uint32_t>(p != tip_out) &
+                      static_cast<uint32_t>(p != tip_in);
+    if (others != 0 || star_to.size() <= 2 || size <= 2 || degree(tip_out) <= 1 || degree(tip_in) <= 1)
+        return false;
+    // the third triangle of a fan of three may meet one that is there already
+    return size > 3 ||
+           std::none_of(star_to.begin(), star_to.end(),
+                        [&](Corner corner)
+                        { return has(triangleOf(corner), tip_out) && has(triangleOf(corner), tip_in); });
+}
+
 bool StarMesh::linkHolds(uint32_t from, uint32_t to)
 {
+    if (plain())
+        return linkHoldsInFan(from, to);
     const auto star_from = star(from);
     const auto star_to = star(to);
     uint32_t common = 0;

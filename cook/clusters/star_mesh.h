@@ -76,8 +76,8 @@ public:
     /// Collect the fan of a position, if it is plain: closed, each edge between two triangles that run against each
     /// other, no seam at the position or along its edges. Most are, and this is faster than the ring.
     bool gatherFan(uint32_t center);
-    bool plain() const { return !fan_.empty(); } ///< whether a fan is gathered, not a ring
-    std::span<const FanEnd> fan() const { return fan_; }
+    bool plain() const { return fan_size_ != 0; } ///< whether a fan is gathered, not a ring
+    std::span<const FanEnd> fan() const { return std::span(fan_).first(fan_size_); }
     uint32_t fanWedge() const { return fan_wedge_; }
 
     /// Collect the ring of a position: its neighbours, each once, and the wedges that its triangles use there.
@@ -96,7 +96,7 @@ public:
     const FanEnd* endAt(uint32_t position) const
     {
         const uint32_t place = mark_[position] - mark_value_;
-        return place < fan_.size() ? &fan_[place] : nullptr;
+        return place < fan_size_ ? &fan_[place] : nullptr;
     }
 
     /// How many sheets lie on each other around the gathered position: 1 but for faces that the source has twice.
@@ -118,6 +118,8 @@ public:
     void remove(uint32_t triangle);
 
 private:
+    bool linkHoldsInFan(uint32_t from, uint32_t to);
+
     struct Star
     {
         uint32_t first = 0;
@@ -133,7 +135,7 @@ private:
     void clearGathered();
     bool gathered(uint32_t position) const
     {
-        return mark_[position] - mark_value_ < ring_.size() + fan_.size();
+        return mark_[position] - mark_value_ < ring_.size() + fan_size_;
     }
     bool isTip(uint32_t position) const
     {
@@ -148,7 +150,8 @@ private:
     std::vector<Corner> star_items_;
 
     std::vector<uint64_t> hash_of_wedge_;
-    std::vector<FanEnd> fan_; ///< of the gathered position, or ring_
+    std::vector<FanEnd> fan_; ///< of the gathered position, or ring_; with room for more
+    uint32_t fan_size_ = 0;
     uint32_t fan_wedge_ = 0;
     std::vector<Spoke> ring_;
     std::vector<uint32_t> wedges_;

@@ -65,6 +65,14 @@ struct Surface
     {
     }
 
+    /// The same facets where positions lie elsewhere.
+    void setPlaces(std::span<const Float3> all_places)
+    {
+        places = placesOf(positions, all_places);
+        facets = facetsOf(places);
+        place_of_position.assign(all_places.begin(), all_places.end());
+    }
+
     size_t facetCount() const { return positions.size() / 3; }
     Corners cornersOf(size_t facet) const
     {

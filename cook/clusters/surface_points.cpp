@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/clusters/surface_points.h"
 
-#include "cook/clusters/facet.h"
+#include "cook/clusters/islands.h"
 
 #include <algorithm>
-#include <array>
 #include <limits>
 #include <span>
 #include <utility>
@@ -15,13 +14,11 @@ namespace hearth::clusters
 namespace
 {
 
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
-
 class PointFinder
 {
 public:
     PointFinder(const GroupMesh& group, const Simplified& simplified, const Surface& after)
-        : group_(group), simplified_(simplified), after_(after), facets_(after.facets)
+        : group_(group), simplified_(simplified), after_(after)
     {
         points_.of_position.resize(group.positions.size());
         points_.of_wedge.resize(group.vertex_of_wedge.size());
@@ -30,43 +27,115 @@ public:
     SurfacePoints run()
     {
         findSeams();
-        // wedges by where they went, in chains
-        std::vector<uint32_t> head(group_.positions.size(), kNoWedge);
-        std::vector<uint32_t> behind(points_.of_wedge.size());
-        for (uint32_t wedge = 0; wedge < behind.size(); ++wedge)
+        findGoals();
+        const Chains wedges(goals_.size(), points_.of_wedge.size(),
+                            [&](uint32_t wedge) { return goals_[group_.position_of_wedge[wedge]]; });
+        if (!simplified_.pruned && !simplified_.merged)
+            points_.of_middle.resize(group_.triangleCount());
+        if (!points_.of_middle.empty())
+            for (uint32_t t = 0; t < simplified_.triangleCount(); ++t)
+                takeOwnFacet(simplified_.source_triangle[t], t);
+        const Chains triangles(goals_.size(), points_.of_middle.size(),
+                               [&](uint32_t triangle) {
+                                   return points_.of_middle[triangle].facet != kNoFacet ? kNone
+                                                                                        : firstGoal(triangle);
+                               });
+        for (uint32_t goal = 0; goal < goals_.size(); ++goal)
         {
-            const uint32_t position = group_.position_of_wedge[wedge];
-            const uint32_t target = simplified_.target_of_position[position];
-            if (target != kPruned && (position != target || simplified_.placement.remade[target] != 0))
-                behind[wedge] = std::exchange(head[target], wedge);
-        }
-        for (uint32_t target = 0; target < head.size(); ++target)
-        {
-            if (head[target] == kNoWedge || after_.facets_at.of(target).empty())
+            if ((wedges.isEmpty(goal) && triangles.isEmpty(goal)) || after_.facets_at.of(goal).empty())
                 continue;
-            load(after_.facets_at.of(target));
-            for (uint32_t wedge = head[target]; wedge != kNoWedge; wedge = behind[wedge])
-                locate(wedge, on_seam_[target] != 0);
+            fan_.load(after_.facets, after_.facets_at.of(goal));
+            wedges.forEach(goal, [&](uint32_t wedge) { locate(wedge, points_.on_seam[goal] != 0); });
+            triangles.forEach(goal, [&](uint32_t triangle)
+                              { points_.of_middle[triangle] = fan_.nearest(middleOf(triangle)); });
         }
         return std::move(points_);
     }
 
 private:
-    static constexpr uint32_t kNoWedge = 0xFFFFFFFFu;
+    static constexpr uint32_t kNone = 0xFFFFFFFFu;
+
+    /// Items by a key, in chains.
+    class Chains
+    {
+    public:
+        /// keyOf(item) is kNone for those that are in no chain
+        template <typename KeyOf>
+        Chains(size_t key_count, size_t item_count, KeyOf keyOf)
+            : head_(key_count, kNone), behind_(item_count)
+        {
+            for (uint32_t item = 0; item < item_count; ++item)
+                if (const uint32_t key = keyOf(item); key != kNone)
+                    behind_[item] = std::exchange(head_[key], item);
+        }
+
+        bool isEmpty(uint32_t key) const { return head_[key] == kNone; }
+
+        template <typename Visit>
+        void forEach(uint32_t key, Visit visit) const
+        {
+            for (uint32_t item = head_[key]; item != kNone; item = behind_[item])
+                visit(item);
+        }
+
+    private:
+        std::vector<uint32_t> head_;
+        std::vector<uint32_t> behind_;
+    };
+
+    void findGoals()
+    {
+        goals_.resize(group_.positions.size());
+        for (uint32_t position = 0; position < goals_.size(); ++position)
+        {
+            const uint32_t target = simplified_.target_of_position[position];
+            const bool changed =
+                target != kPruned && (position != target || simplified_.placement.remade[target] != 0);
+            goals_[position] = changed ? target : kNone;
+        }
+    }
+
+    uint32_t firstGoal(uint32_t triangle) const
+    {
+        const uint32_t* wedges = &group_.corners[size_t{triangle} * 3];
+        const uint32_t goal0 = goals_[group_.position_of_wedge[wedges[0]]];
+        const uint32_t goal1 = goals_[group_.position_of_wedge[wedges[1]]];
+        return goal0 != kNone ? goal0 : goal1 != kNone ? goal1 : goals_[group_.position_of_wedge[wedges[2]]];
+    }
+
+    /// Most middles of triangles that are left lie above what they have become.
+    void takeOwnFacet(uint32_t triangle, uint32_t number)
+    {
+        const Facet& facet = after_.facets[number];
+        const Float3 away = middleOf(triangle) - facet.a;
+        const float ab_ap = dot(facet.ab, away), ac_ap = dot(facet.ac, away);
+        const float v = (facet.ac_ac * ab_ap - facet.ab_ac * ac_ap) * facet.inverse_det;
+        const float w = (facet.ab_ab * ac_ap - facet.ab_ac * ab_ap) * facet.inverse_det;
+        if (v > 0 && w > 0 && v + w < 1)
+            points_.of_middle[triangle] = {number, v, w, 0};
+    }
+
+    Float3 middleOf(uint32_t triangle) const
+    {
+        const size_t corner = size_t{triangle} * 3;
+        return triangleCenter(group_.positions[group_.positionAt(corner)],
+                              group_.positions[group_.positionAt(corner + 1)],
+                              group_.positions[group_.positionAt(corner + 2)]);
+    }
 
     void findSeams()
     {
-        on_seam_.assign(group_.positions.size(), 0);
+        points_.on_seam.assign(group_.positions.size(), 0);
         if (group_.positions.size() == group_.vertex_of_wedge.size())
             return;
-        std::vector<uint32_t> wedge_at(group_.positions.size(), kNoWedge);
+        std::vector<uint32_t> wedge_at(group_.positions.size(), kNone);
         for (const uint32_t wedge : simplified_.corners)
         {
             uint32_t& first = wedge_at[group_.position_of_wedge[wedge]];
-            if (first == kNoWedge)
+            if (first == kNone)
                 first = wedge;
             else if (first != wedge)
-                on_seam_[group_.position_of_wedge[wedge]] = 1;
+                points_.on_seam[group_.position_of_wedge[wedge]] = 1;
         }
     }
 
@@ -74,69 +143,28 @@ private:
     {
         FacetPoint& nearest = points_.of_position[group_.position_of_wedge[wedge]];
         if (nearest.facet == kNoFacet)
-            nearest = nearestPoint(group_.positions[group_.position_of_wedge[wedge]]);
+            nearest = fan_.nearest(group_.positions[group_.position_of_wedge[wedge]]);
         // inside a chart all of the fan goes on from facet to facet
         points_.of_wedge[wedge] = on_seam ? likeliestPoint(wedge) : nearest;
-    }
-
-    /// Four facets of the fan in a block; behind the last, that again.
-    void load(std::span<const uint32_t> fan)
-    {
-        fan_ = fan;
-        blocks_.clear();
-        for (size_t first = 0; first < fan.size(); first += kLanes)
-        {
-            std::array<const Facet*, kLanes> block;
-            for (size_t i = 0; i < kLanes; ++i)
-                block[i] = &facets_[fan[std::min(first + i, fan.size() - 1)]];
-            blocks_.push_back(makeBlock(block));
-        }
-    }
-
-    FacetPoint nearestPoint(Float3 place) const
-    {
-        Lanes least = allLanes(kInfinity);
-        Lanes v{}, w{};
-        LaneMask blocks{};
-        for (size_t block = 0; block < blocks_.size(); ++block)
-        {
-            const FacetBlock::Nearest nearest = blocks_[block].nearest(place);
-            const LaneMask nearer = nearest.distance2 < least;
-            least = nearer ? nearest.distance2 : least;
-            v = nearer ? nearest.v : v;
-            w = nearer ? nearest.w : w;
-            blocks = nearer ? LaneMask{} + static_cast<int32_t>(block) : blocks;
-        }
-        size_t lane = 0;
-        for (size_t i = 1; i < kLanes; ++i)
-            if (least[i] < least[lane])
-                lane = i;
-        const size_t found = static_cast<size_t>(blocks[lane]) * kLanes + lane;
-        return {fan_[std::min(found, fan_.size() - 1)], v[lane], w[lane], least[lane]};
     }
 
     /// The nearest point on each of the facets, and of these the nearest one with regard to the attributes as well: at a
     /// seam, that is on the wedge's own side.
     FacetPoint likeliestPoint(uint32_t wedge) const
     {
-        const Float3 place = group_.positions[group_.position_of_wedge[wedge]];
-        FacetPoint best{fan_.front()};
-        float least = kInfinity;
-        for (size_t block = 0; block < blocks_.size(); ++block)
-        {
-            const FacetBlock::Nearest nearest = blocks_[block].nearest(place);
-            for (size_t i = 0; i < std::min(kLanes, fan_.size() - block * kLanes); ++i)
-            {
-                const FacetPoint point{fan_[block * kLanes + i], nearest.v[i], nearest.w[i],
-                                       nearest.distance2[i]};
-                const float cost = point.distance2 + attributeDistance2(wedge, point);
-                if (cost < least)
-                {
-                    least = cost;
-                    best = point;
-                }
-            }
-        }
+        FacetPoint best;
+        float least = std::numeric_limits<float>::infinity();
+        fan_.forEachNearest(group_.positions[group_.position_of_wedge[wedge]],
+                            [&](const FacetPoint& point)
+                            {
+                                const float cost = point.distance2 + attributeDistance2(wedge, point);
+                                // the first stands for those whose distances are no numbers
+                                if (cost < least || best.facet == kNoFacet)
+                                {
+                                    least = std::min(least, cost);
+                                    best = point;
+                                }
+                            });
         return best;
     }
 
@@ -160,13 +188,9 @@ private:
     const GroupMesh& group_;
     const Simplified& simplified_;
     const Surface& after_;
-    std::span<const Facet> facets_;
     SurfacePoints points_;
-    std::vector<uint8_t> on_seam_; ///< for each position: several wedges are left at it
-
-    // around one position
-    std::span<const uint32_t> fan_;
-    std::vector<FacetBlock> blocks_;
+    std::vector<uint32_t> goals_; ///< for each position that went or moved, where it went; others: kNone
+    FacetFan fan_;                ///< around one position
 };
 
 } // namespace

@@ -20,6 +20,9 @@ HEARTH_CONSTANT float kConeMargin = 1e-3f;
 /// How far the checker lets an apex stand in front of a plane: formats::kApexSlack.
 HEARTH_CONSTANT float kApexMargin = 1e-4f;
 
+/// Page requests tell errors apart down to this one, in pixels: a threshold may be 0 or negative.
+HEARTH_CONSTANT float kLeastRequestThreshold = 0.015625f;
+
 /// Errors above are infinite: the group is a root, nothing coarser exists.
 HEARTH_CONSTANT float kLargestError = 1e38f;
 
@@ -109,32 +112,57 @@ HEARTH_FUNCTION float lodFactor(HEARTH_IN(FrameView) view, float distance)
     return factor;
 }
 
+/// An error on the screen, E = pixels_m / distance, without the division.
+struct ScreenError
+{
+    float pixels_m; ///< pixels times metres
+    float distance; ///< metres
+};
+
+///     E = scale * error * lod_scale * lodFactor(d) / d,  d = max(|center - eye| - scale * radius, z_near)
+HEARTH_FUNCTION ScreenError screenError(HEARTH_IN(FrameView) view, HEARTH_IN(Instance) instance,
+                                        Float3 sphere_center, float sphere_radius, float error)
+{
+    HEARTH_PRECISE Float3 relative = relativePoint(instance, view.eye, sphere_center);
+    HEARTH_PRECISE float distance =
+        max(sqrt(dot3(relative, relative)) - instance.scale_max * sphere_radius, view.z_near);
+    HEARTH_PRECISE float pixels_m =
+        ((instance.scale_max * error) * view.lod_scale) * lodFactor(view, distance);
+    ScreenError result;
+    result.pixels_m = pixels_m;
+    result.distance = distance;
+    return result;
+}
+
 /// True where the error of a group, projected to the screen, is above the threshold. Both sides of every seam call
 /// this with the same bits, so a group is replaced as a whole or not at all.
-///     E = scale * error * lod_scale * lodFactor(d) / d > threshold,  d = max(|center - eye| - scale * radius, z_near),
-/// without the division
 HEARTH_FUNCTION bool errorExceeds(HEARTH_IN(FrameView) view, HEARTH_IN(Instance) instance,
                                   Float3 sphere_center, float sphere_radius, float error)
 {
     if (error > kLargestError)
         return true;
-    HEARTH_PRECISE Float3 relative = relativePoint(instance, view.eye, sphere_center);
-    HEARTH_PRECISE float distance =
-        max(sqrt(dot3(relative, relative)) - instance.scale_max * sphere_radius, view.z_near);
-    HEARTH_PRECISE float error_pixels_m =
-        ((instance.scale_max * error) * view.lod_scale) * lodFactor(view, distance);
-    HEARTH_PRECISE float allowed_pixels_m = view.threshold * distance;
-    return error_pixels_m > allowed_pixels_m;
+    ScreenError on_screen = screenError(view, instance, sphere_center, sphere_radius, error);
+    HEARTH_PRECISE float allowed_pixels_m = view.threshold * on_screen.distance;
+    return on_screen.pixels_m > allowed_pixels_m;
+}
+
+/// True where what a group was made into is too coarse, and the group is there to be drawn instead. An absent group
+/// counts as one without error: errors still never decrease towards the root where the resident pages are closed
+/// (pack::PageGraph), so that the cut draws each surface once.
+HEARTH_FUNCTION bool groupRefines(HEARTH_IN(FrameView) view, HEARTH_IN(Instance) instance,
+                                  HEARTH_IN(Group) group)
+{
+    return group.absent == 0u &&
+           errorExceeds(view, instance, group.sphere_center, group.sphere_radius, group.error);
 }
 
 /// The cut rule of formats::GroupRecord. `refined` is not looked at unless `has_refined`.
 HEARTH_FUNCTION bool clusterInCut(HEARTH_IN(FrameView) view, HEARTH_IN(Instance) instance,
                                   HEARTH_IN(Group) own, bool has_refined, HEARTH_IN(Group) refined)
 {
-    if (has_refined &&
-        errorExceeds(view, instance, refined.sphere_center, refined.sphere_radius, refined.error))
+    if (has_refined && groupRefines(view, instance, refined))
         return false;
-    return errorExceeds(view, instance, own.sphere_center, own.sphere_radius, own.error);
+    return groupRefines(view, instance, own);
 }
 
 HEARTH_FUNCTION Float3 clusterBoxMin(HEARTH_IN(Cluster) cluster, float grid_step)
@@ -232,6 +260,34 @@ HEARTH_FUNCTION InstanceState decideInstance(HEARTH_IN(FrameView) view, HEARTH_I
     return state;
 }
 
+/// How much the page of a group is wanted, resident or not: 0 where what the group was made into is good enough, else
+/// the more, the larger its error is beside the threshold. The bits of both as floats are subtracted: about
+/// 2^23 log2(E / threshold), without a division. Roots, which are always there, are not asked for.
+HEARTH_FUNCTION uint groupRequest(HEARTH_IN(FrameView) view, HEARTH_IN(Instance) instance,
+                                  HEARTH_IN(Group) group)
+{
+    if (group.error > kLargestError)
+        return 0u;
+    ScreenError on_screen =
+        screenError(view, instance, group.sphere_center, group.sphere_radius, group.error);
+    HEARTH_PRECISE float allowed_pixels_m = view.threshold * on_screen.distance;
+    if (!(on_screen.pixels_m > allowed_pixels_m))
+        return 0u;
+    HEARTH_PRECISE float least_pixels_m = max(view.threshold, kLeastRequestThreshold) * on_screen.distance;
+    uint error_bits = floatBits(on_screen.pixels_m);
+    uint least_bits = floatBits(least_pixels_m);
+    return error_bits > least_bits ? error_bits - least_bits : 1u;
+}
+
+/// Whether the frustum test leaves a cluster to be drawn.
+HEARTH_FUNCTION bool clusterInFrustum(HEARTH_IN(FrameView) view, HEARTH_IN(Instance) instance,
+                                      HEARTH_IN(InstanceState) state, HEARTH_IN(Cluster) cluster)
+{
+    return (view.flags & kCullFrustum) == 0u ||
+           !boxOutsideFrustum(view, instance, clusterBoxMin(cluster, state.grid_step),
+                              clusterBoxMax(cluster, state.grid_step));
+}
+
 /// The cluster pass: whether a cluster of an instance that is looked at is drawn, if nothing hides it.
 HEARTH_FUNCTION bool decideCluster(HEARTH_IN(FrameView) view, HEARTH_IN(Instance) instance,
                                    HEARTH_IN(InstanceState) state, HEARTH_IN(Cluster) cluster,
@@ -241,9 +297,7 @@ HEARTH_FUNCTION bool decideCluster(HEARTH_IN(FrameView) view, HEARTH_IN(Instance
         return false;
     if (!clusterInCut(view, instance, own, cluster.refined_group != kNoGroup, refined))
         return false;
-    if ((view.flags & kCullFrustum) != 0u &&
-        boxOutsideFrustum(view, instance, clusterBoxMin(cluster, state.grid_step),
-                          clusterBoxMax(cluster, state.grid_step)))
+    if (!clusterInFrustum(view, instance, state, cluster))
         return false;
     bool test_cone = (view.flags & kCullCone) != 0u && !double_sided && state.cone_valid != 0u;
     return !(test_cone && coneFacesAway(state, cluster));

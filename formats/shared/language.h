@@ -8,6 +8,7 @@
 
 #include "formats/math.h"
 
+#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -35,6 +36,11 @@ inline float min(float a, float b)
 {
     return b < a ? b : a;
 }
+/// The bits of a float: those of positive floats order as their values do.
+inline uint floatBits(float value)
+{
+    return std::bit_cast<uint>(value);
+}
 } // namespace hearth::shared
 
 #else
@@ -46,6 +52,8 @@ inline float min(float a, float b)
 #define HEARTH_CONSTANT const
 // forbids contraction into fused multiply-adds: the C++ side is compiled with -ffp-contract=off
 #define HEARTH_PRECISE precise
+
+#define floatBits floatBitsToUint
 
 #define Float2 vec2
 #define Float3 vec3

@@ -20,7 +20,7 @@ struct Instance
     float scale_max;
 };
 
-/// formats::GroupRecord.
+/// formats::GroupRecord. A pack has 0 in `absent`, so that its table says that everything is resident.
 struct Group
 {
     Float3 sphere_center;
@@ -34,9 +34,9 @@ struct Group
     float position_error;
     float normal_error;
     float uv_error;
+    uint absent; ///< 1: its set is not wholly in the geometry pool, what it was made into stands in for it
     uint reserved0;
     uint reserved1;
-    uint reserved2;
 };
 
 /// formats::ClusterRecord, in words.
@@ -92,6 +92,14 @@ struct WorkItem
     uint first;
     uint count; ///< 1 to kWorkItemClusters
     uint flags; ///< bits kItem*
+};
+
+/// Groups [first, first + count) of the mesh of one instance; one workgroup of the page requests.
+struct GroupItem
+{
+    uint instance;
+    uint first;
+    uint count; ///< 1 to kWorkItemClusters
 };
 
 /// What the cluster pass found in a work item, and after the scan where its clusters go.

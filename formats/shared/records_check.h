@@ -28,6 +28,7 @@ HEARTH_SAME_OFFSET(Group, set_offset, GroupRecord, set_offset);
 HEARTH_SAME_OFFSET(Group, position_error, GroupRecord, position_error);
 HEARTH_SAME_OFFSET(Group, normal_error, GroupRecord, normal_error);
 HEARTH_SAME_OFFSET(Group, uv_error, GroupRecord, uv_error);
+HEARTH_SAME_OFFSET(Group, absent, GroupRecord, reserved);
 
 static_assert(sizeof(hearth::shared::Cluster) == sizeof(hearth::formats::ClusterRecord));
 HEARTH_SAME_OFFSET(Cluster, base_x, ClusterRecord, base);
@@ -51,6 +52,7 @@ static_assert(sizeof(hearth::shared::InstanceState) == 32);
 static_assert(sizeof(hearth::shared::FrameView) == 304);
 static_assert(sizeof(hearth::shared::BinDraw) == 32);
 static_assert(sizeof(hearth::shared::WorkItem) == 16);
+static_assert(sizeof(hearth::shared::GroupItem) == 12);
 static_assert(sizeof(hearth::shared::WorkResult) == 20);
 static_assert(sizeof(hearth::shared::OcclusionView) == 80);
 static_assert(sizeof(hearth::shared::ClusterDraw) == 32);

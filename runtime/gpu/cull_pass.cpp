@@ -85,6 +85,8 @@ void CullPass::recordConstants(const Device& device, VkCommandBuffer commands, c
     const shared::OcclusionView views[] = {targets.pyramidView(), shared::makeOcclusionView(view)};
     device.vk.vkCmdUpdateBuffer(commands, targets.occlusionViews().handle.get(), 0, sizeof(views), views);
     recordMoves(device, commands, scene, moves);
+    if (scene.stream != nullptr)
+        scene.stream->recordChanges(commands, scene.buffers);
     device.vk.vkCmdFillBuffer(commands, scene.buffers.material_draws.handle.get(), 0, VK_WHOLE_SIZE, 0);
     barrier(device, commands, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT,
             VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_VERTEX_SHADER_BIT |

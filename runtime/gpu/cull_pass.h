@@ -19,8 +19,8 @@ public:
     /// The descriptor sets of this pass for a scene.
     Status createSets(const Device& device, Scene& scene) const;
 
-    /// The frame's constants and what moves. Outside a render pass; waits for earlier frames of the scene on the same
-    /// queue.
+    /// The frame's constants, what moves, and what streaming brought. Outside a render pass; waits for earlier frames of
+    /// the scene on the same queue.
     void recordConstants(const Device& device, VkCommandBuffer commands, const Scene& scene,
                          const FrameTargets& targets, const shared::FrameView& view,
                          std::span<const InstanceMove> moves) const;

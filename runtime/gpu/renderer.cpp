@@ -23,6 +23,7 @@ Result<std::unique_ptr<Renderer>> Renderer::create(const DeviceDescription& desc
     HEARTH_ASSIGN_OR_RETURN(r.layouts_, DrawLayouts::create(r.device_));
     HEARTH_ASSIGN_OR_RETURN(r.passes_, FramePasses::create(r.device_));
     HEARTH_ASSIGN_OR_RETURN(r.cull_, CullPass::create(r.device_, r.layouts_));
+    HEARTH_ASSIGN_OR_RETURN(r.page_requests_, PageRequestPass::create(r.device_));
     HEARTH_ASSIGN_OR_RETURN(r.pyramid_, PyramidPass::create(r.device_, r.layouts_));
     HEARTH_ASSIGN_OR_RETURN(r.material_tiles_, MaterialTilesPass::create(r.device_, r.layouts_));
     const VkRenderPass render_pass = r.passes_.whole.get();
@@ -44,6 +45,8 @@ Result<std::unique_ptr<Scene>> Renderer::upload(const formats::PackView& pack, V
                             uploadScene(device_, layouts_, pack, commands, options));
     HEARTH_TRY(cull_.createSets(device_, *scene));
     HEARTH_TRY(material_tiles_.createSet(device_, *scene));
+    if (scene->stream != nullptr)
+        HEARTH_TRY(page_requests_.createSet(device_, *scene));
     for (SceneMaterial& material : scene->materials)
     {
         HEARTH_ASSIGN_OR_RETURN(material.pipelines, shading_.prepare(device_, layouts_, material.variant));
@@ -69,9 +72,13 @@ void Renderer::record(VkCommandBuffer commands, const Scene& scene, FrameTargets
     const auto stamp = [&](FrameTimestamp which)
     { writeTimestamp(device_, commands, input.timestamps, which); };
     stamp(kTimestampBegin);
-    cull_.recordConstants(device_, commands, scene, targets, input.view, input.moves);
+    cull_.recordConstants(device_, commands, scene, targets,
+                          scene.stream == nullptr ? input.view : scene.stream->scaled(input.view),
+                          input.moves);
     const bool in_phases = (input.view.flags & shared::kCullOcclusion) != 0;
     cull_.record(device_, commands, scene, targets, in_phases ? shared::kPhaseEarly : shared::kPhaseWhole);
+    if (scene.stream != nullptr)
+        recordRequests(commands, scene);
     stamp(kTimestampCull);
     if (in_phases)
         recordEarly(commands, scene, targets);
@@ -85,6 +92,22 @@ void Renderer::record(VkCommandBuffer commands, const Scene& scene, FrameTargets
     recordPicture(commands, scene, targets, input, in_phases);
     if (in_phases)
         targets.setPyramidView(shared::makeOcclusionView(input.view));
+}
+
+void Renderer::recordPrefetch(VkCommandBuffer commands, const Scene& scene, const FrameTargets& targets,
+                              const shared::FrameView& view) const
+{
+    HEARTH_ASSERT(scene.stream != nullptr && view.instance_count == scene.instance_count);
+    cull_.recordConstants(device_, commands, scene, targets, scene.stream->scaled(view), {});
+    cull_.record(device_, commands, scene, targets, shared::kPhaseWhole);
+    recordRequests(commands, scene);
+}
+
+/// After the first culling phase.
+void Renderer::recordRequests(VkCommandBuffer commands, const Scene& scene) const
+{
+    page_requests_.record(device_, commands, scene);
+    scene.stream->recordFeedback(commands, scene.buffers);
 }
 
 void Renderer::beginPass(VkCommandBuffer commands, const FrameTargets& targets,

@@ -7,6 +7,7 @@
 #include "runtime/gpu/cull_pass.h"
 #include "runtime/gpu/material_depth_pass.h"
 #include "runtime/gpu/material_tiles_pass.h"
+#include "runtime/gpu/page_request_pass.h"
 #include "runtime/gpu/pyramid_pass.h"
 #include "runtime/gpu/shading_pass.h"
 
@@ -60,12 +61,19 @@ public:
 
     /// Record culling and drawing of one frame, outside a render pass. Clobbers compute and graphics state.
     /// Afterwards targets.visibility() and targets.color() can be copied from. Frames with occlusion culling leave
-    /// their depth pyramid to the next one with these targets, which must be submitted after them.
+    /// their depth pyramid to the next one with these targets, which must be submitted after them. A frame of a streamed
+    /// scene is that which SceneStream::beginFrame began; its threshold is scaled as the stream says.
     void record(VkCommandBuffer commands, const Scene& scene, FrameTargets& targets,
                 const FrameInput& input) const;
 
+    /// The same without drawing: asks for what a frame with this view asks for. For a streamed scene, in place of record.
+    /// Clobbers compute state, and leaves the depth pyramid as it is.
+    void recordPrefetch(VkCommandBuffer commands, const Scene& scene, const FrameTargets& targets,
+                        const shared::FrameView& view) const;
+
 private:
     Renderer() = default;
+    void recordRequests(VkCommandBuffer commands, const Scene& scene) const;
     void recordEarly(VkCommandBuffer commands, const Scene& scene, const FrameTargets& targets) const;
     void recordOverdraw(VkCommandBuffer commands, const Scene& scene, const FrameTargets& targets) const;
     void endAtVisibility(VkCommandBuffer commands) const;
@@ -77,6 +85,7 @@ private:
     DrawLayouts layouts_;
     FramePasses passes_;
     CullPass cull_;
+    PageRequestPass page_requests_;
     PyramidPass pyramid_;
     BinPass visibility_;
     std::optional<BinPass> overdraw_;

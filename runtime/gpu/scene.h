@@ -5,6 +5,7 @@
 
 #include "runtime/gpu/draw_layouts.h"
 #include "runtime/gpu/scene_layout.h"
+#include "runtime/gpu/scene_stream.h"
 #include "runtime/gpu/uploader.h"
 
 #include <array>
@@ -19,17 +20,24 @@ struct SceneOptions
     /// Slots of the visible list, 8 bytes each. A frame that finds more clusters leaves out the last ones and counts
     /// them in FrameCounters::dropped_clusters. 4 Mi slots are half a gigatriangle, far above one for every pixel.
     uint32_t max_visible_clusters = 1u << 22;
+
+    /// Bytes of geometry that are on the device at once; more are streamed as `stream` says (README.md, "Streaming").
+    /// 0: all of it, at most 512 MiB.
+    uint64_t geometry_budget = 0;
+    StreamOptions stream{};
 };
 
 /// The types of the elements are those of formats/shared.
 struct SceneBuffers
 {
     // constant
-    Buffer lighting, materials, instances, inverses, bounds, items, order, clusters, groups, cluster_draws,
-        bins;
+    Buffer lighting, materials, instances, inverses, bounds, items, order, clusters, bins, group_items;
+    // constant but for what is streamed
+    Buffer groups, cluster_draws;
     std::array<Buffer, shared::kPoolSlices> pool;
     // rewritten by every frame
-    Buffer frame, states, results, totals, counters, visible, bin_draws, material_draws, tile_draws;
+    Buffer frame, states, results, totals, counters, visible, bin_draws, material_draws, tile_draws,
+        page_requests;
 };
 
 /// One descriptor set for each pipeline of the culling pass.
@@ -80,12 +88,15 @@ struct Scene
     VkDescriptorSet inspection_set = VK_NULL_HANDLE;
     std::vector<SceneMaterial> materials; ///< the rows of the material table
     CullSets cull_sets{};
-    VkDescriptorSet tile_set = VK_NULL_HANDLE; ///< of the material-tiles pass
+    VkDescriptorSet tile_set = VK_NULL_HANDLE;         ///< of the material-tiles pass
+    VkDescriptorSet page_request_set = VK_NULL_HANDLE; ///< of a streamed scene
 
+    std::unique_ptr<SceneStream> stream; ///< of a streamed scene
     std::vector<SceneBin> bins;
     std::vector<formats::InstanceRecord> instances; ///< as they were loaded
     uint32_t instance_count = 0;
     uint32_t item_count = 0;
+    uint32_t group_item_count = 0; ///< of a streamed scene
     uint32_t slot_capacity = 0;
     uint32_t used_slices = shared::kPoolSlices; ///< 1 where the first holds all geometry
     uint32_t dropped_lights = 0;                ///< lights of the pack beyond shared::kMaxLights
@@ -98,9 +109,10 @@ inline uint32_t blockCount(const Scene& scene)
     return (scene.item_count + shared::kScanBlockItems - 1) / shared::kScanBlockItems;
 }
 
-/// Create and fill everything but what belongs to a pass (cull_sets, tile_set and the materials' pipelines); records copies into `commands`, which the
-/// caller submits and waits for before it resets `staging`. The pack has been checked (pack::Pack).
-/// errors: device_limit, device_failed, those of reading pages and images.
+/// Create and fill everything but what belongs to a pass (descriptor sets and the materials' pipelines); records copies
+/// into `commands`, which the caller submits and waits for before it resets `staging`. The pack has been checked
+/// (pack::Pack); that of a streamed scene outlives it.
+/// errors: device_limit, device_failed, streaming_budget, those of reading pages and images.
 Result<std::unique_ptr<Scene>> uploadScene(const Device& device, const DrawLayouts& layouts,
                                            const formats::PackView& pack, VkCommandBuffer commands,
                                            const SceneOptions& options);

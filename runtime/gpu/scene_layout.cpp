@@ -48,49 +48,6 @@ BinKey keyOfMaterial(const formats::PackView& pack, uint32_t material)
             two_sided ? Facing::doubleSided : Facing::culled};
 }
 
-/// Place the pages one after the other; a page never crosses the border of a slice.
-Status placePages(const formats::PackView& pack, SceneLayout& layout)
-{
-    constexpr uint64_t kSliceWords = uint64_t{1} << shared::kPoolSliceBits;
-    uint64_t at = 0;
-    layout.page_addresses.reserve(pack.pages().size());
-    for (const formats::PageRecord& page : pack.pages())
-    {
-        const uint64_t words = (page.size + 3) / 4;
-        if (at % kSliceWords + words > kSliceWords)
-            at = (at / kSliceWords + 1) * kSliceWords;
-        const uint64_t slice = at / kSliceWords;
-        if (slice >= shared::kPoolSlices)
-            return limitError(pack, "the geometry is larger than the " +
-                                        std::to_string(shared::kPoolSlices * (kSliceWords * 4 >> 20)) +
-                                        " MiB that are drawn without streaming");
-        layout.page_addresses.push_back(static_cast<uint32_t>(at));
-        at += words;
-        layout.slice_words[slice] = static_cast<uint32_t>(at - slice * kSliceWords);
-    }
-    return success();
-}
-
-void makeDraws(const formats::PackView& pack, SceneLayout& layout)
-{
-    layout.draws.reserve(pack.clusters().size());
-    for (const formats::ClusterRecord& cluster : pack.clusters())
-    {
-        const formats::MeshRecord& mesh = pack.meshes()[pack.pages()[cluster.page].mesh];
-        const uint32_t counts = uint32_t{cluster.vertex_count} | uint32_t{cluster.triangle_count} << 9 |
-                                uint32_t{cluster.level} << 17;
-        layout.draws.push_back({.address = layout.page_addresses[cluster.page] + cluster.page_word +
-                                           formats::uvBaseWords(mesh.attributes),
-                                .counts = counts,
-                                .vertex_layout = formats::layoutOf(cluster, mesh.attributes),
-                                .material = 1 + materialRow(pack, cluster.material),
-                                .base_x = cluster.base[0],
-                                .base_y = cluster.base[1],
-                                .base_z = cluster.base[2],
-                                .grid_step = mesh.grid_step});
-    }
-}
-
 /// Append the clusters of a mesh to the order, sorted by key and otherwise as they are.
 std::vector<ClusterRun> orderMesh(const formats::PackView& pack, const formats::MeshRecord& mesh,
                                   std::vector<uint32_t>& order)
@@ -172,14 +129,51 @@ uint32_t materialRow(const formats::PackView& pack, uint32_t material)
     return material == formats::kNone ? static_cast<uint32_t>(pack.materials().size()) : material;
 }
 
+shared::ClusterDraw makeClusterDraw(const formats::PackView& pack, uint32_t cluster, uint32_t page_address)
+{
+    const formats::ClusterRecord& record = pack.clusters()[cluster];
+    const formats::MeshRecord& mesh = pack.meshes()[pack.pages()[record.page].mesh];
+    return {.address = page_address + record.page_word + formats::uvBaseWords(mesh.attributes),
+            .counts = uint32_t{record.vertex_count} | uint32_t{record.triangle_count} << 9 |
+                      uint32_t{record.level} << 17,
+            .vertex_layout = formats::layoutOf(record, mesh.attributes),
+            .material = 1 + materialRow(pack, record.material),
+            .base_x = record.base[0],
+            .base_y = record.base[1],
+            .base_z = record.base[2],
+            .grid_step = mesh.grid_step};
+}
+
+std::vector<shared::GroupItem> makeGroupItems(const formats::PackView& pack)
+{
+    std::vector<shared::GroupItem> items;
+    for (uint32_t i = 0; i < pack.instances().size(); ++i)
+    {
+        const formats::Range groups = pack.meshes()[pack.instances()[i].mesh].groups;
+        for (uint32_t done = 0; done < groups.count; done += shared::kWorkItemClusters)
+            items.push_back({.instance = i,
+                             .first = groups.first + done,
+                             .count = std::min(groups.count - done, shared::kWorkItemClusters)});
+    }
+    return items;
+}
+
 Result<SceneLayout> makeSceneLayout(const formats::PackView& pack)
 {
+    HEARTH_ASSIGN_OR_RETURN(PoolLayout pool, placeAllPages(pack));
+    return makeSceneLayout(pack, std::move(pool));
+}
+
+Result<SceneLayout> makeSceneLayout(const formats::PackView& pack, PoolLayout pool)
+{
     SceneLayout layout;
+    layout.pool = std::move(pool);
     layout.material_rows = static_cast<uint32_t>(pack.materials().size()) + 1;
     if (layout.material_rows > kMaxMaterialRows)
         return limitError(pack, std::to_string(pack.materials().size()) + " materials are more than 65534");
-    HEARTH_TRY(placePages(pack, layout));
-    makeDraws(pack, layout);
+    layout.draws.reserve(pack.clusters().size());
+    for (uint32_t c = 0; c < pack.clusters().size(); ++c)
+        layout.draws.push_back(makeClusterDraw(pack, c, layout.pool.page_addresses[pack.clusters()[c].page]));
     HEARTH_TRY(makeWorkList(pack, layout));
     layout.bounds = shared::makeMeshBounds(pack.meshes(), pack.clusters());
     layout.inverses.reserve(pack.instances().size());

@@ -1,12 +1,12 @@
-// How a pack is arranged for drawing: the work list, the bins, addresses in the geometry pool. Plain data, no Vulkan.
+// How a pack is arranged for drawing: the work lists, the bins, addresses in the geometry pool. Plain data, no Vulkan.
 // Computed once when a scene is loaded; see README.md, "Bins".
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
 #include "formats/pack_view.h"
 #include "formats/shared/frame.h"
+#include "runtime/gpu/pool_layout.h"
 
-#include <array>
 #include <vector>
 
 namespace hearth::gpu
@@ -36,8 +36,7 @@ struct SceneLayout
     std::vector<shared::ClusterDraw> draws;        ///< for each cluster
     std::vector<shared::MeshBounds> bounds;        ///< for each mesh
     std::vector<shared::InstanceInverse> inverses; ///< for each instance
-    std::vector<uint32_t> page_addresses;          ///< for each page, its first word in the geometry pool
-    std::array<uint32_t, shared::kPoolSlices> slice_words{};
+    PoolLayout pool;
     uint64_t instanced_clusters =
         0;                      ///< over all instances, all clusters of the mesh: what a frame draws at most
     uint32_t material_rows = 0; ///< materials of the pack, and the default material behind them
@@ -46,7 +45,17 @@ struct SceneLayout
 /// Row of the material table for a material index of the pack, which may be formats::kNone.
 uint32_t materialRow(const formats::PackView& pack, uint32_t material);
 
+/// What drawing needs of a cluster whose page lies at `page_address` of the geometry pool.
+shared::ClusterDraw makeClusterDraw(const formats::PackView& pack, uint32_t cluster, uint32_t page_address);
+
+/// The groups of every instance, mesh by mesh: what the page requests look at.
+std::vector<shared::GroupItem> makeGroupItems(const formats::PackView& pack);
+
+/// Clusters of pages without a place get an address that means nothing.
 /// errors: device_limit, where the scene is larger than any device of Vulkan 1.1 must be able to take.
+Result<SceneLayout> makeSceneLayout(const formats::PackView& pack, PoolLayout pool);
+
+/// With a place for every page.
 Result<SceneLayout> makeSceneLayout(const formats::PackView& pack);
 
 } // namespace hearth::gpu

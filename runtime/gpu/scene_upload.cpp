@@ -2,8 +2,10 @@
 #include "formats/shared/material_tiles.h"
 #include "runtime/gpu/scene.h"
 #include "runtime/gpu/scene_shading.h"
+#include "runtime/pack/cut.h"
 
 #include <algorithm>
+#include <cstring>
 #include <string>
 
 namespace hearth::gpu
@@ -78,7 +80,7 @@ Status createBuffers(const Device& device, const formats::PackView& pack, const 
     f.make(b.cluster_draws, "clusters", pack.clusters().size(), sizeof(shared::ClusterDraw), kTable);
     f.make(b.bins, "bins", layout.bins.size(), sizeof(shared::Bin), kTable);
     for (uint32_t slice = 0; slice < shared::kPoolSlices; ++slice)
-        f.make(b.pool[slice], "geometry", layout.slice_words[slice], sizeof(uint32_t), kTable);
+        f.make(b.pool[slice], "geometry", layout.pool.slice_words[slice], sizeof(uint32_t), kTable);
     f.make(b.states, "instance states", pack.instances().size(), sizeof(shared::InstanceState), kWork);
     f.make(b.results, "work results", layout.items.size(), sizeof(shared::WorkResult), kWork);
     f.make(b.totals, "scan totals", uint64_t{blockCount(scene)} + 1, sizeof(uint32_t), kWork);
@@ -89,7 +91,28 @@ Status createBuffers(const Device& device, const formats::PackView& pack, const 
            sizeof(VkDrawIndirectCommand), kIndirect);
     f.make(b.tile_draws, "material draws", uint64_t{layout.material_rows} + 1, sizeof(shared::TileDraw),
            kIndirect);
+    if (scene.stream != nullptr)
+    {
+        f.make(b.group_items, "group items", scene.group_item_count, sizeof(shared::GroupItem), kTable);
+        f.make(b.page_requests, "page requests", pack.pages().size(), sizeof(uint32_t),
+               kWork | VK_BUFFER_USAGE_TRANSFER_DST_BIT);
+    }
     return f.take();
+}
+
+/// The groups of the pack; absent are those of pages without a place.
+std::vector<shared::Group> makeGroups(const formats::PackView& pack, const PoolLayout& pool)
+{
+    std::vector<uint8_t> resident_pages;
+    for (const uint32_t address : pool.page_addresses)
+        resident_pages.push_back(address == kNoAddress ? 0 : 1);
+    const std::vector<uint8_t> resident = pack::residentGroups(pack, resident_pages);
+    std::vector<shared::Group> groups(pack.groups().size());
+    if (!groups.empty())
+        std::memcpy(static_cast<void*>(groups.data()), pack.groups().data(), pack.groups().size_bytes());
+    for (size_t group = 0; group < groups.size(); ++group)
+        groups[group].absent = resident[group] == 0 ? 1 : 0;
+    return groups;
 }
 
 Status uploadTables(const formats::PackView& pack, const SceneLayout& layout, Uploader& uploader,
@@ -102,7 +125,7 @@ Status uploadTables(const formats::PackView& pack, const SceneLayout& layout, Up
     HEARTH_TRY(uploader.uploadRecords(b.items, layout.items));
     HEARTH_TRY(uploader.uploadRecords(b.order, layout.order));
     HEARTH_TRY(uploader.uploadRecords(b.clusters, pack.clusters()));
-    HEARTH_TRY(uploader.uploadRecords(b.groups, pack.groups()));
+    HEARTH_TRY(uploader.uploadRecords(b.groups, makeGroups(pack, layout.pool)));
     HEARTH_TRY(uploader.uploadRecords(b.cluster_draws, layout.draws));
     std::vector<shared::Bin> bins;
     for (const SceneBin& bin : layout.bins)
@@ -115,21 +138,23 @@ Status uploadTables(const formats::PackView& pack, const SceneLayout& layout, Up
     return uploader.upload(b.lighting, std::as_bytes(std::span(&lighting, 1)));
 }
 
-/// Decode every page straight into staging memory.
+/// Decode every page that has a place straight into staging memory.
 Status uploadGeometry(const formats::PackView& pack, const SceneLayout& layout, Uploader& uploader,
                       Scene& scene)
 {
     std::array<std::span<std::byte>, shared::kPoolSlices> slices;
     for (uint32_t slice = 0; slice < shared::kPoolSlices; ++slice)
-        if (layout.slice_words[slice] > 0)
+        if (layout.pool.slice_words[slice] > 0)
         {
             HEARTH_ASSIGN_OR_RETURN(
                 slices[slice],
-                uploader.stage(scene.buffers.pool[slice], VkDeviceSize{layout.slice_words[slice]} * 4));
+                uploader.stage(scene.buffers.pool[slice], VkDeviceSize{layout.pool.slice_words[slice]} * 4));
         }
     for (uint32_t page = 0; page < pack.pages().size(); ++page)
     {
-        const uint32_t address = layout.page_addresses[page];
+        const uint32_t address = layout.pool.page_addresses[page];
+        if (address == kNoAddress)
+            continue;
         const size_t offset = size_t{address & ((1u << shared::kPoolSliceBits) - 1)} * 4;
         HEARTH_TRY(pack.decodePage(
             page, slices[address >> shared::kPoolSliceBits].subspan(offset, pack.pages()[page].size)));
@@ -139,10 +164,11 @@ Status uploadGeometry(const formats::PackView& pack, const SceneLayout& layout, 
 
 Status createSets(const Device& device, const DrawLayouts& layouts, Scene& scene, uint32_t material_rows)
 {
-    // three sets for drawing, six of the culling pass and one of the material tiles, with room for what each binds
+    // three sets for drawing, six of the culling pass, those of the material tiles and of the page requests, with room
+    // for what each binds
     const DescriptorPoolSizes sizes{
-        .uniforms = 16 + material_rows, .storages = 64, .textures = material_rows * shared::kTextureCount};
-    HEARTH_ASSIGN_OR_RETURN(scene.pool, createDescriptorPool(device, 10 + material_rows, sizes));
+        .uniforms = 16 + material_rows, .storages = 80, .textures = material_rows * shared::kTextureCount};
+    HEARTH_ASSIGN_OR_RETURN(scene.pool, createDescriptorPool(device, 11 + material_rows, sizes));
     HEARTH_ASSIGN_OR_RETURN(scene.draw_set, allocateSet(device, scene.pool.get(), layouts.scene.get()));
     const SceneBuffers& b = scene.buffers;
     DescriptorWriter writer(scene.draw_set);
@@ -174,20 +200,36 @@ Result<std::unique_ptr<Scene>> uploadScene(const Device& device, const DrawLayou
                                            const formats::PackView& pack, VkCommandBuffer commands,
                                            const SceneOptions& options)
 {
-    HEARTH_ASSIGN_OR_RETURN(SceneLayout layout, makeSceneLayout(pack));
     auto scene = std::make_unique<Scene>(device);
+    PoolLayout pool;
+    if (options.geometry_budget > 0)
+    {
+        const pack::PageGraph graph = pack::PageGraph::of(pack);
+        HEARTH_ASSIGN_OR_RETURN(pool, placePinnedPages(pack, graph, options.geometry_budget));
+        HEARTH_ASSIGN_OR_RETURN(scene->stream,
+                                SceneStream::create(device, pack, graph, pool, options.stream));
+    }
+    else
+    {
+        HEARTH_ASSIGN_OR_RETURN(pool, placeAllPages(pack));
+    }
+    HEARTH_ASSIGN_OR_RETURN(SceneLayout layout, makeSceneLayout(pack, std::move(pool)));
+    const std::vector<shared::GroupItem> group_items =
+        options.geometry_budget > 0 ? makeGroupItems(pack) : std::vector<shared::GroupItem>();
     scene->staging = std::make_unique<Uploader>(device, commands);
     scene->instances.assign(pack.instances().begin(), pack.instances().end());
     scene->instance_count = static_cast<uint32_t>(pack.instances().size());
     scene->item_count = static_cast<uint32_t>(layout.items.size());
+    scene->group_item_count = static_cast<uint32_t>(group_items.size());
     scene->slot_capacity = static_cast<uint32_t>(std::min<uint64_t>(
         layout.instanced_clusters, std::min(options.max_visible_clusters, shared::kMaxSlots)));
-    scene->used_slices = layout.slice_words[1] == 0 ? 1 : shared::kPoolSlices;
+    scene->used_slices = layout.pool.slice_words[1] == 0 ? 1 : shared::kPoolSlices;
     scene->bounds = sceneBounds(pack);
 
     HEARTH_TRY(createBuffers(device, pack, layout, *scene));
     HEARTH_TRY(createSets(device, layouts, *scene, layout.material_rows));
     HEARTH_TRY(uploadTables(pack, layout, *scene->staging, *scene));
+    HEARTH_TRY(scene->staging->uploadRecords(scene->buffers.group_items, group_items));
     HEARTH_TRY(uploadGeometry(pack, layout, *scene->staging, *scene));
     HEARTH_TRY(uploadMaterials(device, layouts, pack, *scene->staging, *scene));
     scene->staging->finish();

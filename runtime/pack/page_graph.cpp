@@ -133,4 +133,16 @@ PageGraph PageGraph::of(const PackView& view)
     return PageGraph(nodes);
 }
 
+PageGraph PageGraph::inSlots(uint32_t slot_bytes) const
+{
+    PageGraph graph = *this;
+    for (uint32_t page = 0; page < pageCount(); ++page)
+        if (!isPinned(page))
+        {
+            HEARTH_ASSERT(sizeBytes(page) <= slot_bytes);
+            graph.sizes_bytes_[page] = slot_bytes;
+        }
+    return graph;
+}
+
 } // namespace hearth::pack

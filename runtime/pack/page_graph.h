@@ -33,6 +33,9 @@ public:
     /// spans several pages, what refines it needs all of them, and they are the companions of its first.
     static PageGraph of(const formats::PackView& view);
 
+    /// The same pages, where each that is not pinned takes a slot of `slot_bytes`, >= its size (asserted).
+    PageGraph inSlots(uint32_t slot_bytes) const;
+
     uint32_t pageCount() const { return static_cast<uint32_t>(sizes_bytes_.size()); }
     uint32_t sizeBytes(uint32_t page) const { return sizes_bytes_[page]; }
     std::span<const uint32_t> needs(uint32_t page) const { return needs_.of(page); }

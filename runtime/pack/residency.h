@@ -92,6 +92,12 @@ public:
         return pages_[page].state == State::resident || pages_[page].state == State::leaving;
     }
 
+    /// Nothing is under way: no load, no page that waits for what it needs, no eviction.
+    bool atRest() const
+    {
+        return loads_in_flight_ == 0 && loaded_.empty() && leaving_.empty() && held_.empty();
+    }
+
     /// What counts against the budget now.
     uint64_t bytesInUse() const { return bytes_in_use_; }
     const PageGraph& graph() const { return graph_; }

@@ -15,6 +15,7 @@ extern const std::span<const uint32_t> scan_totals_comp;
 extern const std::span<const uint32_t> emit_visible_comp;
 extern const std::span<const uint32_t> emit_draws_comp;
 extern const std::span<const uint32_t> cull_statistics_comp;
+extern const std::span<const uint32_t> page_requests_comp;
 extern const std::span<const uint32_t> pyramid_tiles_comp;
 extern const std::span<const uint32_t> pyramid_top_comp;
 extern const std::span<const uint32_t> tile_materials_comp;

@@ -140,6 +140,8 @@ std::string formatReport(const FrameReport& report, const formats::PackView& pac
     add("target_bytes", std::to_string(report.target_bytes));
     if (report.frames.size() > 1)
         add("frames", formatFrames(report.frames));
+    if (!report.streaming.empty())
+        add("streaming", formatStreaming(report.streaming));
     add("milliseconds",
         "{\"frame\":" + number(report.milliseconds[0]) +
             ",\"cull\":" + number(report.milliseconds[gpu::kTimestampCull]) +

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "runtime/viewer/cull_report.h"
+#include "runtime/viewer/stream_report.h"
 #include "runtime/viewer/vulkan_host.h"
 
 #include <array>
@@ -37,7 +38,8 @@ struct FrameReport
     float error_pixels = 0;
     uint64_t scene_bytes = 0, target_bytes = 0;
     uint32_t dropped_lights = 0;
-    std::vector<FrameCounts> frames; ///< at least one
+    std::vector<FrameCounts> frames;     ///< at least one
+    std::vector<StreamCounts> streaming; ///< the same frames; empty where all is resident
     std::array<double, gpu::kTimestampCount>
         milliseconds{}; ///< of the pass that ends with the timestamp; [0] is the frame
 };

@@ -108,10 +108,31 @@ public:
     {
     }
 
+    /// Streams until a frame of this camera has all that it wants.
+    Status prefetch(const shared::Camera& camera)
+    {
+        // 256 frames fill the largest pool, 60 raise the error scale to its most: what takes longer does not rest
+        constexpr uint64_t kMostFrames = 1000;
+        const shared::FrameView view = makeFrame(options_, camera, pack_, targets_.extent()).view;
+        const uint64_t first = serial_ + 1;
+        while (scene_.stream->settledSerial() < first && serial_ < first + kMostFrames)
+        {
+            beginFrame();
+            HEARTH_TRY(host_.run(
+                [&](VkCommandBuffer commands)
+                {
+                    renderer_.recordPrefetch(commands, scene_, targets_, view);
+                    return success();
+                }));
+        }
+        return success();
+    }
+
     Status draw(const shared::Camera& camera, size_t number)
     {
         gpu::FrameInput frame = makeFrame(options_, camera, pack_, targets_.extent());
         frame.timestamps = timestamps_;
+        beginFrame();
         if (options_.pyramid == PyramidStart::none)
             targets_.setPyramidView({});
         if (options_.pyramid == PyramidStart::noise)
@@ -141,6 +162,12 @@ public:
         HEARTH_TRY(writeFile(picture_file, png));
         if (!options_.stats.empty())
             HEARTH_TRY(count(list));
+        if (scene_.stream != nullptr)
+        {
+            HEARTH_ASSIGN_OR_RETURN(const StreamCounts counts,
+                                    countStreaming(host_, renderer_, scene_, serial_));
+            streaming_.push_back(counts);
+        }
         if (visibility_file.empty())
             return success();
         HEARTH_ASSIGN_OR_RETURN(const std::vector<std::byte> pixels,
@@ -157,10 +184,13 @@ public:
                                  .width = targets_.extent().width,
                                  .height = targets_.extent().height,
                                  .error_pixels = options_.error_pixels,
-                                 .scene_bytes = scene_.arena.allocatedBytes(),
+                                 .scene_bytes =
+                                     scene_.arena.allocatedBytes() +
+                                     (scene_.stream == nullptr ? 0 : scene_.stream->allocatedBytes()),
                                  .target_bytes = targets_.allocatedBytes(),
                                  .dropped_lights = scene_.dropped_lights,
                                  .frames = frames_,
+                                 .streaming = streaming_,
                                  .milliseconds = medianPassTimes(times_)};
         const std::string text = formatReport(report, pack_);
         return writeFile(options_.stats, std::as_bytes(std::span(text)));
@@ -198,6 +228,14 @@ private:
         return success();
     }
 
+    /// Each frame is waited for before the next begins.
+    void beginFrame()
+    {
+        if (scene_.stream != nullptr)
+            scene_.stream->beginFrame(serial_ + 1, serial_);
+        ++serial_;
+    }
+
     const RenderOptions& options_;
     const formats::PackView& pack_;
     VulkanHost& host_;
@@ -207,7 +245,22 @@ private:
     VkQueryPool timestamps_;
     std::vector<std::vector<double>> times_;
     std::vector<FrameCounts> frames_; ///< of those that were written
+    std::vector<StreamCounts> streaming_;
+    uint64_t serial_ = 0; ///< of the last frame
 };
+
+/// Reads at once. What cannot be read is told, and drawn coarser.
+pack::PageReader pageReader(const formats::PackView& pack)
+{
+    return [&pack](uint32_t page, std::span<std::byte> destination, pack::ReadDone done)
+    {
+        const Status read = pack.decodePage(page, destination);
+        if (!read.ok())
+            print({Issue::degraded, pack.name(), "page " + std::to_string(page),
+                   "cannot be read, what it refines stays coarse: " + formatMessage(read.error())});
+        done(read.ok());
+    };
+}
 
 Status drawPack(const RenderOptions& options, const formats::PackView& pack, VulkanHost& host)
 {
@@ -220,7 +273,10 @@ Status drawPack(const RenderOptions& options, const formats::PackView& pack, Vul
     HEARTH_TRY(host.run(
         [&](VkCommandBuffer commands) -> Status
         {
-            HEARTH_ASSIGN_OR_RETURN(scene, renderer->upload(pack, commands));
+            HEARTH_ASSIGN_OR_RETURN(
+                scene, renderer->upload(pack, commands,
+                                        {.geometry_budget = options.geometry_budget,
+                                         .stream = {.read = pageReader(pack), .frames_in_flight = 1}}));
             return success();
         }));
     scene->staging.reset();
@@ -230,6 +286,8 @@ Status drawPack(const RenderOptions& options, const formats::PackView& pack, Vul
                             renderer->createTargets({options.width * scale, options.height * scale}));
     HEARTH_ASSIGN_OR_RETURN(const VkQueryPool timestamps, host.createTimestamps(gpu::kTimestampCount));
     Run run(options, pack, host, *renderer, *scene, targets, timestamps);
+    if (scene->stream != nullptr && options.camera_path.empty())
+        HEARTH_TRY(run.prefetch(cameras.front()));
     for (size_t i = 0; i < cameras.size(); ++i)
     {
         HEARTH_TRY(run.draw(cameras[i], i));

@@ -43,6 +43,10 @@ const char* const kRenderHelp =
     "                          stays the same\n"
     "      --samples N         1, or 4 for a smoother picture\n"
     "      --device NAME       part of the name of the graphics device\n"
+    "      --budget BYTES      stream the geometry through so much memory, K, M or G behind the number for "
+    "KiB, MiB, "
+    "GiB;\n"
+    "                          a picture waits for all that it wants, those of a camera path do not\n"
     "      --stats FILE        counts and times of the passes as JSON\n"
     "      --frames N          draw N times; the times are medians\n"
     "      --dump-visibility FILE\n"
@@ -230,6 +234,24 @@ Status parseSamples(std::string_view text, RenderOptions& options)
     return success();
 }
 
+Status parseBudget(std::string_view text, RenderOptions& options)
+{
+    constexpr std::pair<char, uint32_t> kUnits[] = {{'K', 10}, {'M', 20}, {'G', 30}};
+    std::string_view digits = text;
+    uint32_t shift = 0;
+    for (const auto& [unit, bits] : kUnits)
+        if (text.ends_with(unit))
+        {
+            digits.remove_suffix(1);
+            shift = bits;
+        }
+    const auto number = parseNumber<uint64_t>(digits);
+    if (!number || *number == 0 || *number > (uint64_t{1} << 40 >> shift))
+        return usage("--budget: " + quoted(text) + " is not a number of bytes from 1 to 1024G");
+    options.geometry_budget = *number << shift;
+    return success();
+}
+
 Status parseFrames(std::string_view text, RenderOptions& options)
 {
     const auto number = parseNumber<uint32_t>(text);
@@ -268,6 +290,7 @@ constexpr ValueOption kValueOptions[] = {
     {"--stats", parseText<&RenderOptions::stats>},
     {"--frames", parseFrames},
     {"--dump-visibility", parseText<&RenderOptions::visibility>},
+    {"--budget", parseBudget},
     {"--cull", parseCull},
     {"--hzb", parsePyramid},
 };

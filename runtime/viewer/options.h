@@ -40,6 +40,7 @@ struct RenderOptions
     uint32_t samples = 1;
     uint32_t frames = 1;
     uint32_t cull_flags = shared::kCullEverything;
+    uint64_t geometry_budget = 0; ///< bytes; 0: all geometry is resident
     PyramidStart pyramid = PyramidStart::previous;
     uint32_t noise_seed = 0;
     std::string device;

@@ -53,7 +53,7 @@ class TwinMaker
 {
 public:
     TwinMaker(const formats::PackView& pack, const gpu::SceneLayout& layout, const FrameView& view,
-              const Pyramid& last, const Pyramid& current)
+              const Pyramid& last, const Pyramid& current, std::span<const uint8_t> resident_groups)
         : layout_(layout),
           view_(view),
           last_(last),
@@ -62,6 +62,8 @@ public:
           clusters_(recordsAs<Cluster>(pack.clusters())),
           groups_(recordsAs<Group>(pack.groups()))
     {
+        for (size_t group = 0; group < resident_groups.size(); ++group)
+            groups_[group].absent = resident_groups[group] == 0 ? 1 : 0;
     }
 
     Twin run()
@@ -271,9 +273,39 @@ std::vector<float> makePyramid(const std::vector<float>& depth, uint32_t width, 
 }
 
 Twin makeTwin(const formats::PackView& pack, const gpu::SceneLayout& layout, const FrameView& view,
-              const Pyramid& last, const Pyramid& current)
+              const Pyramid& last, const Pyramid& current, std::span<const uint8_t> resident_groups)
 {
-    return TwinMaker(pack, layout, view, last, current).run();
+    return TwinMaker(pack, layout, view, last, current, resident_groups).run();
+}
+
+std::vector<uint32_t> makeRequestTwin(const formats::PackView& pack, const FrameView& view)
+{
+    const auto instances = recordsAs<Instance>(pack.instances());
+    const auto clusters = recordsAs<Cluster>(pack.clusters());
+    const auto groups = recordsAs<Group>(pack.groups());
+    const std::vector<MeshBounds> bounds = makeMeshBounds(pack.meshes(), pack.clusters());
+    std::vector<uint32_t> requests(pack.pages().size(), 0);
+    for (size_t i = 0; i < instances.size(); ++i)
+    {
+        const InstanceState state = decideInstance(
+            view, instances[i], makeInstanceInverse(pack.instances()[i]), bounds[instances[i].mesh]);
+        if (state.visible == kInstanceHidden)
+            continue;
+        const auto ask = [&](uint32_t group)
+        {
+            uint32_t& request = requests[groups[group - groups[group].set_offset].page];
+            request = std::max(request, groupRequest(view, instances[i], groups[group]));
+        };
+        const formats::Range range = pack.meshes()[instances[i].mesh].clusters;
+        for (uint32_t c = range.first; c < range.first + range.count; ++c)
+            if (clusterInFrustum(view, instances[i], state, clusters[c]))
+            {
+                ask(clusters[c].group);
+                if (clusters[c].refined_group != kNoGroup)
+                    ask(clusters[c].refined_group);
+            }
+    }
+    return requests;
 }
 
 } // namespace hearth::test

@@ -36,7 +36,12 @@ struct Twin
 
 /// Without kCullOcclusion in the view's flags the pyramids are not looked at.
 /// last: what the early phase finds;  current: what it leaves to the late one
+/// resident_groups: for each group, not 0 if it is there; empty: all are
 Twin makeTwin(const formats::PackView& pack, const gpu::SceneLayout& layout, const shared::FrameView& view,
-              const Pyramid& last = {}, const Pyramid& current = {});
+              const Pyramid& last = {}, const Pyramid& current = {},
+              std::span<const uint8_t> resident_groups = {});
+
+/// For each page what shared::groupRequest says at most.
+std::vector<uint32_t> makeRequestTwin(const formats::PackView& pack, const shared::FrameView& view);
 
 } // namespace hearth::test

@@ -110,14 +110,14 @@ TEST(SceneLayout, pagesLieApartAndInsideTheirSlices)
     uint32_t end = 0;
     for (size_t page = 0; page < pack.pages().size(); ++page)
     {
-        EXPECT_GE(layout->page_addresses[page], end);
-        end = layout->page_addresses[page] + pack.pages()[page].size / 4;
+        EXPECT_GE(layout->pool.page_addresses[page], end);
+        end = layout->pool.page_addresses[page] + pack.pages()[page].size / 4;
     }
-    EXPECT_EQ(layout->slice_words[0], end);
+    EXPECT_EQ(layout->pool.slice_words[0], end);
     for (size_t c = 0; c < pack.clusters().size(); ++c)
     {
         const ClusterRecord& cluster = pack.clusters()[c];
-        EXPECT_EQ(layout->draws[c].address, layout->page_addresses[cluster.page] + cluster.page_word +
+        EXPECT_EQ(layout->draws[c].address, layout->pool.page_addresses[cluster.page] + cluster.page_word +
                                                 uvBaseWords(pack.meshes()[0].attributes));
         EXPECT_EQ(layout->draws[c].counts,
                   cluster.vertex_count | cluster.triangle_count << 9u | cluster.level << 17u);
@@ -140,6 +140,63 @@ TEST(SceneLayout, E4004_moreGeometryThanThePoolHolds)
     ASSERT_FALSE(layout.ok());
     EXPECT_EQ(layout.error().issue, Issue::device_limit);
     EXPECT_NE(formatMessage(layout.error()).find("512 MiB"), std::string::npos);
+}
+
+TEST(PoolLayout, holdsThePinnedPagesAndSlotsWithinTheBudget)
+{
+    TestScene test;
+    test.addInstance(test.addMesh(withMaterial(shapes::rock(40, 0.3f), kNone)), Affine3{});
+    const PackView pack = test.build();
+    const pack::PageGraph graph = pack::PageGraph::of(pack);
+    const size_t others = graph.pageCount() - graph.pinned().size();
+    ASSERT_GT(others, 3u);
+    for (uint64_t budget = graph.pinnedBytes() + 16; budget < 70000 * others; budget += 12345)
+    {
+        const auto layout = gpu::placePinnedPages(pack, graph, budget);
+        ASSERT_TRUE(layout.ok());
+        EXPECT_LE(layout->bytes(), budget);
+        EXPECT_LE(layout->slot_addresses.size(), others);
+        if (layout->slot_addresses.size() < others)
+        {
+            EXPECT_GT(layout->bytes() + layout->slot_bytes + 16, budget) << "another slot would have fitted";
+        }
+        uint32_t end = 0;
+        for (const uint32_t page : graph.pinned())
+        {
+            EXPECT_EQ(layout->page_addresses[page], end);
+            end += graph.sizeBytes(page) / 4;
+        }
+        for (const uint32_t address : layout->slot_addresses)
+        {
+            EXPECT_EQ(address, end);
+            end += layout->slot_bytes / 4;
+        }
+        for (uint32_t page = 0; page < graph.pageCount(); ++page)
+            EXPECT_EQ(layout->page_addresses[page] == gpu::kNoAddress, !graph.isPinned(page));
+    }
+    const auto refused = gpu::placePinnedPages(pack, graph, graph.pinnedBytes() - 1);
+    ASSERT_FALSE(refused.ok());
+    EXPECT_EQ(refused.error().issue, Issue::streaming_budget);
+}
+
+TEST(PoolLayout, slotsDoNotCrossSlicesAndEndWithThePool)
+{
+    // 20000 pages of 60000 bytes: more than the pool has place for. Only their sizes are looked at
+    TestScene test;
+    test.addInstance(test.addMesh(makeQuad(1, 1)), Affine3{});
+    const PackView pack = test.build();
+    std::vector<pack::PageNode> nodes(
+        20000, {.size_bytes = 60000, .holds_root = false, .needs = {}, .companions = {}});
+    nodes[0].holds_root = true;
+    const pack::PageGraph graph(nodes);
+    const auto layout = gpu::placePinnedPages(pack, graph, uint64_t{1} << 40);
+    ASSERT_TRUE(layout.ok());
+    constexpr uint32_t kSliceWords = 1u << shared::kPoolSliceBits;
+    EXPECT_EQ(layout->slot_bytes, 60032u);
+    EXPECT_EQ(layout->slot_addresses.size(), 4 * (kSliceWords * 4 / 60032) - 1);
+    for (const uint32_t address : layout->slot_addresses)
+        ASSERT_LE(address % kSliceWords + layout->slot_bytes / 4, kSliceWords);
+    EXPECT_LE(layout->slot_addresses.back(), 4 * (kSliceWords - 1));
 }
 
 TEST(InstanceInverse, undoesTheLinearPart)

@@ -52,6 +52,7 @@ TEST(RenderOptions, defaultsFitTheScene)
     EXPECT_FALSE(options->camera.has_value());
     EXPECT_EQ(options->error_pixels, 1);
     EXPECT_EQ(options->cull_flags, shared::kCullEverything);
+    EXPECT_EQ(options->geometry_budget, 0u) << "all is resident";
 }
 
 TEST(RenderOptions, everyOptionIsRead)
@@ -81,6 +82,8 @@ TEST(RenderOptions, everyOptionIsRead)
                                 "noise:7",
                                 "--shaded-area",
                                 "tiles",
+                                "--budget",
+                                "3M",
                                 "--validate",
                                 "-v",
                                 "--output=b.png",
@@ -103,6 +106,7 @@ TEST(RenderOptions, everyOptionIsRead)
     EXPECT_EQ(options->pyramid, PyramidStart::noise);
     EXPECT_EQ(options->noise_seed, 7u);
     EXPECT_EQ(options->shaded_area, gpu::ShadedArea::tiles);
+    EXPECT_EQ(options->geometry_budget, 3u << 20);
     ASSERT_EQ(options->lod_curve.size(), 2u);
     EXPECT_EQ(options->lod_curve[1].distance, 50);
     EXPECT_EQ(options->lod_curve[1].factor, 0.5f);
@@ -151,6 +155,8 @@ TEST(RenderOptions, mistakesAreNamed)
     expectUsage({"a.hearth", "-o", "a.png", "--shaded-area", "half"}, "half");
     expectUsage({"a.hearth", "-o", "a.png", "--view", "pretty"}, "pretty");
     expectUsage({"a.hearth", "-o", "a.png", "--samples", "2"}, "2");
+    for (const char* budget : {"", "0", "M", "-1", "1.5M", "1T", "1025G", "99999999999999999999"})
+        expectUsage({"a.hearth", "-o", "a.png", "--budget", budget}, "--budget");
     for (const char* tests : {"", "some", "cone,", "all,cone"})
         expectUsage({"a.hearth", "-o", "a.png", "--cull", tests}, "--cull");
     for (const char* curve : {"", "1", "1:2:3", "1:x", "1:1,2:3"})

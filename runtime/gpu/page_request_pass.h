@@ -1,0 +1,26 @@
+// Finds which pages a frame wants, whether or not they are resident. See README.md, "Streaming".
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "runtime/gpu/scene.h"
+
+namespace hearth::gpu
+{
+
+class PageRequestPass
+{
+public:
+    static Result<PageRequestPass> create(const Device& device);
+
+    /// The descriptor set of this pass for a streamed scene.
+    Status createSet(const Device& device, Scene& scene) const;
+
+    /// Fills SceneBuffers::page_requests, which has been cleared, after the first culling phase of the frame and before the
+    /// second. The requests are visible to transfers that follow. Clobbers the compute state.
+    void record(const Device& device, VkCommandBuffer commands, const Scene& scene) const;
+
+private:
+    ComputePipeline pipeline_;
+};
+
+} // namespace hearth::gpu

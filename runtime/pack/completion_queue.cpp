@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "runtime/pack/completion_queue.h"
+
+#include <algorithm>
+
+namespace hearth::pack
+{
+
+CompletionQueue::CompletionQueue(size_t most)
+{
+    pushed_.reserve(most);
+    taken_.reserve(most);
+}
+
+void CompletionQueue::push(Completion completion)
+{
+    const std::lock_guard lock(mutex_);
+    pushed_.push_back(completion);
+}
+
+std::span<const Completion> CompletionQueue::take()
+{
+    taken_.clear();
+    {
+        const std::lock_guard lock(mutex_);
+        taken_.swap(pushed_);
+    }
+    std::sort(taken_.begin(), taken_.end(),
+              [](const Completion& a, const Completion& b) { return a.page < b.page; });
+    return taken_;
+}
+
+} // namespace hearth::pack

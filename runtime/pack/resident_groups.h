@@ -1,0 +1,49 @@
+// Which groups are resident, kept up to date page by page: the rule of residentGroups (cut.h).
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "formats/pack_view.h"
+
+#include <span>
+#include <vector>
+
+namespace hearth::pack
+{
+
+/// A group is resident if it and the rest of its set are. Changes are told group by group, each at most once between
+/// two calls of clearChanges, if no page that was added since is removed (a stream never does that in one frame).
+class ResidentGroups
+{
+public:
+    /// None is resident. The view's meaning has been checked.
+    explicit ResidentGroups(const formats::PackView& view);
+
+    /// The page was not resident, and is now; or the other way round.
+    void add(uint32_t page);
+    void remove(uint32_t page);
+
+    struct Change
+    {
+        uint32_t group = 0;
+        bool resident = false;
+    };
+    std::span<const Change> changes() const { return changes_; }
+    void clearChanges() { changes_.clear(); }
+
+    bool isResident(uint32_t group) const { return missing_of_set_[first_of_set_[group]] == 0; }
+
+private:
+    std::span<const uint32_t> groupsOf(uint32_t page) const
+    {
+        return std::span(groups_).subspan(begins_[page], begins_[page + 1] - begins_[page]);
+    }
+    void changeSet(uint32_t first, bool resident);
+
+    std::vector<uint32_t> begins_;         ///< for each page, where its groups begin; then their number
+    std::vector<uint32_t> groups_;         ///< by page
+    std::vector<uint32_t> first_of_set_;   ///< for each group
+    std::vector<uint32_t> missing_of_set_; ///< for the first group of a set: groups of it that are not there
+    std::vector<Change> changes_;
+};
+
+} // namespace hearth::pack
