@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "tests/bench/error_plot.h"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 
@@ -11,6 +12,8 @@ namespace
 {
 
 constexpr double kWidth = 300, kHeight = 240, kLeft = 52, kTop = 30, kGap = 30, kBottom = 44;
+
+constexpr int kColumns = 4;
 
 // Axes: shares of the triangles from all to a thousandth, rms distance from 1e-5 to 1e-2 of the diagonal.
 constexpr double kLeastShare = -3, kLeastError = -5, kMostError = -2;
@@ -76,14 +79,19 @@ std::string errorPlot(const std::vector<MeshCurve>& curves)
 {
     std::string panels;
     int count = 0;
+    constexpr double kColumnWidth = kWidth + kLeft + kGap, kRowHeight = kTop + kHeight + kBottom;
     for (const MeshCurve& curve : curves)
         if (curve.peer != nullptr && curve.peer->cuts[1].share > 0)
+        {
             panels += fmt::format("<g transform='translate({:.1f},{:.1f})'>\n{}</g>\n",
-                                  kLeft + (kWidth + kLeft + kGap) * count++, kTop, panel(curve));
+                                  kLeft + kColumnWidth * (count % kColumns),
+                                  kTop + kRowHeight * (count / kColumns), panel(curve));
+            ++count;
+        }
     return fmt::format(
         "<svg xmlns='http://www.w3.org/2000/svg' width='{}' height='{}' font-family='sans-serif' "
         "font-size='11'>\n<rect width='100%' height='100%' fill='#fff'/>\n{}</svg>\n",
-        (kWidth + kLeft + kGap) * count, kTop + kHeight + kBottom, panels);
+        kColumnWidth * std::min(count, kColumns), kRowHeight * ((count + kColumns - 1) / kColumns), panels);
 }
 
 } // namespace hearth::bench

@@ -18,6 +18,7 @@
 #include <cstdio>
 #include <fstream>
 #include <functional>
+#include <limits>
 #include <optional>
 
 #include <sys/resource.h>
@@ -45,13 +46,20 @@ double userSeconds()
     return static_cast<double>(usage.ru_utime.tv_sec) + static_cast<double>(usage.ru_utime.tv_usec) * 1e-6;
 }
 
+/// The least of three runs, as the peers were measured.
 Times timesOf(const std::function<void()>& work)
 {
-    const double user = userSeconds();
-    const auto begin = std::chrono::steady_clock::now();
-    work();
-    return {userSeconds() - user,
-            std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count()};
+    Times least{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+    for (int run = 0; run < 3; ++run)
+    {
+        const double user = userSeconds();
+        const auto begin = std::chrono::steady_clock::now();
+        work();
+        least.user = std::min(least.user, userSeconds() - user);
+        least.wall = std::min(
+            least.wall, std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
+    }
+    return least;
 }
 
 /// Debian's meshoptimizer on the same mesh: what tells one machine from another (clusters once, one halving).
@@ -134,17 +142,74 @@ std::optional<double> trianglesFor(std::span<const bench::CutQuality> cuts, doub
     return std::nullopt;
 }
 
-void printRatio(const char* what, std::optional<double> triangles, double of_peer)
+/// Triangles over the peer's for the same figure, where the cuts have it.
+std::optional<double> ratioToPeer(std::span<const bench::CutQuality> cuts, double bench::CutQuality::*figure,
+                                  double value, double of_peer)
 {
-    if (triangles)
-        std::printf("  %s %.2f", what, *triangles / of_peer);
+    const auto triangles = trianglesFor(cuts, figure, value);
+    return triangles ? std::optional(*triangles / of_peer) : std::nullopt;
+}
+
+struct PeerRatios
+{
+    std::optional<double> rms, normals;
+};
+
+PeerRatios ratiosToPeer(const bench::MeshCurve& curve, const bench::PeerCut& cut)
+{
+    const double of_peer = cut.share * curve.source_triangles;
+    return {ratioToPeer(curve.cuts, &bench::CutQuality::rms, cut.rms * curve.diagonal, of_peer),
+            ratioToPeer(curve.cuts, &bench::CutQuality::normal_rms_deg, cut.normal_rms_deg, of_peer)};
+}
+
+void printRatio(const char* what, std::optional<double> ratio)
+{
+    if (ratio)
+        std::printf("  %s %.2f", what, *ratio);
     else
         std::printf("  %s beyond the cuts", what);
 }
 
-void printQuality(const bench::PeerFigures* peer, std::span<const bench::CutQuality> cuts, double diagonal,
-                  size_t source_triangles)
+/// Over all meshes whose cuts reach the peer's figures.
+void printMedians(std::span<const bench::MeshCurve> curves)
 {
+    for (size_t k = 0; k < bench::PeerFigures{}.cuts.size(); ++k)
+    {
+        std::vector<double> rms, normals;
+        double share = 0;
+        for (const bench::MeshCurve& curve : curves)
+        {
+            if (curve.peer == nullptr || curve.peer->cuts[k].share == 0)
+                continue;
+            share = curve.peer->cuts[k].share;
+            const PeerRatios ratios = ratiosToPeer(curve, curve.peer->cuts[k]);
+            if (ratios.rms)
+                rms.push_back(*ratios.rms);
+            if (ratios.normals)
+                normals.push_back(*ratios.normals);
+        }
+        const auto printMedian = [](const char* what, std::vector<double>& ratios)
+        {
+            if (ratios.empty())
+                return;
+            std::sort(ratios.begin(), ratios.end());
+            std::printf("  %s %.2f, at most %.2f (%zu meshes)", what,
+                        (ratios[(ratios.size() - 1) / 2] + ratios[ratios.size() / 2]) / 2, ratios.back(),
+                        ratios.size());
+        };
+        if (rms.empty() && normals.empty())
+            continue;
+        std::printf("triangles / clod's at %.0f %%, median:", share * 100);
+        printMedian("equal rms", rms);
+        printMedian("equal normals", normals);
+        std::printf("\n");
+    }
+}
+
+void printQuality(const bench::MeshCurve& curve)
+{
+    const std::span<const bench::CutQuality> cuts = curve.cuts;
+    const double diagonal = curve.diagonal;
     std::printf("  %9s %7s %10s %10s %12s %18s %20s\n", "triangles", "share", "rms 1e-4", "max 1e-4",
                 "max / stored", "normal, stored", "UV 1e-4, stored");
     std::vector<double> tightness;
@@ -154,7 +219,7 @@ void printQuality(const bench::PeerFigures* peer, std::span<const bench::CutQual
         tightness.push_back(cut.max / cut.stored_error);
         broken += cut.max > cut.stored_error + 1e-6 * diagonal ? 1 : 0;
         std::printf("  %9zu %6.1f%% %10.3f %10.2f %12.2f %8.2f%s %8.2f%s %9.3f %10.3f\n", cut.triangles,
-                    100.0 * static_cast<double>(cut.triangles) / static_cast<double>(source_triangles),
+                    100.0 * static_cast<double>(cut.triangles) / curve.source_triangles,
                     cut.rms / diagonal * 1e4, cut.max / diagonal * 1e4, tightness.back(), cut.normal_rms_deg,
                     "\u00b0", cut.stored_normal_rms_deg, "\u00b0", cut.uv_rms / diagonal * 1e4,
                     cut.stored_uv_rms / diagonal * 1e4);
@@ -164,15 +229,16 @@ void printQuality(const bench::PeerFigures* peer, std::span<const bench::CutQual
     std::sort(tightness.begin(), tightness.end());
     std::printf("  honesty: %zu of %zu cuts beyond their error; stored / measured %.2f in the median\n",
                 broken, cuts.size(), 1 / tightness[tightness.size() / 2]);
-    for (const bench::PeerCut& cut : peer == nullptr ? decltype(peer->cuts){} : peer->cuts)
+    if (curve.peer == nullptr)
+        return;
+    for (const bench::PeerCut& cut : curve.peer->cuts)
     {
         if (cut.share == 0)
             continue;
-        const double of_peer = cut.share * static_cast<double>(source_triangles);
+        const PeerRatios ratios = ratiosToPeer(curve, cut);
         std::printf("  triangles / clod's at %.0f %%:", cut.share * 100);
-        printRatio("equal rms", trianglesFor(cuts, &bench::CutQuality::rms, cut.rms * diagonal), of_peer);
-        printRatio("equal normals",
-                   trianglesFor(cuts, &bench::CutQuality::normal_rms_deg, cut.normal_rms_deg), of_peer);
+        printRatio("equal rms", ratios.rms);
+        printRatio("equal normals", ratios.normals);
         std::printf("\n");
     }
 }
@@ -222,7 +288,7 @@ bench::MeshCurve measureMesh(const std::string& name, const mesh::SourceMesh& me
     const double ktris = static_cast<double>(mesh.triangleCount()) / 1000;
     std::printf("%s: %zu triangles\n", name.c_str(), mesh.triangleCount());
     std::printf("  %.0f k triangles a user second on one thread", ktris / one.user);
-    if (peer != nullptr)
+    if (peer != nullptr && peer->ktris_per_second > 0)
         std::printf(" (clod %.0f on its machine)", peer->ktris_per_second);
     std::printf("; time / that of meshlets and one halving by meshoptimizer 0.18: %.2f",
                 one.user / calibration);
@@ -237,7 +303,7 @@ bench::MeshCurve measureMesh(const std::string& name, const mesh::SourceMesh& me
     const double diagonal = double{length(hierarchy.mesh.box_max - hierarchy.mesh.box_min)};
     bench::MeshCurve curve{name, static_cast<double>(mesh.triangleCount()), diagonal,
                            measureCuts(mesh, hierarchy, samples), peer};
-    printQuality(peer, curve.cuts, diagonal, mesh.triangleCount());
+    printQuality(curve);
     std::fflush(stdout);
     return curve;
 }
@@ -267,6 +333,7 @@ int program(int argc, char** argv)
         const std::string file = path.substr(path.find_last_of('/') + 1);
         curves.push_back(measureMesh(file.substr(0, file.find('.')), *mesh, samples));
     }
+    printMedians(curves);
     if (!plot.empty())
         std::ofstream(plot) << bench::errorPlot(curves);
     return 0;
