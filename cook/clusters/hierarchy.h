@@ -30,7 +30,7 @@ struct Config
     /// Weights of attribute errors against position errors. A difference of normals or UVs counts as the length on the
     /// surface over which the group's change by as much; one of colours as a length in units of the group's radius. With
     /// about a quarter, distance and normals gain about alike over clusterlod (`./dev bench clusters`).
-    float normal_weight = 0.25f;
+    float normal_weight = 0.23f;
     float uv_weight = 0.25f;
     float color_weight = 0.25f;
 
