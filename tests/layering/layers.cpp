@@ -34,6 +34,7 @@ const std::vector<Layer>& layers()
         {"runtime/pack/", {"formats/"}},
         {"runtime/shaders/", {"formats/shared/"}},
         {"runtime/gpu/", {"formats/", "runtime/pack/", "runtime/shaders/"}},
+        {"runtime/c/", {"formats/", "runtime/pack/", "runtime/gpu/"}},
         {"runtime/viewer/", {"formats/", "runtime/pack/", "runtime/gpu/"}},
         {"sample_assets/", {"formats/"}},
         {"tests/", {"formats/", "cook/", "pipelines/", "runtime/", "sample_assets/", "tests/"}},
@@ -53,7 +54,9 @@ const std::vector<Library>& libraries()
     static const std::vector<Library> list = {
         {"xxhash.h", {"formats/"}},
         {"zstd.h", {"formats/", "cook/clusters/"}}, // the cluster cooker compresses pages, in parallel
-        {"vulkan/", {"runtime/gpu/", "runtime/viewer/"}, true},
+        {"vulkan/", {"runtime/gpu/", "runtime/c/", "runtime/viewer/"}, true},
+        {"stddef.h", {"runtime/c/"}, true}, // hearth.h is C
+        {"stdint.h", {"runtime/c/"}, true},
         {"png.h", {"pipelines/import/", "cook/textures/", "runtime/viewer/", "sample_assets/"}},
         {"jpeglib.h", {"pipelines/import/"}},
         {"jerror.h", {"pipelines/import/"}},

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "runtime/c/call.h"
+
+#include <algorithm>
+#include <cstring>
+
+namespace hearth::c
+{
+
+namespace
+{
+
+hearth_result resultOf(const Error& error)
+{
+    switch (error.issue)
+    {
+    case Issue::device:
+        return HEARTH_ERROR_DEVICE;
+    case Issue::device_failed:
+        return HEARTH_ERROR_DEVICE_FAILED;
+    case Issue::device_limit:
+        return HEARTH_ERROR_DEVICE_LIMIT;
+    case Issue::streaming_budget:
+        return HEARTH_ERROR_STREAMING_BUDGET;
+    case Issue::out_of_memory:
+        return HEARTH_ERROR_OUT_OF_MEMORY;
+    default:
+        break;
+    }
+    switch (issueInfo(error.issue).kind)
+    {
+    case IssueClass::usage:
+        return HEARTH_ERROR_USAGE;
+    case IssueClass::missing:
+        return HEARTH_ERROR_FILE_MISSING;
+    case IssueClass::malformed:
+        return HEARTH_ERROR_FILE_MALFORMED;
+    case IssueClass::io:
+        return HEARTH_ERROR_READ;
+    default:
+        return HEARTH_ERROR_INTERNAL;
+    }
+}
+
+/// Issue::usage is the command line's: its hint is of no help to a program.
+std::string textOf(const char* function, const Error& error)
+{
+    if (error.issue != Issue::usage)
+        return formatMessage(error);
+    return function + (error.where.empty() ? "" : "|" + error.where) + ": error: " + error.detail +
+           " [E1000] hint: see hearth.h";
+}
+
+void write(MessageRoom message, const char* text, size_t length)
+{
+    if (message.text == nullptr || message.size == 0)
+        return;
+    const size_t kept = std::min(length, message.size - 1);
+    std::memcpy(message.text, text, kept);
+    message.text[kept] = '\0';
+}
+
+} // namespace
+
+Error usage(std::string detail)
+{
+    return {Issue::usage, "", "", std::move(detail)};
+}
+
+hearth_result fail(MessageRoom message, const char* function, const Error& error)
+{
+    const hearth_result result = resultOf(error);
+    try
+    {
+        const std::string text = textOf(function, error);
+        write(message, text.data(), text.size());
+    }
+    catch (const std::bad_alloc&)
+    {
+        const char* text = hearth_result_string(result);
+        write(message, text, std::strlen(text));
+    }
+    return result;
+}
+
+Status checkStruct(const char* name, const uint32_t* struct_size, size_t expected_size)
+{
+    if (struct_size == nullptr)
+        return usage(std::string(name) + " is NULL");
+    if (*struct_size != expected_size)
+        return usage(std::string(name) + " has a struct_size of " + std::to_string(*struct_size) +
+                     ", this version of the library knows " + std::to_string(expected_size) +
+                     ": begin with its HEARTH_..._INIT, and compile with the hearth.h of the library");
+    return success();
+}
+
+} // namespace hearth::c
+
+uint32_t hearth_api_version(void)
+{
+    return HEARTH_API_VERSION;
+}
+
+const char* hearth_result_string(hearth_result result)
+{
+    switch (result)
+    {
+    case HEARTH_OK:
+        return "ok";
+    case HEARTH_ERROR_USAGE:
+        return "an argument or the order of calls is wrong";
+    case HEARTH_ERROR_IN_USE:
+        return "what was made from it has not been destroyed";
+    case HEARTH_ERROR_FILE_MISSING:
+        return "a file cannot be read";
+    case HEARTH_ERROR_FILE_MALFORMED:
+        return "a file is damaged, or of another kind or version";
+    case HEARTH_ERROR_READ:
+        return "reading failed";
+    case HEARTH_ERROR_DEVICE:
+        return "the graphics device lacks what is needed";
+    case HEARTH_ERROR_DEVICE_FAILED:
+        return "the graphics device failed";
+    case HEARTH_ERROR_DEVICE_LIMIT:
+        return "too large for the graphics device";
+    case HEARTH_ERROR_STREAMING_BUDGET:
+        return "the geometry that must stay in memory exceeds the budget";
+    case HEARTH_ERROR_OUT_OF_MEMORY:
+        return "out of memory";
+    case HEARTH_ERROR_INTERNAL:
+        return "a defect of Hearth";
+    default:
+        return "not a result of this version";
+    }
+}

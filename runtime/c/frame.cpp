@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "runtime/c/handles.h"
+
+#include "formats/shared/lod_curve.h"
+#include "runtime/gpu/pipelines.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+using namespace hearth;
+using namespace hearth::c;
+
+namespace
+{
+
+Float3 toFloat3(const float (&v)[3])
+{
+    return {v[0], v[1], v[2]};
+}
+
+bool isFinite(const float (&v)[3])
+{
+    return std::all_of(v, v + 3, [](float value) { return std::isfinite(value); });
+}
+
+Status check(const hearth_camera& camera)
+{
+    if (!isFinite(camera.position) || !isFinite(camera.target) || !isFinite(camera.up))
+        return usage("the camera's position, target or up is not finite");
+    if (!(camera.y_fov_rad > 0 && camera.y_fov_rad < std::numbers::pi_v<float>))
+        return usage("the camera's y_fov_rad is not above 0 and below pi");
+    if (!(camera.z_near > 0) || !std::isfinite(camera.z_near))
+        return usage("the camera's z_near is not above 0");
+    return success();
+}
+
+Status check(const hearth_renderer& renderer, const hearth_frame& frame)
+{
+    HEARTH_TRY(check(frame.camera));
+    if (!(frame.error_pixels >= 0) || !std::isfinite(frame.error_pixels))
+        return usage("error_pixels is not 0 or more");
+    if (!(frame.depth_scale > 0) || !std::isfinite(frame.depth_scale))
+        return usage("depth_scale is not above 0");
+    if ((frame.cull_flags & ~uint32_t{HEARTH_CULL_EVERYTHING}) != 0)
+        return usage("cull_flags has bits that this version does not know");
+    if (frame.shown > HEARTH_SHOW_OVERDRAW || frame.shaded_area > HEARTH_SHADE_TILES || frame.reserved != 0)
+        return usage("shown, shaded_area or reserved has a value that this version does not know");
+    if (frame.shown == HEARTH_SHOW_OVERDRAW && !renderer.shows_overdraw)
+        return usage("HEARTH_SHOW_OVERDRAW needs a renderer with HEARTH_FEATURE_OVERDRAW");
+    if (frame.lod_knot_count > 0 && frame.lod_knots == nullptr)
+        return usage("lod_knots is NULL");
+    if (frame.move_count > 0 && frame.moves == nullptr)
+        return usage("moves is NULL");
+    return success();
+}
+
+/// That the scene and the targets can be recorded into, now. The scene is not NULL.
+Status checkCall(const hearth_scene& scene, const hearth_targets* targets, VkCommandBuffer commands,
+                 const hearth_frame* frame)
+{
+    if (targets == nullptr || commands == VK_NULL_HANDLE)
+        return usage("targets or commands is NULL");
+    if (targets->renderer != scene.renderer)
+        return usage("scene and targets are of different renderers");
+    HEARTH_TRY(checkStruct("frame", frame));
+    HEARTH_TRY(check(*scene.renderer, *frame));
+    if (scene.scene->stream != nullptr && !scene.to_be_recorded)
+        return usage("the scene has a geometry_budget: each frame begins with hearth_scene_begin_frame");
+    return success();
+}
+
+Status setCurve(shared::FrameView& view, const hearth_frame& frame)
+{
+    if (frame.lod_knot_count > shared::kMaxLodKnots)
+        return usage("lod_knot_count is above " + std::to_string(shared::kMaxLodKnots));
+    std::array<shared::LodKnot, shared::kMaxLodKnots> knots;
+    for (uint32_t i = 0; i < frame.lod_knot_count; ++i)
+        knots[i] = {frame.lod_knots[i].distance, frame.lod_knots[i].factor};
+    return shared::setLodCurve(view, std::span(knots).first(frame.lod_knot_count));
+}
+
+Result<shared::FrameView> makeView(const hearth_scene& scene, const gpu::FrameTargets& targets,
+                                   const hearth_frame& frame)
+{
+    const shared::Camera camera{.position = toFloat3(frame.camera.position),
+                                .target = toFloat3(frame.camera.target),
+                                .up = toFloat3(frame.camera.up),
+                                .y_fov_rad = frame.camera.y_fov_rad,
+                                .z_near = frame.camera.z_near};
+    shared::FrameView view =
+        shared::makeFrameView(camera, targets.extent().width, targets.extent().height, frame.error_pixels,
+                              scene.scene->instance_count, frame.cull_flags);
+    HEARTH_TRY(setCurve(view, frame));
+    return view;
+}
+
+/// Into scene.moves.
+Status makeMoves(hearth_scene& scene, const hearth_frame& frame)
+{
+    scene.moves.clear();
+    for (uint32_t i = 0; i < frame.move_count; ++i)
+    {
+        Affine3 world_from_object;
+        static_assert(sizeof(world_from_object.m) == sizeof(frame.moves[i].world_from_object));
+        std::copy_n(&frame.moves[i].world_from_object[0][0], 12, &world_from_object.m[0][0]);
+        HEARTH_ASSIGN_OR_RETURN(const gpu::InstanceMove move,
+                                gpu::moveInstance(*scene.scene, frame.moves[i].instance, world_from_object));
+        scene.moves.push_back(move);
+    }
+    return success();
+}
+
+} // namespace
+
+hearth_result hearth_record_frame(hearth_scene* scene, hearth_targets* targets, VkCommandBuffer commands,
+                                  const hearth_frame* frame)
+{
+    if (scene == nullptr)
+        return HEARTH_ERROR_USAGE;
+    return call(scene->renderer->message(), __func__,
+                [&]() -> Status
+                {
+                    HEARTH_TRY(checkCall(*scene, targets, commands, frame));
+                    HEARTH_ASSIGN_OR_RETURN(const shared::FrameView view,
+                                            makeView(*scene, targets->targets, *frame));
+                    HEARTH_TRY(makeMoves(*scene, *frame));
+                    scene->to_be_recorded = false;
+                    scene->renderer->renderer->record(
+                        commands, *scene->scene, targets->targets,
+                        {.view = view,
+                         .shading = {.shown = frame->shown,
+                                     .depth_scale = frame->depth_scale,
+                                     .area = static_cast<gpu::ShadedArea>(frame->shaded_area)},
+                         .moves = scene->moves,
+                         .timestamps = frame->timestamps});
+                    return success();
+                });
+}
+
+hearth_result hearth_record_prefetch(hearth_scene* scene, hearth_targets* targets, VkCommandBuffer commands,
+                                     const hearth_frame* frame)
+{
+    if (scene == nullptr)
+        return HEARTH_ERROR_USAGE;
+    return call(
+        scene->renderer->message(), __func__,
+        [&]() -> Status
+        {
+            HEARTH_TRY(checkCall(*scene, targets, commands, frame));
+            if (scene->scene->stream == nullptr)
+                return usage("the scene has no geometry_budget: all of it is there");
+            HEARTH_ASSIGN_OR_RETURN(const shared::FrameView view, makeView(*scene, targets->targets, *frame));
+            scene->to_be_recorded = false;
+            scene->renderer->renderer->recordPrefetch(commands, *scene->scene, targets->targets, view);
+            return success();
+        });
+}
+
+hearth_result hearth_record_counters(hearth_scene* scene, VkCommandBuffer commands, VkBuffer destination,
+                                     VkDeviceSize offset)
+{
+    if (scene == nullptr)
+        return HEARTH_ERROR_USAGE;
+    return call(scene->renderer->message(), __func__,
+                [&]() -> Status
+                {
+                    if (commands == VK_NULL_HANDLE || destination == VK_NULL_HANDLE)
+                        return usage("commands or destination is NULL");
+                    const gpu::Device& device = scene->renderer->renderer->device();
+                    const VkBufferCopy region{0, offset, sizeof(hearth_frame_counters)};
+                    device.vk.vkCmdCopyBuffer(commands, scene->scene->buffers.counters.handle.get(),
+                                              destination, 1, &region);
+                    gpu::barrier(device, commands, VK_PIPELINE_STAGE_TRANSFER_BIT,
+                                 VK_ACCESS_TRANSFER_WRITE_BIT, VK_PIPELINE_STAGE_HOST_BIT,
+                                 VK_ACCESS_HOST_READ_BIT);
+                    return success();
+                });
+}

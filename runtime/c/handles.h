@@ -1,0 +1,47 @@
+// What stands behind the handles of hearth.h.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "runtime/c/call.h"
+#include "runtime/gpu/renderer.h"
+#include "runtime/pack/pack.h"
+
+#include <atomic>
+#include <vector>
+
+struct hearth_pack
+{
+    explicit hearth_pack(hearth::pack::Pack opened) : pack(std::move(opened)) {}
+
+    hearth::pack::Pack pack;
+    std::atomic<uint32_t> scene_count = 0; ///< of any renderer, on any thread
+};
+
+struct hearth_renderer
+{
+    std::unique_ptr<hearth::gpu::Renderer> renderer;
+    bool shows_overdraw = false;
+    uint32_t child_count = 0; ///< scenes and targets
+    char last_error[512] = "";
+
+    hearth::c::MessageRoom message() { return {last_error, sizeof(last_error)}; }
+};
+
+struct hearth_scene
+{
+    hearth_renderer* renderer;
+    hearth_pack* pack;
+    std::unique_ptr<hearth::gpu::Scene> scene;
+
+    /// The frame that was begun; of a streamed scene only.
+    uint64_t serial = 0, completed_serial = 0;
+    bool to_be_recorded = false;
+
+    std::vector<hearth::gpu::InstanceMove> moves; ///< of the frame that is recorded; kept for its memory
+};
+
+struct hearth_targets
+{
+    hearth_renderer* renderer;
+    hearth::gpu::FrameTargets targets;
+};

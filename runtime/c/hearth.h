@@ -1,0 +1,397 @@
+/* The runtime as a C library: opens packs, uploads scenes, records frames into the caller's command buffers.
+ * README.md has a whole program. What is said here once holds for every call:
+ *
+ * - The caller owns instance, device, queue, command buffers and their submission. Nothing is submitted or waited for, no
+ *   thread is started, and there are no globals. Vulkan 1.1 without optional features is enough.
+ * - A call returns HEARTH_OK, or why it changed nothing. Its message, one line with what to do, is that of
+ *   hearth_last_error, or goes to `message` (message_size bytes; may be NULL and 0) where a call has no renderer. Messages
+ *   are written by calls that fail only. Where a handle is NULL there is but the result.
+ * - Structs begin with their size, which the HEARTH_..._INIT macros set beside the defaults. Structs in arrays, and those
+ *   that stand inside others, have no size and never change.
+ * - A renderer and all that is made from it are used by one thread at a time; hearth_read_done, and packs while they are
+ *   open, by any number of threads. Nothing is thrown; callbacks must not throw.
+ * - What is made from something is destroyed before it, and after the frames that use it have completed. Destroying NULL
+ *   does nothing.
+ * - Metres, radians, right-handed, +Y up.
+ *
+ * SPDX-License-Identifier: LicenseRef-Hearth-Undecided */
+#ifndef HEARTH_H
+#define HEARTH_H
+
+#include <stddef.h>
+#include <stdint.h>
+#include <vulkan/vulkan_core.h>
+
+#ifdef __cplusplus
+#define HEARTH_API extern "C"
+#else
+#define HEARTH_API extern
+#endif
+
+/* Major version << 16 | minor version. A library takes callers of its major version and of no later minor version. */
+#define HEARTH_API_VERSION 0x00010000u
+
+typedef int32_t hearth_result;
+enum
+{
+    HEARTH_OK = 0,
+    HEARTH_ERROR_USAGE = 1,          /* an argument, or the order of calls, breaks a rule of this header */
+    HEARTH_ERROR_IN_USE = 2,         /* something that was made from it has not been destroyed */
+    HEARTH_ERROR_FILE_MISSING = 3,   /* a file does not exist or cannot be read */
+    HEARTH_ERROR_FILE_MALFORMED = 4, /* a file is damaged, of another kind or of another version */
+    HEARTH_ERROR_READ = 5,           /* reading failed half way */
+    HEARTH_ERROR_DEVICE = 6,         /* the device lacks what the renderer needs */
+    HEARTH_ERROR_DEVICE_FAILED = 7,  /* a Vulkan call failed */
+    HEARTH_ERROR_DEVICE_LIMIT = 8,   /* the scene or the picture is too large for the device */
+    HEARTH_ERROR_STREAMING_BUDGET =
+        9, /* the geometry that must stay exceeds the budget; the message has both */
+    HEARTH_ERROR_OUT_OF_MEMORY = 10, /* of the CPU */
+    HEARTH_ERROR_INTERNAL = 11       /* a defect of Hearth */
+};
+
+typedef struct hearth_pack hearth_pack;
+typedef struct hearth_renderer hearth_renderer;
+typedef struct hearth_scene hearth_scene;
+typedef struct hearth_targets hearth_targets;
+
+/* HEARTH_API_VERSION of the library. */
+HEARTH_API uint32_t hearth_api_version(void);
+
+/* What a result means, in English; never NULL. */
+HEARTH_API const char* hearth_result_string(hearth_result result);
+
+/* ---- Packs ---- */
+
+/* Maps the file and checks all of it: one pass over the file.
+ * errors: USAGE, FILE_MISSING, FILE_MALFORMED, READ, OUT_OF_MEMORY. */
+HEARTH_API hearth_result hearth_pack_open(const char* path, hearth_pack** pack, char* message,
+                                          size_t message_size);
+
+/* The same on bytes that outlive the pack. `bytes` is aligned to 64; `name` stands in messages. */
+HEARTH_API hearth_result hearth_pack_open_memory(const void* bytes, size_t size, const char* name,
+                                                 hearth_pack** pack, char* message, size_t message_size);
+
+/* Decodes a page into `destination`, of at least the page's size. For hearth_read_page; on any thread.
+ * errors: USAGE; FILE_MALFORMED where the file changed since it was opened. */
+HEARTH_API hearth_result hearth_pack_read_page(const hearth_pack* pack, uint32_t page, void* destination,
+                                               size_t size, char* message, size_t message_size);
+
+/* errors: IN_USE, while a scene has been uploaded from it. */
+HEARTH_API hearth_result hearth_pack_close(hearth_pack* pack);
+
+/* ---- Renderer ---- */
+
+enum
+{
+    HEARTH_FEATURE_SAMPLER_ANISOTROPY = 1, /* the caller enabled samplerAnisotropy: it shall be used */
+    HEARTH_FEATURE_OVERDRAW = 2            /* make the pipelines of HEARTH_SHOW_OVERDRAW */
+};
+
+typedef struct hearth_renderer_description
+{
+    uint32_t struct_size;
+    uint32_t api_version; /* HEARTH_API_VERSION, as the caller was compiled */
+    PFN_vkGetInstanceProcAddr get_instance_proc_addr;
+    VkInstance instance;
+    VkPhysicalDevice physical_device;
+    VkDevice device;
+    const VkAllocationCallbacks* allocator; /* or NULL */
+    VkPipelineCache pipeline_cache;         /* or VK_NULL_HANDLE */
+    uint32_t features;                      /* HEARTH_FEATURE_* */
+    uint32_t reserved;                      /* 0 */
+} hearth_renderer_description;
+
+#define HEARTH_RENDERER_DESCRIPTION_INIT                                                                     \
+    {                                                                                                        \
+        sizeof(hearth_renderer_description), HEARTH_API_VERSION, NULL, VK_NULL_HANDLE, VK_NULL_HANDLE,       \
+            VK_NULL_HANDLE, NULL, VK_NULL_HANDLE, 0, 0                                                       \
+    }
+
+/* Makes pipelines: seconds on some devices. What the description names outlives the renderer.
+ * errors: USAGE, DEVICE, DEVICE_FAILED, OUT_OF_MEMORY. */
+HEARTH_API hearth_result hearth_renderer_create(const hearth_renderer_description* description,
+                                                hearth_renderer** renderer, char* message,
+                                                size_t message_size);
+
+/* errors: IN_USE. */
+HEARTH_API hearth_result hearth_renderer_destroy(hearth_renderer* renderer);
+
+/* The message of the last call that failed on the renderer or what was made from it; "" where none did. Holds until the
+ * next call. */
+HEARTH_API const char* hearth_last_error(const hearth_renderer* renderer);
+
+/* ---- Scenes ---- */
+
+/* A page to be read. To be handed to hearth_read_done once. */
+typedef struct hearth_read
+{
+    unsigned char internal[16];
+} hearth_read;
+
+/* Starts to read a page: its `size` decoded bytes into `destination`, as hearth_pack_read_page does, then
+ * hearth_read_done. May do so at once or later, on any thread, reads in any order. Called by hearth_scene_begin_frame. */
+typedef void (*hearth_read_page)(void* user, uint32_t page, void* destination, size_t size, hearth_read read);
+
+/* The read has ended; `ok` is 0 where it failed. The destination is not touched afterwards. From any thread. */
+HEARTH_API void hearth_read_done(hearth_read read, int ok);
+
+typedef struct hearth_scene_options
+{
+    uint32_t struct_size;
+    /* Most clusters of a frame, 1 to 33554430, 8 bytes each; more are counted and not drawn (hearth_frame_counters). */
+    uint32_t max_visible_clusters;
+    /* Bytes of geometry on the device; more are streamed by `read`. 0: all of it, at most 512 MiB. */
+    uint64_t geometry_budget;
+    /* Needed with a budget. All reads have ended, or never will, before the scene is destroyed. */
+    hearth_read_page read;
+    void* read_user;
+    uint32_t
+        max_loads; /* reads at once, 1 to 1024; up to 128 KiB of staging memory each, beside the budget */
+    uint32_t
+        frames_in_flight; /* that are recorded while earlier ones run, 1 to 16; more are not listened to */
+} hearth_scene_options;
+
+#define HEARTH_SCENE_OPTIONS_INIT                                                                            \
+    {                                                                                                        \
+        sizeof(hearth_scene_options), 4194304, 0, NULL, NULL, 32, 3                                          \
+    }
+
+/* Records the copies of a scene. Where it fails, `commands` is to be thrown away. The pack outlives the scene.
+ * errors: USAGE, FILE_MALFORMED, DEVICE_FAILED, DEVICE_LIMIT, STREAMING_BUDGET, OUT_OF_MEMORY. */
+HEARTH_API hearth_result hearth_scene_upload(hearth_renderer* renderer, hearth_pack* pack,
+                                             VkCommandBuffer commands, const hearth_scene_options* options,
+                                             hearth_scene** scene);
+
+/* The commands of the upload have completed: frees its staging memory. */
+HEARTH_API hearth_result hearth_scene_uploaded(hearth_scene* scene);
+
+/* errors: none. */
+HEARTH_API hearth_result hearth_scene_destroy(hearth_scene* scene);
+
+typedef struct hearth_scene_information
+{
+    uint32_t struct_size;
+    uint32_t instance_count;
+    uint32_t dropped_lights; /* lights beyond what is drawn */
+    uint32_t reserved;       /* 0 */
+    float box_min[3]; /* of the instances as they were loaded; above box_max where there is nothing to draw */
+    float box_max[3];
+    uint64_t allocated_bytes; /* of device memory, staging memory of streaming included */
+} hearth_scene_information;
+
+#define HEARTH_SCENE_INFORMATION_INIT                                                                        \
+    {                                                                                                        \
+        sizeof(hearth_scene_information), 0, 0, 0, {0, 0, 0}, {0, 0, 0}, 0                                   \
+    }
+
+HEARTH_API hearth_result hearth_scene_inform(const hearth_scene* scene,
+                                             hearth_scene_information* information);
+
+/* ---- Streaming ---- */
+
+/* For each frame of a scene with a budget: takes what was read, starts reads. A record call must follow.
+ * serial            of the frame: greater than that of the one before, at least 1
+ * completed_serial  no frame up to this one runs any more; below serial, and never decreases */
+HEARTH_API hearth_result hearth_scene_begin_frame(hearth_scene* scene, uint64_t serial,
+                                                  uint64_t completed_serial);
+
+typedef struct hearth_stream_counters
+{
+    uint32_t struct_size;
+    float error_scale;       /* on thresholds: above 1 where what is wanted exceeds the budget */
+    uint64_t budget_bytes;   /* rounded down to what pages can use */
+    uint64_t bytes_in_use;   /* of the budget */
+    uint64_t bytes_resident; /* of decoded pages */
+    uint64_t bytes_streamed; /* so far */
+    uint64_t settled_serial; /* the last frame that drew all that it wanted and could get; 0: none yet */
+    uint32_t pages_resident;
+    uint32_t reads_in_flight; /* started, and not seen to end by a frame */
+    uint32_t failures;        /* so far */
+    uint32_t failed_page_count;
+    const uint32_t* failed_pages; /* whose failure the last begin_frame saw, each once; until the next one */
+} hearth_stream_counters;
+
+#define HEARTH_STREAM_COUNTERS_INIT                                                                          \
+    {                                                                                                        \
+        sizeof(hearth_stream_counters), 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, NULL                                   \
+    }
+
+/* errors: USAGE, also where the scene has no budget. */
+HEARTH_API hearth_result hearth_scene_stream(const hearth_scene* scene, hearth_stream_counters* counters);
+
+/* Pages that failed may be tried again. errors: USAGE, also where the scene has no budget. */
+HEARTH_API hearth_result hearth_scene_retry_failed(hearth_scene* scene);
+
+/* ---- Targets: the images of a frame. Each camera has its own: they remember what it saw. ---- */
+
+/* width, height  1 to what the device can render; pixels
+ * errors: USAGE, DEVICE_LIMIT, DEVICE_FAILED, OUT_OF_MEMORY. */
+HEARTH_API hearth_result hearth_targets_create(hearth_renderer* renderer, uint32_t width, uint32_t height,
+                                               hearth_targets** targets);
+
+HEARTH_API hearth_result hearth_targets_destroy(hearth_targets* targets);
+
+/* What a barrier must know of an image. */
+typedef struct hearth_image_state
+{
+    VkImageLayout layout;
+    VkPipelineStageFlags stages;
+    VkAccessFlags access;
+} hearth_image_state;
+
+typedef struct hearth_image
+{
+    VkImage image; /* usage COLOR_ATTACHMENT and TRANSFER_SRC; one mip, one layer */
+    VkFormat format;
+    hearth_image_state before; /* a frame waits for such uses of the image; its content is lost */
+    hearth_image_state after;  /* a frame leaves it so, visible to these accesses */
+} hearth_image;
+
+typedef struct hearth_targets_information
+{
+    uint32_t struct_size;
+    uint32_t width, height;  /* pixels */
+    uint32_t reserved;       /* 0 */
+    hearth_image color;      /* R8G8B8A8_SRGB */
+    hearth_image visibility; /* R32_UINT: slot of the visible list << 7 | triangle, or 0xFFFFFFFF */
+    uint64_t allocated_bytes;
+} hearth_targets_information;
+
+#define HEARTH_IMAGE_INIT                                                                                    \
+    {                                                                                                        \
+        VK_NULL_HANDLE, VK_FORMAT_UNDEFINED, {VK_IMAGE_LAYOUT_UNDEFINED, 0, 0},                              \
+        {                                                                                                    \
+            VK_IMAGE_LAYOUT_UNDEFINED, 0, 0                                                                  \
+        }                                                                                                    \
+    }
+#define HEARTH_TARGETS_INFORMATION_INIT                                                                      \
+    {                                                                                                        \
+        sizeof(hearth_targets_information), 0, 0, 0, HEARTH_IMAGE_INIT, HEARTH_IMAGE_INIT, 0                 \
+    }
+
+HEARTH_API hearth_result hearth_targets_inform(const hearth_targets* targets,
+                                               hearth_targets_information* information);
+
+/* ---- Frames ---- */
+
+/* What is left out; the picture is the same. */
+enum
+{
+    HEARTH_CULL_INSTANCES = 1,
+    HEARTH_CULL_FRUSTUM = 2,
+    HEARTH_CULL_CONE = 4,
+    HEARTH_CULL_OCCLUSION = 8,
+    HEARTH_CULL_EVERYTHING = 15
+};
+
+/* What the picture shows. */
+enum
+{
+    HEARTH_SHOW_FINAL = 0,
+    HEARTH_SHOW_CLUSTERS = 1,
+    HEARTH_SHOW_LOD = 2,
+    HEARTH_SHOW_TRIANGLES = 3,
+    HEARTH_SHOW_NORMALS = 4,
+    HEARTH_SHOW_DEPTH = 5,
+    HEARTH_SHOW_MATERIALS = 6,
+    HEARTH_SHOW_ERROR = 7,
+    HEARTH_SHOW_CONES = 8,
+    HEARTH_SHOW_OVERDRAW = 9 /* needs HEARTH_FEATURE_OVERDRAW */
+};
+
+/* Where each material is shaded; the picture is the same. */
+enum
+{
+    HEARTH_SHADE_AUTOMATIC = 0,
+    HEARTH_SHADE_WHOLE_PICTURE = 1,
+    HEARTH_SHADE_TILES = 2
+};
+
+/* A timestamp is written at the begin of a frame and after each pass. */
+enum
+{
+    HEARTH_TIMESTAMP_BEGIN = 0,
+    HEARTH_TIMESTAMP_CULL = 1,
+    HEARTH_TIMESTAMP_EARLY_VISIBILITY = 2, /* it and the two after it: no time without occlusion culling */
+    HEARTH_TIMESTAMP_PYRAMID = 3,
+    HEARTH_TIMESTAMP_LATE_CULL = 4,
+    HEARTH_TIMESTAMP_VISIBILITY = 5,
+    HEARTH_TIMESTAMP_MATERIAL_TILES = 6,
+    HEARTH_TIMESTAMP_MATERIAL_DEPTH = 7,
+    HEARTH_TIMESTAMP_SHADING = 8,
+    HEARTH_TIMESTAMP_COUNT = 9
+};
+
+/* A perspective camera. The far plane is infinite, depth = z_near / distance along the view. */
+typedef struct hearth_camera
+{
+    float position[3];
+    float target[3]; /* any point that the middle of the picture shows */
+    float up[3];
+    float y_fov_rad; /* full vertical angle, above 0 and below pi */
+    float z_near;    /* metres, above 0 */
+} hearth_camera;
+
+/* How much errors count at a distance: linear between knots, constant beyond the first and the last. */
+typedef struct hearth_lod_knot
+{
+    float distance; /* metres from the eye, 0 or more, more than that of the knot before */
+    float
+        factor; /* above 1 is finer; within 8 times that of the knot before; grows no faster than the distance */
+} hearth_lod_knot;
+
+/* A new place of an instance, for this frame and those after it. */
+typedef struct hearth_move
+{
+    uint32_t instance;
+    float world_from_object[3][4]; /* rows; finite; mirrors where the transform that was loaded did */
+} hearth_move;
+
+typedef struct hearth_frame
+{
+    uint32_t struct_size;
+    uint32_t cull_flags; /* HEARTH_CULL_* */
+    hearth_camera camera;
+    float error_pixels;               /* projected error that need not be refined; 0: the source triangles */
+    const hearth_lod_knot* lod_knots; /* read while recording */
+    uint32_t lod_knot_count;          /* 0 to 8; 0: errors count alike everywhere */
+    uint32_t move_count;
+    const hearth_move* moves; /* read while recording; an instance at most once */
+    uint32_t shown;           /* HEARTH_SHOW_* */
+    float depth_scale;        /* metres that HEARTH_SHOW_DEPTH shows as middle grey, above 0 */
+    uint32_t shaded_area;     /* HEARTH_SHADE_* */
+    uint32_t reserved;        /* 0 */
+    VkQueryPool timestamps; /* of HEARTH_TIMESTAMP_COUNT timestamps, reset by the frame; or VK_NULL_HANDLE */
+} hearth_frame;
+
+#define HEARTH_FRAME_INIT                                                                                    \
+    {                                                                                                        \
+        sizeof(hearth_frame), HEARTH_CULL_EVERYTHING, {{0, 0, 0}, {0, 0, -1}, {0, 1, 0}, 0.8f, 0.01f}, 1,    \
+            NULL, 0, 0, NULL, HEARTH_SHOW_FINAL, 1, HEARTH_SHADE_AUTOMATIC, 0, VK_NULL_HANDLE                \
+    }
+
+/* Records culling and drawing, outside a render pass. Clobbers compute and graphics state. Frames of a scene, and frames
+ * with the same targets, go to one queue in the order in which they were recorded. errors: USAGE. */
+HEARTH_API hearth_result hearth_record_frame(hearth_scene* scene, hearth_targets* targets,
+                                             VkCommandBuffer commands, const hearth_frame* frame);
+
+/* The same for a scene with a budget, without drawing: asks for what such a frame would want. Moves nothing. Record frames
+ * of it until settled_serial reaches the serial of the first of them, and the view is there. errors: USAGE. */
+HEARTH_API hearth_result hearth_record_prefetch(hearth_scene* scene, hearth_targets* targets,
+                                                VkCommandBuffer commands, const hearth_frame* frame);
+
+/* As it lies in memory. */
+typedef struct hearth_frame_counters
+{
+    uint32_t drawn_clusters;   /* passed all tests */
+    uint32_t dropped_clusters; /* of these, the last ones, beyond max_visible_clusters: not drawn */
+    uint32_t early_clusters;   /* of these, the first ones, which the last frame's depth did not hide */
+    uint32_t reserved;
+} hearth_frame_counters;
+
+/* Copies the counters of the frame recorded before it to `offset` (a multiple of 4) of a buffer of the caller (usage
+ * TRANSFER_DST), visible to the host once the commands have completed. errors: USAGE. */
+HEARTH_API hearth_result hearth_record_counters(hearth_scene* scene, VkCommandBuffer commands,
+                                                VkBuffer destination, VkDeviceSize offset);
+
+#endif

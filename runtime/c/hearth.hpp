@@ -1,0 +1,184 @@
+// hearth.h for C++20: handles that destroy what they own, and messages as strings. Nothing else; all rules are hearth.h's.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "hearth.h"
+
+#include <cassert>
+#include <string>
+#include <utility>
+
+namespace hearth
+{
+
+/// Owns a handle of hearth.h. What was made from it must be gone when it is destroyed: declare it first.
+template <typename T, hearth_result (*kDestroy)(T*)>
+class Handle
+{
+public:
+    Handle() = default;
+    explicit Handle(T* handle) : handle_(handle) {}
+    Handle(Handle&& other) noexcept : handle_(other.release()) {}
+    Handle& operator=(Handle&& other) noexcept
+    {
+        if (this != &other)
+            reset(other.release());
+        return *this;
+    }
+    ~Handle() { reset(); }
+
+    T* get() const { return handle_; }
+    explicit operator bool() const { return handle_ != nullptr; }
+
+    /// To the caller, who destroys it.
+    T* release() { return std::exchange(handle_, nullptr); }
+
+    void reset(T* handle = nullptr)
+    {
+        [[maybe_unused]] const hearth_result destroyed = kDestroy(std::exchange(handle_, handle));
+        assert(destroyed == HEARTH_OK); // HEARTH_ERROR_IN_USE: it is leaked
+    }
+
+private:
+    T* handle_ = nullptr;
+};
+
+/// Calls `function(message, message_size)`, and puts the message of a failure into `message` where there is one.
+template <typename Function>
+hearth_result callWithMessage(std::string* message, const Function& function)
+{
+    char text[512] = "";
+    const hearth_result result = function(text, sizeof(text));
+    if (result != HEARTH_OK && message != nullptr)
+        *message = text;
+    return result;
+}
+
+/// The functions `open` and `create` leave their target as it was where they fail.
+class Pack : public Handle<hearth_pack, hearth_pack_close>
+{
+public:
+    using Handle::Handle;
+
+    [[nodiscard]] static hearth_result open(const std::string& path, Pack& pack,
+                                            std::string* message = nullptr)
+    {
+        hearth_pack* handle = nullptr;
+        const hearth_result result =
+            callWithMessage(message, [&](char* text, size_t size)
+                            { return hearth_pack_open(path.c_str(), &handle, text, size); });
+        if (result == HEARTH_OK)
+            pack.reset(handle);
+        return result;
+    }
+
+    [[nodiscard]] static hearth_result openMemory(const void* bytes, size_t size, const std::string& name,
+                                                  Pack& pack, std::string* message = nullptr)
+    {
+        hearth_pack* handle = nullptr;
+        const hearth_result result = callWithMessage(
+            message, [&](char* text, size_t text_size)
+            { return hearth_pack_open_memory(bytes, size, name.c_str(), &handle, text, text_size); });
+        if (result == HEARTH_OK)
+            pack.reset(handle);
+        return result;
+    }
+
+    [[nodiscard]] hearth_result readPage(uint32_t page, void* destination, size_t size,
+                                         std::string* message = nullptr) const
+    {
+        return callWithMessage(
+            message, [&](char* text, size_t text_size)
+            { return hearth_pack_read_page(get(), page, destination, size, text, text_size); });
+    }
+};
+
+class Renderer : public Handle<hearth_renderer, hearth_renderer_destroy>
+{
+public:
+    using Handle::Handle;
+
+    [[nodiscard]] static hearth_result create(const hearth_renderer_description& description,
+                                              Renderer& renderer, std::string* message = nullptr)
+    {
+        hearth_renderer* handle = nullptr;
+        const hearth_result result =
+            callWithMessage(message, [&](char* text, size_t size)
+                            { return hearth_renderer_create(&description, &handle, text, size); });
+        if (result == HEARTH_OK)
+            renderer.reset(handle);
+        return result;
+    }
+
+    const char* lastError() const { return hearth_last_error(get()); }
+};
+
+class Targets : public Handle<hearth_targets, hearth_targets_destroy>
+{
+public:
+    using Handle::Handle;
+
+    [[nodiscard]] static hearth_result create(const Renderer& renderer, uint32_t width, uint32_t height,
+                                              Targets& targets)
+    {
+        hearth_targets* handle = nullptr;
+        const hearth_result result = hearth_targets_create(renderer.get(), width, height, &handle);
+        if (result == HEARTH_OK)
+            targets.reset(handle);
+        return result;
+    }
+
+    [[nodiscard]] hearth_result inform(hearth_targets_information& information) const
+    {
+        return hearth_targets_inform(get(), &information);
+    }
+};
+
+class Scene : public Handle<hearth_scene, hearth_scene_destroy>
+{
+public:
+    using Handle::Handle;
+
+    [[nodiscard]] static hearth_result upload(const Renderer& renderer, const Pack& pack,
+                                              VkCommandBuffer commands, const hearth_scene_options& options,
+                                              Scene& scene)
+    {
+        hearth_scene* handle = nullptr;
+        const hearth_result result =
+            hearth_scene_upload(renderer.get(), pack.get(), commands, &options, &handle);
+        if (result == HEARTH_OK)
+            scene.reset(handle);
+        return result;
+    }
+
+    [[nodiscard]] hearth_result uploaded() { return hearth_scene_uploaded(get()); }
+    [[nodiscard]] hearth_result inform(hearth_scene_information& information) const
+    {
+        return hearth_scene_inform(get(), &information);
+    }
+    [[nodiscard]] hearth_result beginFrame(uint64_t serial, uint64_t completed_serial)
+    {
+        return hearth_scene_begin_frame(get(), serial, completed_serial);
+    }
+    [[nodiscard]] hearth_result stream(hearth_stream_counters& counters) const
+    {
+        return hearth_scene_stream(get(), &counters);
+    }
+    [[nodiscard]] hearth_result retryFailed() { return hearth_scene_retry_failed(get()); }
+    [[nodiscard]] hearth_result record(Targets& targets, VkCommandBuffer commands, const hearth_frame& frame)
+    {
+        return hearth_record_frame(get(), targets.get(), commands, &frame);
+    }
+    [[nodiscard]] hearth_result recordPrefetch(Targets& targets, VkCommandBuffer commands,
+                                               const hearth_frame& frame)
+    {
+        return hearth_record_prefetch(get(), targets.get(), commands, &frame);
+    }
+    [[nodiscard]] hearth_result recordCounters(VkCommandBuffer commands, VkBuffer destination,
+                                               VkDeviceSize offset)
+    {
+        return hearth_record_counters(get(), commands, destination, offset);
+    }
+};
+
+} // namespace hearth

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "runtime/c/handles.h"
+
+#include "formats/container.h"
+
+using namespace hearth;
+using namespace hearth::c;
+
+namespace
+{
+
+/// Pages are decoded in place, tables read through typed spans.
+bool isAligned(const void* bytes)
+{
+    return reinterpret_cast<uintptr_t>(bytes) % formats::kChunkAlignment == 0;
+}
+
+Status handOut(Result<pack::Pack> opened, hearth_pack** pack)
+{
+    HEARTH_ASSIGN_OR_RETURN(pack::Pack value, std::move(opened));
+    *pack = new hearth_pack(std::move(value));
+    return success();
+}
+
+} // namespace
+
+hearth_result hearth_pack_open(const char* path, hearth_pack** pack, char* message, size_t message_size)
+{
+    return call({message, message_size}, __func__,
+                [&]() -> Status
+                {
+                    if (path == nullptr || pack == nullptr)
+                        return usage("path or pack is NULL");
+                    return handOut(pack::Pack::open(path), pack);
+                });
+}
+
+hearth_result hearth_pack_open_memory(const void* bytes, size_t size, const char* name, hearth_pack** pack,
+                                      char* message, size_t message_size)
+{
+    return call(
+        {message, message_size}, __func__,
+        [&]() -> Status
+        {
+            if (bytes == nullptr || name == nullptr || pack == nullptr)
+                return usage("bytes, name or pack is NULL");
+            if (!isAligned(bytes))
+                return usage("bytes is not aligned to 64");
+            return handOut(pack::Pack::fromBytes({static_cast<const std::byte*>(bytes), size}, name), pack);
+        });
+}
+
+hearth_result hearth_pack_read_page(const hearth_pack* pack, uint32_t page, void* destination, size_t size,
+                                    char* message, size_t message_size)
+{
+    return call({message, message_size}, __func__,
+                [&]() -> Status
+                {
+                    if (pack == nullptr || destination == nullptr)
+                        return usage("pack or destination is NULL");
+                    if (page >= pack->pack->pages().size())
+                        return usage("there is no page " + std::to_string(page));
+                    if (size < pack->pack.pageSize(page))
+                        return usage("page " + std::to_string(page) + " has " +
+                                     std::to_string(pack->pack.pageSize(page)) + " bytes, destination " +
+                                     std::to_string(size));
+                    HEARTH_TRY(pack->pack.readPage(page, {static_cast<std::byte*>(destination), size}));
+                    return success();
+                });
+}
+
+hearth_result hearth_pack_close(hearth_pack* pack)
+{
+    if (pack != nullptr && pack->scene_count != 0)
+        return HEARTH_ERROR_IN_USE;
+    delete pack;
+    return HEARTH_OK;
+}

@@ -1,0 +1,67 @@
+// The numbers of hearth.h are those of the runtime: a change of either does not compile.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "runtime/c/handles.h"
+
+#include <cstddef>
+
+namespace hearth
+{
+
+namespace
+{
+
+using shared::FrameCounters;
+
+static_assert(HEARTH_CULL_INSTANCES == shared::kCullInstances);
+static_assert(HEARTH_CULL_FRUSTUM == shared::kCullFrustum);
+static_assert(HEARTH_CULL_CONE == shared::kCullCone);
+static_assert(HEARTH_CULL_OCCLUSION == shared::kCullOcclusion);
+static_assert(HEARTH_CULL_EVERYTHING == shared::kCullEverything);
+
+static_assert(HEARTH_SHOW_FINAL == shared::kViewFinal);
+static_assert(HEARTH_SHOW_CLUSTERS == shared::kViewClusters);
+static_assert(HEARTH_SHOW_LOD == shared::kViewLod);
+static_assert(HEARTH_SHOW_TRIANGLES == shared::kViewTriangles);
+static_assert(HEARTH_SHOW_NORMALS == shared::kViewNormals);
+static_assert(HEARTH_SHOW_DEPTH == shared::kViewDepth);
+static_assert(HEARTH_SHOW_MATERIALS == shared::kViewMaterials);
+static_assert(HEARTH_SHOW_ERROR == shared::kViewError);
+static_assert(HEARTH_SHOW_CONES == shared::kViewCones);
+static_assert(HEARTH_SHOW_OVERDRAW == shared::kViewOverdraw);
+
+constexpr bool equal(int c, gpu::ShadedArea area)
+{
+    return c == static_cast<int>(area);
+}
+static_assert(equal(HEARTH_SHADE_AUTOMATIC, gpu::ShadedArea::automatic));
+static_assert(equal(HEARTH_SHADE_WHOLE_PICTURE, gpu::ShadedArea::wholePicture));
+static_assert(equal(HEARTH_SHADE_TILES, gpu::ShadedArea::tiles));
+
+constexpr bool equal(int c, gpu::FrameTimestamp timestamp)
+{
+    return c == static_cast<int>(timestamp);
+}
+static_assert(equal(HEARTH_TIMESTAMP_BEGIN, gpu::kTimestampBegin));
+static_assert(equal(HEARTH_TIMESTAMP_CULL, gpu::kTimestampCull));
+static_assert(equal(HEARTH_TIMESTAMP_EARLY_VISIBILITY, gpu::kTimestampEarlyVisibility));
+static_assert(equal(HEARTH_TIMESTAMP_PYRAMID, gpu::kTimestampPyramid));
+static_assert(equal(HEARTH_TIMESTAMP_LATE_CULL, gpu::kTimestampLateCull));
+static_assert(equal(HEARTH_TIMESTAMP_VISIBILITY, gpu::kTimestampVisibility));
+static_assert(equal(HEARTH_TIMESTAMP_MATERIAL_TILES, gpu::kTimestampMaterialTiles));
+static_assert(equal(HEARTH_TIMESTAMP_MATERIAL_DEPTH, gpu::kTimestampMaterialDepth));
+static_assert(equal(HEARTH_TIMESTAMP_SHADING, gpu::kTimestampShading));
+static_assert(equal(HEARTH_TIMESTAMP_COUNT, gpu::kTimestampCount));
+
+static_assert(sizeof(hearth_frame_counters) == sizeof(FrameCounters));
+static_assert(offsetof(hearth_frame_counters, drawn_clusters) == offsetof(FrameCounters, drawn_clusters));
+static_assert(offsetof(hearth_frame_counters, dropped_clusters) == offsetof(FrameCounters, dropped_clusters));
+static_assert(offsetof(hearth_frame_counters, early_clusters) == offsetof(FrameCounters, early_clusters));
+
+// the defaults
+constexpr hearth_scene_options kSceneDefaults = HEARTH_SCENE_OPTIONS_INIT;
+static_assert(kSceneDefaults.max_visible_clusters == (1u << 22) && kSceneDefaults.max_loads == 32 &&
+              kSceneDefaults.frames_in_flight == 3);
+
+} // namespace
+
+} // namespace hearth

@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "runtime/c/handles.h"
+
+#include <array>
+#include <bit>
+#include <cstring>
+
+using namespace hearth;
+using namespace hearth::c;
+
+namespace
+{
+
+constexpr uint32_t kMostLoads = 1024;
+constexpr uint32_t kMostFrames = 16;
+
+using DoneBytes = std::array<unsigned char, sizeof(pack::ReadDone)>;
+static_assert(sizeof(pack::ReadDone) <= sizeof(hearth_read));
+
+hearth_read toC(const pack::ReadDone& done)
+{
+    hearth_read read{};
+    std::memcpy(read.internal, &done, sizeof(done));
+    return read;
+}
+
+pack::ReadDone fromC(const hearth_read& read)
+{
+    DoneBytes bytes;
+    std::memcpy(bytes.data(), read.internal, bytes.size());
+    return std::bit_cast<pack::ReadDone>(bytes);
+}
+
+Status check(const hearth_scene_options* options)
+{
+    HEARTH_TRY(checkStruct("options", options));
+    if (options->max_visible_clusters < 1 || options->max_visible_clusters > shared::kMaxSlots)
+        return usage("max_visible_clusters is not from 1 to " + std::to_string(shared::kMaxSlots));
+    if (options->geometry_budget == 0)
+        return success();
+    if (options->read == nullptr)
+        return usage("geometry_budget needs a read callback");
+    if (options->max_loads < 1 || options->max_loads > kMostLoads)
+        return usage("max_loads is not from 1 to " + std::to_string(kMostLoads));
+    if (options->frames_in_flight < 1 || options->frames_in_flight > kMostFrames)
+        return usage("frames_in_flight is not from 1 to " + std::to_string(kMostFrames));
+    return success();
+}
+
+gpu::SceneOptions toOptions(const hearth_scene_options& options)
+{
+    gpu::SceneOptions result{.max_visible_clusters = options.max_visible_clusters,
+                             .geometry_budget = options.geometry_budget};
+    if (options.geometry_budget > 0)
+        result.stream = {.read = [read = options.read, user = options.read_user](
+                                     uint32_t page, std::span<std::byte> destination, pack::ReadDone done)
+                         { read(user, page, destination.data(), destination.size(), toC(done)); },
+                         .max_loads = options.max_loads,
+                         .frames_in_flight = options.frames_in_flight};
+    return result;
+}
+
+Status checkStreamed(const hearth_scene& scene)
+{
+    return scene.scene->stream == nullptr ? Status(usage("the scene has no geometry_budget")) : success();
+}
+
+Status checkSerials(const hearth_scene& scene, uint64_t serial, uint64_t completed_serial)
+{
+    if (scene.to_be_recorded)
+        return usage("frame " + std::to_string(scene.serial) + " has not been recorded");
+    if (serial <= scene.serial)
+        return usage("serial " + std::to_string(serial) + " is not above " + std::to_string(scene.serial) +
+                     ", that of the frame before");
+    if (completed_serial >= serial)
+        return usage("completed_serial " + std::to_string(completed_serial) + " is not below serial " +
+                     std::to_string(serial));
+    if (completed_serial < scene.completed_serial)
+        return usage("completed_serial fell from " + std::to_string(scene.completed_serial) + " to " +
+                     std::to_string(completed_serial));
+    return success();
+}
+
+uint64_t allocatedBytes(const gpu::Scene& scene)
+{
+    return scene.arena.allocatedBytes() + (scene.stream == nullptr ? 0 : scene.stream->allocatedBytes());
+}
+
+} // namespace
+
+void hearth_read_done(hearth_read read, int ok)
+{
+    fromC(read)(ok != 0);
+}
+
+hearth_result hearth_scene_upload(hearth_renderer* renderer, hearth_pack* pack, VkCommandBuffer commands,
+                                  const hearth_scene_options* options, hearth_scene** scene)
+{
+    if (renderer == nullptr)
+        return HEARTH_ERROR_USAGE;
+    return call(renderer->message(), __func__,
+                [&]() -> Status
+                {
+                    if (pack == nullptr || commands == VK_NULL_HANDLE || scene == nullptr)
+                        return usage("pack, commands or scene is NULL");
+                    HEARTH_TRY(check(options));
+                    auto made = std::make_unique<hearth_scene>();
+                    made->renderer = renderer;
+                    made->pack = pack;
+                    HEARTH_ASSIGN_OR_RETURN(
+                        made->scene,
+                        renderer->renderer->upload(pack->pack.view(), commands, toOptions(*options)));
+                    ++renderer->child_count;
+                    ++pack->scene_count;
+                    *scene = made.release();
+                    return success();
+                });
+}
+
+hearth_result hearth_scene_uploaded(hearth_scene* scene)
+{
+    if (scene == nullptr)
+        return HEARTH_ERROR_USAGE;
+    scene->scene->staging.reset();
+    return HEARTH_OK;
+}
+
+hearth_result hearth_scene_destroy(hearth_scene* scene)
+{
+    if (scene == nullptr)
+        return HEARTH_OK;
+    const std::unique_ptr<hearth_scene> dying(scene);
+    scene->scene.reset(); // reads the pack
+    --scene->renderer->child_count;
+    --scene->pack->scene_count;
+    return HEARTH_OK;
+}
+
+hearth_result hearth_scene_inform(const hearth_scene* scene, hearth_scene_information* information)
+{
+    if (scene == nullptr)
+        return HEARTH_ERROR_USAGE;
+    return call(scene->renderer->message(), __func__,
+                [&]() -> Status
+                {
+                    HEARTH_TRY(checkStruct("information", information));
+                    const Box3& box = scene->scene->bounds;
+                    *information = {.struct_size = sizeof(*information),
+                                    .instance_count = scene->scene->instance_count,
+                                    .dropped_lights = scene->scene->dropped_lights,
+                                    .reserved = 0,
+                                    .box_min = {box.min.x, box.min.y, box.min.z},
+                                    .box_max = {box.max.x, box.max.y, box.max.z},
+                                    .allocated_bytes = allocatedBytes(*scene->scene)};
+                    return success();
+                });
+}
+
+hearth_result hearth_scene_begin_frame(hearth_scene* scene, uint64_t serial, uint64_t completed_serial)
+{
+    if (scene == nullptr)
+        return HEARTH_ERROR_USAGE;
+    return call(scene->renderer->message(), __func__,
+                [&]() -> Status
+                {
+                    HEARTH_TRY(checkStreamed(*scene));
+                    HEARTH_TRY(checkSerials(*scene, serial, completed_serial));
+                    scene->serial = serial;
+                    scene->completed_serial = completed_serial;
+                    scene->to_be_recorded = true;
+                    scene->scene->stream->beginFrame(serial, completed_serial);
+                    return success();
+                });
+}
+
+hearth_result hearth_scene_stream(const hearth_scene* scene, hearth_stream_counters* counters)
+{
+    if (scene == nullptr)
+        return HEARTH_ERROR_USAGE;
+    return call(scene->renderer->message(), __func__,
+                [&]() -> Status
+                {
+                    HEARTH_TRY(checkStreamed(*scene));
+                    HEARTH_TRY(checkStruct("counters", counters));
+                    const gpu::SceneStream& stream = *scene->scene->stream;
+                    const pack::StreamStatistics& now = stream.statistics();
+                    *counters = {.struct_size = sizeof(*counters),
+                                 .error_scale = now.error_scale,
+                                 .budget_bytes = now.budget_bytes,
+                                 .bytes_in_use = now.bytes_in_use,
+                                 .bytes_resident = now.bytes_resident,
+                                 .bytes_streamed = now.bytes_streamed,
+                                 .settled_serial = stream.settledSerial(),
+                                 .pages_resident = now.pages_resident,
+                                 .reads_in_flight = stream.pages().readsInFlight(),
+                                 .failures = now.failures,
+                                 .failed_page_count = static_cast<uint32_t>(stream.failed().size()),
+                                 .failed_pages = stream.failed().data()};
+                    return success();
+                });
+}
+
+hearth_result hearth_scene_retry_failed(hearth_scene* scene)
+{
+    if (scene == nullptr)
+        return HEARTH_ERROR_USAGE;
+    return call(scene->renderer->message(), __func__,
+                [&]() -> Status
+                {
+                    HEARTH_TRY(checkStreamed(*scene));
+                    scene->scene->stream->retryFailed();
+                    return success();
+                });
+}
