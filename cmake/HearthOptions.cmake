@@ -24,7 +24,8 @@ target_compile_options(hearth_warnings INTERFACE
 
 add_library(hearth_settings INTERFACE)
 # One result on every machine: no contraction into fused multiply-adds, no reassociation.
-target_compile_options(hearth_settings INTERFACE -ffp-contract=off -fvisibility=hidden -fvisibility-inlines-hidden)
+target_compile_options(hearth_settings INTERFACE -ffp-contract=off -fvisibility=hidden
+  $<$<COMPILE_LANGUAGE:CXX>:-fvisibility-inlines-hidden>)
 # GCC's vectoriser of straight-line code drops the rounding of double{float(x)} (seen with 12.2), so a bound that is
 # stored as float would be checked against a value that it does not have. tests/cook/bounds_test.cpp shows it.
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")

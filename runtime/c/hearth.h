@@ -35,18 +35,17 @@ typedef int32_t hearth_result;
 enum
 {
     HEARTH_OK = 0,
-    HEARTH_ERROR_USAGE = 1,          /* an argument, or the order of calls, breaks a rule of this header */
-    HEARTH_ERROR_IN_USE = 2,         /* something that was made from it has not been destroyed */
-    HEARTH_ERROR_FILE_MISSING = 3,   /* a file does not exist or cannot be read */
-    HEARTH_ERROR_FILE_MALFORMED = 4, /* a file is damaged, of another kind or of another version */
-    HEARTH_ERROR_READ = 5,           /* reading failed half way */
-    HEARTH_ERROR_DEVICE = 6,         /* the device lacks what the renderer needs */
-    HEARTH_ERROR_DEVICE_FAILED = 7,  /* a Vulkan call failed */
-    HEARTH_ERROR_DEVICE_LIMIT = 8,   /* the scene or the picture is too large for the device */
-    HEARTH_ERROR_STREAMING_BUDGET =
-        9, /* the geometry that must stay exceeds the budget; the message has both */
-    HEARTH_ERROR_OUT_OF_MEMORY = 10, /* of the CPU */
-    HEARTH_ERROR_INTERNAL = 11       /* a defect of Hearth */
+    HEARTH_ERROR_USAGE = 1,            /* an argument, or the order of calls, breaks a rule of this header */
+    HEARTH_ERROR_IN_USE = 2,           /* something that was made from it has not been destroyed */
+    HEARTH_ERROR_FILE_MISSING = 3,     /* a file does not exist or cannot be read */
+    HEARTH_ERROR_FILE_MALFORMED = 4,   /* a file is damaged, of another kind or of another version */
+    HEARTH_ERROR_READ = 5,             /* reading failed half way */
+    HEARTH_ERROR_DEVICE = 6,           /* the device lacks what the renderer needs */
+    HEARTH_ERROR_DEVICE_FAILED = 7,    /* a Vulkan call failed */
+    HEARTH_ERROR_DEVICE_LIMIT = 8,     /* the scene or the picture is too large for the device */
+    HEARTH_ERROR_STREAMING_BUDGET = 9, /* the geometry that must stay exceeds the budget */
+    HEARTH_ERROR_OUT_OF_MEMORY = 10,   /* of the CPU */
+    HEARTH_ERROR_INTERNAL = 11         /* a defect of Hearth */
 };
 
 typedef struct hearth_pack hearth_pack;
@@ -336,8 +335,8 @@ typedef struct hearth_camera
 typedef struct hearth_lod_knot
 {
     float distance; /* metres from the eye, 0 or more, more than that of the knot before */
-    float
-        factor; /* above 1 is finer; within 8 times that of the knot before; grows no faster than the distance */
+    /* Above 1 is finer. Within 8 times that of the knot before; grows no faster than the distance. */
+    float factor;
 } hearth_lod_knot;
 
 /* A new place of an instance, for this frame and those after it. */

@@ -1,0 +1,43 @@
+/* A caller of hearth.h in C99, with a Vulkan device of its own, as a game would have it.
+ * SPDX-License-Identifier: LicenseRef-Hearth-Undecided */
+#ifndef HEARTH_TESTS_C_CALLER_H
+#define HEARTH_TESTS_C_CALLER_H
+
+#include "runtime/c/hearth.h"
+
+typedef struct c_caller c_caller;
+
+/* NULL where there is no Vulkan device of this name, or no validation layer. */
+c_caller* c_caller_create(const char* device_name);
+void c_caller_destroy(c_caller* caller);
+
+/* All that hearth_renderer_create needs. */
+hearth_renderer_description c_caller_description(const c_caller* caller);
+
+/* Messages of the validation layer so far, and the first of them. */
+unsigned c_caller_message_count(const c_caller* caller);
+const char* c_caller_message(const c_caller* caller);
+
+/* A command buffer to be recorded into; c_caller_submit submits it and waits. */
+VkCommandBuffer c_caller_begin(c_caller* caller);
+VkResult c_caller_submit(c_caller* caller);
+
+/* A picture: what is drawn and, after it, what was. */
+typedef struct c_picture
+{
+    hearth_scene_options scene;
+    hearth_frame frame; /* its timestamps are set */
+    uint32_t width, height;
+
+    uint32_t* color; /* width * height, of the caller; also below */
+    uint32_t* visibility;
+    uint64_t ticks[HEARTH_TIMESTAMP_COUNT];
+    hearth_frame_counters counters;
+    hearth_stream_counters streaming; /* with a budget */
+} c_picture;
+
+/* Uploads the scene, with a budget streams it until all that is wanted is there, and draws one frame. */
+hearth_result c_caller_draw(c_caller* caller, hearth_renderer* renderer, hearth_pack* pack,
+                            c_picture* picture);
+
+#endif

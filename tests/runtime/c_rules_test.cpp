@@ -1,0 +1,286 @@
+// What breaks a rule of hearth.h, or a file that is wrong, is refused with a message, and changes nothing.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "tests/runtime/c_fixture.h"
+
+#include <fstream>
+#include <limits>
+
+namespace hearth::test
+{
+
+namespace
+{
+
+using testing::HasSubstr;
+using testing::StartsWith;
+
+std::string writeTemporary(const std::string& name, std::span<const std::byte> bytes)
+{
+    const std::string path = testing::TempDir() + name;
+    std::ofstream(path, std::ios::binary)
+        .write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+    return path;
+}
+
+/// With a scene and targets.
+class CFrameRulesTest : public CApiTest
+{
+protected:
+    void SetUp() override
+    {
+        CApiTest::SetUp();
+        ASSERT_EQ(hearth_targets_create(renderer_, 16, 16, &targets_), HEARTH_OK);
+    }
+
+    void TearDown() override
+    {
+        EXPECT_EQ(hearth_renderer_destroy(renderer_), HEARTH_ERROR_IN_USE);
+        EXPECT_EQ(hearth_scene_destroy(scene_), HEARTH_OK);
+        EXPECT_EQ(hearth_targets_destroy(targets_), HEARTH_OK);
+        CApiTest::TearDown();
+    }
+
+    hearth_result upload(const hearth_scene_options& options)
+    {
+        const VkCommandBuffer commands = c_caller_begin(caller_);
+        const hearth_result result = hearth_scene_upload(renderer_, pack_, commands, &options, &scene_);
+        EXPECT_EQ(c_caller_submit(caller_), VK_SUCCESS);
+        return result;
+    }
+
+    /// The message where recording is refused, else "".
+    std::string record(const hearth_frame& frame)
+    {
+        const VkCommandBuffer commands = c_caller_begin(caller_);
+        const hearth_result result = hearth_record_frame(scene_, targets_, commands, &frame);
+        EXPECT_EQ(c_caller_submit(caller_), VK_SUCCESS);
+        EXPECT_TRUE(result == HEARTH_OK || result == HEARTH_ERROR_USAGE) << result;
+        return result == HEARTH_OK ? "" : hearth_last_error(renderer_);
+    }
+
+    hearth_targets* targets_ = nullptr;
+    hearth_scene* scene_ = nullptr;
+};
+
+} // namespace
+
+TEST_F(CApiTest, aBadPackIsNamedWithWhatToDo)
+{
+    hearth_pack* pack = nullptr;
+    EXPECT_EQ(hearth_pack_open("/nowhere/a.hearth", &pack, message_, sizeof(message_)),
+              HEARTH_ERROR_FILE_MISSING);
+    EXPECT_THAT(message_, StartsWith("/nowhere/a.hearth: error: "));
+    EXPECT_THAT(message_, HasSubstr("hint: check the path"));
+
+    std::vector<std::byte> damaged(bytes_.span().begin(), bytes_.span().end());
+    damaged[damaged.size() / 2] ^= std::byte{1};
+    const std::string path = writeTemporary("c_api_damaged.hearth", damaged);
+    EXPECT_EQ(hearth_pack_open(path.c_str(), &pack, message_, sizeof(message_)), HEARTH_ERROR_FILE_MALFORMED);
+    EXPECT_THAT(message_, StartsWith(path));
+    EXPECT_THAT(message_, HasSubstr("hint: cook the asset again"));
+
+    char cut[8];
+    EXPECT_EQ(hearth_pack_open(path.c_str(), &pack, cut, sizeof(cut)), HEARTH_ERROR_FILE_MALFORMED);
+    EXPECT_EQ(std::string(cut), path.substr(0, 7));
+    EXPECT_EQ(hearth_pack_open(path.c_str(), &pack, nullptr, 0), HEARTH_ERROR_FILE_MALFORMED);
+    EXPECT_EQ(pack, nullptr);
+}
+
+TEST_F(CApiTest, opensAFileAndReadsItsPages)
+{
+    const std::string path = writeTemporary("c_api.hearth", bytes_.span());
+    hearth_pack* pack = nullptr;
+    ASSERT_EQ(hearth_pack_open(path.c_str(), &pack, message_, sizeof(message_)), HEARTH_OK) << message_;
+    const uint32_t size = view_->pages()[1].size;
+    std::vector<std::byte> page(size), expected(size);
+    EXPECT_EQ(hearth_pack_read_page(pack, 1, page.data(), size, nullptr, 0), HEARTH_OK);
+    ASSERT_TRUE(view_->decodePage(1, expected).ok());
+    EXPECT_EQ(page, expected);
+
+    EXPECT_EQ(hearth_pack_read_page(pack, 1, page.data(), size - 1, message_, sizeof(message_)),
+              HEARTH_ERROR_USAGE);
+    EXPECT_THAT(message_, HasSubstr("destination " + std::to_string(size - 1)));
+    EXPECT_EQ(hearth_pack_read_page(pack, 1 << 20, page.data(), size, message_, sizeof(message_)),
+              HEARTH_ERROR_USAGE);
+    EXPECT_THAT(message_, HasSubstr("no page 1048576"));
+    EXPECT_EQ(hearth_pack_close(pack), HEARTH_OK);
+}
+
+TEST_F(CApiTest, nullArgumentsAreRefused)
+{
+    hearth_pack* pack = nullptr;
+    hearth_renderer* renderer = nullptr;
+    hearth_targets* targets = nullptr;
+    hearth_scene* scene = nullptr;
+    const hearth_renderer_description description = c_caller_description(caller_);
+    EXPECT_EQ(hearth_pack_open(nullptr, &pack, message_, sizeof(message_)), HEARTH_ERROR_USAGE);
+    EXPECT_THAT(message_, testing::StrEq("hearth_pack_open: error: path or pack is NULL [E1000] "
+                                         "hint: see hearth.h"));
+    EXPECT_EQ(hearth_pack_open("a", nullptr, nullptr, 0), HEARTH_ERROR_USAGE);
+    EXPECT_EQ(hearth_pack_open_memory(nullptr, 1, "a", &pack, nullptr, 0), HEARTH_ERROR_USAGE);
+    EXPECT_EQ(hearth_pack_open_memory(bytes_.span().data() + 8, 8, "a", &pack, nullptr, 0),
+              HEARTH_ERROR_USAGE);
+    EXPECT_EQ(hearth_pack_read_page(nullptr, 0, message_, 1, nullptr, 0), HEARTH_ERROR_USAGE);
+    EXPECT_EQ(hearth_renderer_create(nullptr, &renderer, message_, sizeof(message_)), HEARTH_ERROR_USAGE);
+    EXPECT_THAT(message_, HasSubstr("description is NULL"));
+    EXPECT_EQ(hearth_renderer_create(&description, nullptr, nullptr, 0), HEARTH_ERROR_USAGE);
+    EXPECT_EQ(hearth_targets_create(nullptr, 1, 1, &targets), HEARTH_ERROR_USAGE);
+    EXPECT_EQ(hearth_targets_create(renderer_, 1, 1, nullptr), HEARTH_ERROR_USAGE);
+    EXPECT_EQ(hearth_targets_create(renderer_, 1, 0, &targets), HEARTH_ERROR_USAGE);
+    EXPECT_THAT(hearth_last_error(renderer_), HasSubstr("width or height is 0"));
+    EXPECT_EQ(hearth_targets_inform(nullptr, nullptr), HEARTH_ERROR_USAGE);
+    EXPECT_EQ(hearth_scene_upload(renderer_, nullptr, nullptr, nullptr, &scene), HEARTH_ERROR_USAGE);
+    EXPECT_EQ(hearth_scene_uploaded(nullptr), HEARTH_ERROR_USAGE);
+    EXPECT_EQ(hearth_scene_inform(nullptr, nullptr), HEARTH_ERROR_USAGE);
+    EXPECT_EQ(hearth_scene_begin_frame(nullptr, 1, 0), HEARTH_ERROR_USAGE);
+    EXPECT_EQ(hearth_scene_stream(nullptr, nullptr), HEARTH_ERROR_USAGE);
+    EXPECT_EQ(hearth_scene_retry_failed(nullptr), HEARTH_ERROR_USAGE);
+    EXPECT_EQ(hearth_record_frame(nullptr, nullptr, nullptr, nullptr), HEARTH_ERROR_USAGE);
+    EXPECT_EQ(hearth_record_prefetch(nullptr, nullptr, nullptr, nullptr), HEARTH_ERROR_USAGE);
+    EXPECT_EQ(hearth_record_counters(nullptr, nullptr, VK_NULL_HANDLE, 0), HEARTH_ERROR_USAGE);
+    EXPECT_STREQ(hearth_last_error(nullptr), "");
+    EXPECT_EQ(hearth_pack_close(nullptr), HEARTH_OK);
+    EXPECT_EQ(hearth_renderer_destroy(nullptr), HEARTH_OK);
+    EXPECT_EQ(hearth_scene_destroy(nullptr), HEARTH_OK);
+    EXPECT_EQ(hearth_targets_destroy(nullptr), HEARTH_OK);
+}
+
+TEST_F(CApiTest, otherVersionsAreRefused)
+{
+    EXPECT_EQ(hearth_api_version(), HEARTH_API_VERSION);
+    hearth_renderer* renderer = nullptr;
+    hearth_renderer_description description = c_caller_description(caller_);
+    description.struct_size += 8;
+    EXPECT_EQ(hearth_renderer_create(&description, &renderer, message_, sizeof(message_)),
+              HEARTH_ERROR_USAGE);
+    EXPECT_THAT(message_,
+                HasSubstr("description has a struct_size of " + std::to_string(sizeof(description) + 8)));
+    EXPECT_THAT(message_, HasSubstr("compile with the hearth.h of the library"));
+
+    description = c_caller_description(caller_);
+    for (const uint32_t version : {0x00020000u, 0x00010001u, 0u})
+    {
+        description.api_version = version;
+        EXPECT_EQ(hearth_renderer_create(&description, &renderer, message_, sizeof(message_)),
+                  HEARTH_ERROR_USAGE);
+        EXPECT_THAT(message_, HasSubstr("the library is 1.0"));
+    }
+    description = c_caller_description(caller_);
+    description.features = 1u << 31;
+    EXPECT_EQ(hearth_renderer_create(&description, &renderer, nullptr, 0), HEARTH_ERROR_USAGE);
+    description = c_caller_description(caller_);
+    description.device = VK_NULL_HANDLE;
+    EXPECT_EQ(hearth_renderer_create(&description, &renderer, nullptr, 0), HEARTH_ERROR_USAGE);
+    EXPECT_EQ(renderer, nullptr);
+}
+
+TEST_F(CApiTest, everyResultHasAText)
+{
+    for (hearth_result result = HEARTH_OK; result <= HEARTH_ERROR_INTERNAL; ++result)
+        EXPECT_STRNE(hearth_result_string(result), hearth_result_string(-1)) << result;
+    EXPECT_STREQ(hearth_result_string(HEARTH_OK), "ok");
+    EXPECT_NE(hearth_result_string(12345), nullptr);
+}
+
+TEST_F(CFrameRulesTest, framesThatBreakRulesAreRefused)
+{
+    constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+    ASSERT_EQ(upload(HEARTH_SCENE_OPTIONS_INIT), HEARTH_OK) << hearth_last_error(renderer_);
+    const hearth_lod_knot torn[] = {{1, 1}, {2, 4}};
+    const hearth_move nowhere{1000, {}}, mirrored{0, {{-1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
+    const auto refused = [&](const auto& change)
+    {
+        hearth_frame frame = makeFrame();
+        change(frame);
+        return record(frame);
+    };
+    using F = hearth_frame;
+    EXPECT_THAT(refused([](F& f) { f.struct_size = 4; }), HasSubstr("frame has a struct_size of 4"));
+    EXPECT_THAT(refused([](F& f) { f.camera.position[1] = kNan; }), HasSubstr("not finite"));
+    EXPECT_THAT(refused([](F& f) { f.camera.y_fov_rad = 3.2f; }), HasSubstr("y_fov_rad"));
+    EXPECT_THAT(refused([](F& f) { f.camera.z_near = 0; }), HasSubstr("z_near"));
+    EXPECT_THAT(refused([](F& f) { f.error_pixels = -1; }), HasSubstr("error_pixels"));
+    EXPECT_THAT(refused([](F& f) { f.depth_scale = kNan; }), HasSubstr("depth_scale"));
+    EXPECT_THAT(refused([](F& f) { f.cull_flags = 16; }), HasSubstr("cull_flags"));
+    EXPECT_THAT(refused([](F& f) { f.shown = 10; }), HasSubstr("shown"));
+    EXPECT_THAT(refused([](F& f) { f.shaded_area = 3; }), HasSubstr("shaded_area"));
+    EXPECT_THAT(refused([](F& f) { f.reserved = 1; }), HasSubstr("reserved"));
+    EXPECT_THAT(refused([](F& f) { f.move_count = 1; }), HasSubstr("moves is NULL"));
+    EXPECT_THAT(refused([](F& f) { f.lod_knot_count = 1; }), HasSubstr("lod_knots is NULL"));
+    EXPECT_THAT(refused([&](F& f) { f.lod_knots = torn, f.lod_knot_count = 9; }), HasSubstr("above 8"));
+    EXPECT_THAT(refused([&](F& f) { f.lod_knots = torn, f.lod_knot_count = 2; }),
+                HasSubstr("knot 2 grows faster than the distance"));
+    EXPECT_THAT(refused([&](F& f) { f.moves = &nowhere, f.move_count = 1; }),
+                StartsWith("hearth_record_frame|instance 1000: error: there are 6"));
+    EXPECT_THAT(refused([&](F& f) { f.moves = &mirrored, f.move_count = 1; }), HasSubstr("mirrors"));
+    EXPECT_EQ(refused([](F&) {}), "");
+}
+
+TEST_F(CFrameRulesTest, aSceneWithoutABudgetDoesNotStream)
+{
+    ASSERT_EQ(upload(HEARTH_SCENE_OPTIONS_INIT), HEARTH_OK) << hearth_last_error(renderer_);
+    hearth_stream_counters counters = HEARTH_STREAM_COUNTERS_INIT;
+    const hearth_frame frame = makeFrame();
+    EXPECT_EQ(hearth_scene_begin_frame(scene_, 1, 0), HEARTH_ERROR_USAGE);
+    EXPECT_THAT(hearth_last_error(renderer_), HasSubstr("no geometry_budget"));
+    EXPECT_EQ(hearth_scene_stream(scene_, &counters), HEARTH_ERROR_USAGE);
+    EXPECT_EQ(hearth_scene_retry_failed(scene_), HEARTH_ERROR_USAGE);
+    const VkCommandBuffer commands = c_caller_begin(caller_);
+    EXPECT_EQ(hearth_record_prefetch(scene_, targets_, commands, &frame), HEARTH_ERROR_USAGE);
+    EXPECT_EQ(c_caller_submit(caller_), VK_SUCCESS);
+}
+
+TEST_F(CFrameRulesTest, framesOfAStreamedSceneComeInOrder)
+{
+    Reader reader{.pack = pack_, .threads = {}};
+    ASSERT_EQ(upload(streamedBy(reader)), HEARTH_OK) << hearth_last_error(renderer_);
+    const auto refused = [&](uint64_t serial, uint64_t completed_serial) -> std::string
+    {
+        const hearth_result result = hearth_scene_begin_frame(scene_, serial, completed_serial);
+        return result == HEARTH_OK ? "" : hearth_last_error(renderer_);
+    };
+    EXPECT_THAT(record(makeFrame()), HasSubstr("begins with hearth_scene_begin_frame"));
+    EXPECT_THAT(refused(0, 0), HasSubstr("serial 0 is not above 0"));
+    EXPECT_THAT(refused(5, 5), HasSubstr("completed_serial 5 is not below serial 5"));
+    EXPECT_EQ(refused(5, 3), "");
+    EXPECT_THAT(refused(6, 3), HasSubstr("frame 5 has not been recorded"));
+    EXPECT_EQ(record(makeFrame()), "");
+    EXPECT_THAT(record(makeFrame()), HasSubstr("begins with hearth_scene_begin_frame"));
+    EXPECT_THAT(refused(5, 4), HasSubstr("serial 5 is not above 5"));
+    EXPECT_THAT(refused(6, 2), HasSubstr("completed_serial fell from 3 to 2"));
+    EXPECT_EQ(refused(6, 5), "");
+}
+
+TEST_F(CFrameRulesTest, sceneOptionsThatBreakRulesAreRefused)
+{
+    Reader reader{.pack = pack_, .threads = {}};
+    const auto refused = [&](const auto& change) -> std::string
+    {
+        hearth_scene_options options = streamedBy(reader);
+        change(options);
+        return upload(options) == HEARTH_OK ? "" : hearth_last_error(renderer_);
+    };
+    using O = hearth_scene_options;
+    EXPECT_THAT(refused([](O& o) { o.struct_size = 0; }), HasSubstr("options has a struct_size of 0"));
+    EXPECT_THAT(refused([](O& o) { o.max_visible_clusters = 0; }), HasSubstr("max_visible_clusters"));
+    EXPECT_THAT(refused([](O& o) { o.read = nullptr; }), HasSubstr("read callback"));
+    EXPECT_THAT(refused([](O& o) { o.max_loads = 0; }), HasSubstr("max_loads"));
+    EXPECT_THAT(refused([](O& o) { o.frames_in_flight = 17; }), HasSubstr("frames_in_flight"));
+    EXPECT_EQ(scene_, nullptr);
+    EXPECT_EQ(upload(streamedBy(reader, 16)), HEARTH_ERROR_STREAMING_BUDGET);
+    EXPECT_THAT(hearth_last_error(renderer_), HasSubstr("[E4006] hint: raise the budget"));
+}
+
+TEST_F(CFrameRulesTest, whatIsUsedCannotBeDestroyed)
+{
+    ASSERT_EQ(upload(HEARTH_SCENE_OPTIONS_INIT), HEARTH_OK) << hearth_last_error(renderer_);
+    EXPECT_EQ(hearth_pack_close(pack_), HEARTH_ERROR_IN_USE);
+    EXPECT_EQ(hearth_renderer_destroy(renderer_), HEARTH_ERROR_IN_USE);
+    hearth_targets* targets = nullptr;
+    EXPECT_EQ(hearth_targets_create(renderer_, 1u << 20, 16, &targets), HEARTH_ERROR_DEVICE_LIMIT);
+    EXPECT_THAT(hearth_last_error(renderer_), HasSubstr("1048576x16"));
+    EXPECT_EQ(targets, nullptr);
+    EXPECT_EQ(record(makeFrame()), "") << "the renderer is as it was";
+}
+
+} // namespace hearth::test
