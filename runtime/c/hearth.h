@@ -1,4 +1,6 @@
-/* The runtime as a C library: opens packs, uploads scenes, records frames into the caller's command buffers.
+/* SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+ *
+ * The runtime as a C library: opens packs, uploads scenes, records frames into the caller's command buffers.
  * README.md has a whole program. What is said here once holds for every call:
  *
  * - The caller owns instance, device, queue, command buffers and their submission. Nothing is submitted or waited for, no
@@ -12,9 +14,7 @@
  *   open, by any number of threads. Nothing is thrown; callbacks must not throw.
  * - What is made from something is destroyed before it, and after the frames that use it have completed. Destroying NULL
  *   does nothing.
- * - Metres, radians, right-handed, +Y up.
- *
- * SPDX-License-Identifier: LicenseRef-Hearth-Undecided */
+ * - Metres, radians, right-handed, +Y up. */
 #ifndef HEARTH_H
 #define HEARTH_H
 
@@ -370,7 +370,8 @@ typedef struct hearth_frame
     }
 
 /* Records culling and drawing, outside a render pass. Clobbers compute and graphics state. Frames of a scene, and frames
- * with the same targets, go to one queue in the order in which they were recorded. errors: USAGE. */
+ * with the same targets, go to one queue, which draws and computes, in the order in which they were recorded.
+ * errors: USAGE. */
 HEARTH_API hearth_result hearth_record_frame(hearth_scene* scene, hearth_targets* targets,
                                              VkCommandBuffer commands, const hearth_frame* frame);
 
