@@ -325,28 +325,28 @@ static hearth_result upload(c_caller* caller, hearth_renderer* renderer, hearth_
     return result == HEARTH_OK ? hearth_scene_uploaded(*scene) : result;
 }
 
-/* Frames until one had all that it wanted. Serials begin at 1; returns the last in *serial. */
+/* Prefetches until a frame had all that it wanted, and begins the next. */
 static hearth_result stream(c_caller* caller, hearth_scene* scene, hearth_targets* targets,
-                            c_picture* picture, uint64_t* serial)
+                            c_picture* picture)
 {
     const hearth_stream_counters none = HEARTH_STREAM_COUNTERS_INIT;
-    hearth_result result = HEARTH_OK;
+    const uint64_t most_frames = 500;
+    uint64_t serial;
     picture->streaming = none;
-    for (*serial = 0; picture->streaming.settled_serial == 0 && *serial < 500 && result == HEARTH_OK;)
+    for (serial = 1; picture->streaming.settled_serial == 0 && serial <= most_frames; ++serial)
     {
         const VkCommandBuffer commands = c_caller_begin(caller);
-        ++*serial;
-        result = hearth_scene_begin_frame(scene, *serial, *serial - 1);
+        hearth_result result = hearth_scene_begin_frame(scene, serial, serial - 1);
         if (result == HEARTH_OK)
             result = hearth_record_prefetch(scene, targets, commands, &picture->frame);
         if (c_caller_submit(caller) != VK_SUCCESS)
             return HEARTH_ERROR_DEVICE_FAILED;
         if (result == HEARTH_OK)
             result = hearth_scene_stream(scene, &picture->streaming);
+        if (result != HEARTH_OK)
+            return result;
     }
-    if (result == HEARTH_OK)
-        result = hearth_scene_begin_frame(scene, *serial + 1, *serial);
-    return result;
+    return hearth_scene_begin_frame(scene, serial, serial - 1);
 }
 
 /* One frame, copied to the readback: colour, visibility, counters. */
@@ -385,7 +385,6 @@ static hearth_result draw_scene(c_caller* caller, hearth_scene* scene, hearth_ta
 {
     VkQueryPoolCreateInfo queries = {VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO};
     readback memory = {VK_NULL_HANDLE, VK_NULL_HANDLE, NULL};
-    uint64_t serial;
     hearth_result result = HEARTH_OK;
     queries.queryType = VK_QUERY_TYPE_TIMESTAMP;
     queries.queryCount = HEARTH_TIMESTAMP_COUNT;
@@ -393,7 +392,7 @@ static hearth_result draw_scene(c_caller* caller, hearth_scene* scene, hearth_ta
         caller->vkCreateQueryPool(caller->device, &queries, NULL, &picture->frame.timestamps) < 0)
         result = HEARTH_ERROR_DEVICE_FAILED;
     if (result == HEARTH_OK && picture->scene.geometry_budget > 0)
-        result = stream(caller, scene, targets, picture, &serial);
+        result = stream(caller, scene, targets, picture);
     if (result == HEARTH_OK)
         result = record(caller, scene, targets, picture, &memory);
     if (result == HEARTH_OK)
