@@ -54,12 +54,13 @@ Float4 grassTexel(Float2 uv)
 
 } // namespace
 
-TriangleMesh makeGrassTuft()
+TriangleMesh makeGrassTuft(const TuftShape& shape)
 {
     TriangleMesh tuft;
-    for (int card = 0; card < 3; ++card)
+    const float turn = 2 * kPi / static_cast<float>(shape.cards);
+    for (uint32_t card = 0; card < shape.cards; ++card)
     {
-        TriangleMesh mesh = makeGrid(2, 4,
+        TriangleMesh mesh = makeGrid(shape.columns, shape.rows,
                                      [&](Float2 uv, Float3& position, Float2& texture_uv)
                                      {
                                          const float bend = 0.12f * uv.y * uv.y;
@@ -68,8 +69,7 @@ TriangleMesh makeGrassTuft()
                                      });
         for (const Float3& p : mesh.positions)
             mesh.normals.push_back(normalize({p.x * 0.6f, 1.0f, 0.35f + p.y}));
-        append(tuft,
-               placed(mesh, {.rotation = rotationAbout({0, 1, 0}, static_cast<float>(card) * 2.0943951f)}));
+        append(tuft, placed(mesh, {.rotation = rotationAbout({0, 1, 0}, static_cast<float>(card) * turn)}));
     }
     return tuft;
 }

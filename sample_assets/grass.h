@@ -7,8 +7,15 @@
 namespace hearth::samples
 {
 
-/// Three crossed, bent cards about 0.4 m high, each with two sides; normals lean upwards, so that a meadow is lit like the ground below it.
-TriangleMesh makeGrassTuft();
+struct TuftShape
+{
+    uint32_t cards = 3;
+    uint32_t columns = 2; ///< quads across a card
+    uint32_t rows = 4;    ///< quads up a card
+};
+
+/// Crossed, bent cards about 0.4 m high, each with two sides; normals lean upwards, so that a meadow is lit like the ground below it.
+TriangleMesh makeGrassTuft(const TuftShape& shape = {});
 
 int addGrassMaterial(Document& document);
 

@@ -2,6 +2,7 @@
 #include "sample_assets/samples.h"
 
 #include "sample_assets/character.h"
+#include "sample_assets/field.h"
 #include "sample_assets/grass.h"
 #include "sample_assets/hearth_scene.h"
 #include "sample_assets/noise.h"
@@ -124,6 +125,11 @@ Document generateScene(const SampleOptions& options)
     return makeHearthScene(trianglesOr(options, 2000000), textureSizeOr(options, 2048));
 }
 
+Document generateField(const SampleOptions& options)
+{
+    return makeField(trianglesOr(options, 2000000), textureSizeOr(options, 4096));
+}
+
 constexpr std::array kKinds{
     SampleKind{"rock", "a boulder of 50k triangles with colour, roughness and normal textures", generateRock},
     SampleKind{"terrain", "a tile of eroded ground, 131k triangles, coloured by slope", generateTerrain},
@@ -136,6 +142,8 @@ constexpr std::array kKinds{
     SampleKind{"transforms", "a small rock, mirrored, stretched and sheared", generateTransforms},
     SampleKind{"scene", "the demo: a campfire at dusk before a boulder of 2 million triangles",
                generateScene},
+    SampleKind{"field", "the benchmark: 40 rocks of 2 million triangles, 4096 tiles of ground, 10,000 tufts",
+               generateField},
 };
 
 } // namespace

@@ -1,0 +1,227 @@
+// Reads what hearth-render left of the scene of the talk and prints it beside the talk's figures. `./dev bench runtime`
+// makes the scene, draws it and runs this.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "formats/program.h"
+#include "formats/shared/records.h"
+#include "tests/bench/visible_figures.h"
+#include "tests/reference/flip.h"
+
+#include <nlohmann/json.hpp>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <fstream>
+#include <initializer_list>
+
+namespace
+{
+
+using namespace hearth;
+using nlohmann::json;
+
+constexpr double kMebi = 1 << 20;
+
+/// A stage of the talk's renderer, and the passes of ours that do the same.
+struct Stage
+{
+    const char* name;
+    double high_end_ms; ///< the talk's table, Immortalis-G715
+    double low_end_ms;  ///< the talk's table, a phone five years older
+    const char* passes;
+    std::array<const char*, 3> times; ///< in the statistics; null: none
+};
+
+constexpr Stage kStages[] = {
+    {"culling, binning",
+     0.11 + 0.07 + 0.2,
+     1.08 + 1.79 + 3.25,
+     "cull, pyramid, late cull",
+     {"cull", "pyramid", "late_cull"}},
+    {"rasterization", 0.72, 2.67, "visibility, both phases", {"early_visibility", "visibility", nullptr}},
+    {"material classify",
+     0.92,
+     3.42,
+     "material tiles, material depth",
+     {"material_tiles", "material_depth", nullptr}},
+    {"material shading", 0.87, 7.31, "shading", {"shading", nullptr, nullptr}},
+};
+
+struct Arguments
+{
+    std::string pack, path_stats, cold_stats, resident, converged;
+    std::vector<std::string> visibility;
+};
+
+Result<json> readStatistics(const std::string& path)
+{
+    std::ifstream file(path);
+    if (!file)
+        return Error{Issue::input_missing, path, "", ""};
+    json statistics = json::parse(file, nullptr, false);
+    if (!statistics.is_object() || statistics.value("schema", "") != "hearth.frame/1")
+        return Error{Issue::usage, path, "", "the file is no statistics of hearth-render"};
+    return statistics;
+}
+
+double number(const json& object, const char* member)
+{
+    return object.at(member).get<double>();
+}
+
+void printTimes(const json& statistics)
+{
+    const std::string device = statistics.at("device");
+    std::printf("Milliseconds a frame, medians of the path, on %s\n", device.c_str());
+    if (device.find("llvmpipe") != std::string::npos)
+        std::printf("THIS IS A CPU: the last column says nothing about a GPU. With one, the same command "
+                    "measures.\n");
+    std::printf("  %-18s %14s %14s %10s   %s\n", "the talk's stage", "Immortalis-G715", "5 years older",
+                "Hearth", "passes");
+    const json& times = statistics.at("milliseconds");
+    double high_end = 0, low_end = 0;
+    for (const Stage& stage : kStages)
+    {
+        double ms = 0;
+        for (const char* const pass : stage.times)
+            ms += pass == nullptr ? 0 : number(times, pass);
+        std::printf("  %-18s %14.2f %14.2f %10.2f   %s\n", stage.name, stage.high_end_ms, stage.low_end_ms,
+                    ms, stage.passes);
+        high_end += stage.high_end_ms;
+        low_end += stage.low_end_ms;
+    }
+    std::printf("  %-18s %14.2f %14.2f %10.2f\n\n", "frame", high_end, low_end, number(times, "frame"));
+}
+
+void printVisible(const char* name, const bench::VisibleFigures& figures, double frames)
+{
+    std::printf("  %-8s %10.0f %10.0f %8.2f %12.0f %12.0f %10.0f %10.2f\n", name,
+                static_cast<double>(figures.drawn_clusters) / frames,
+                static_cast<double>(figures.owning_clusters) / frames, figures.drawnOverOwning(),
+                static_cast<double>(figures.drawn_triangles) / frames,
+                static_cast<double>(figures.owning_triangles) / frames,
+                static_cast<double>(figures.covered_pixels) / frames, figures.trianglesPerPixel());
+}
+
+/// Means over the frames of the path.
+Status printCounts(const Arguments& arguments, const formats::PackView& pack, const json& statistics)
+{
+    bench::FiguresOfKind kinds;
+    for (const std::string& file : arguments.visibility)
+    {
+        HEARTH_ASSIGN_OR_RETURN(const bench::FiguresOfKind frame, bench::readVisibleFigures(file, pack));
+        for (const auto& [kind, figures] : frame)
+            kinds[kind].add(figures);
+    }
+    const auto frames = static_cast<double>(arguments.visibility.size());
+    std::printf("Drawn and seen, means of %.0f frames of %.0f x %.0f at %.2f pixels of error\n", frames,
+                number(statistics, "width"), number(statistics, "height"),
+                number(statistics, "error_pixels"));
+    std::printf("  %-8s %10s %10s %8s %12s %12s %10s %10s\n", "", "clusters", "seen", "ratio", "triangles",
+                "seen", "pixels", "tri/pixel");
+    for (const auto& [kind, figures] : kinds)
+        printVisible(kind.c_str(), figures, frames);
+    const bench::VisibleFigures all = bench::sumOf(kinds);
+    printVisible("all", all, frames);
+    std::printf("  aims: clusters drawn / seen <= 1.6, triangles a covered pixel <= 0.35\n");
+    const double slot_bytes =
+        static_cast<double>(all.drawn_clusters) / frames * sizeof(shared::VisibleCluster);
+    std::printf("  shaded area / picture %.2f; visible list %.0f KiB; attachments and pyramid %.1f MiB\n\n",
+                number(statistics, "shaded_area_pixels") /
+                    (number(statistics, "width") * number(statistics, "height")),
+                slot_bytes / 1024, number(statistics, "target_bytes") / kMebi);
+    return success();
+}
+
+void printBytes(const formats::PackView& pack, const json& statistics)
+{
+    double unique = 0;
+    for (const formats::MeshRecord& mesh : pack.meshes())
+        unique += mesh.source_triangles;
+    const double drawn = number(statistics, "source_triangles"), bytes = number(statistics, "scene_bytes");
+    std::printf(
+        "Everything resident: %.1f MiB with tables and textures, %.1f bytes a triangle of the %.1f M in the "
+        "scene,\n  %.1f of the %.1f M in the meshes\n\n",
+        bytes / kMebi, bytes / drawn, drawn * 1e-6, bytes / unique, unique * 1e-6);
+}
+
+/// The first frame from which on all are converged; 0: the last is not.
+size_t framesToConverge(const json& frames)
+{
+    size_t converged = 0;
+    for (size_t i = 0; i < frames.size(); ++i)
+        if (!frames[i].at("converged").get<bool>())
+            converged = 0;
+        else if (converged == 0)
+            converged = i + 1;
+    return converged;
+}
+
+Status printStreaming(const Arguments& arguments, const json& statistics)
+{
+    const json& stream = statistics.at("streaming");
+    std::printf("From a cold start within %.0f MiB of geometry, the eye at rest\n",
+                number(stream, "budget_bytes") / kMebi);
+    const size_t converged = framesToConverge(stream.at("frames"));
+    if (converged == 0)
+        std::printf("  NOT CONVERGED after %zu frames\n", stream.at("frames").size());
+    else
+        std::printf("  converged in frame %zu of %zu\n", converged, stream.at("frames").size());
+    std::printf(
+        "  streamed %.1f MiB; resident %.1f MiB in %.0f pages, %.1f MiB of the budget in use; error scale "
+        "%.3f\n",
+        number(stream, "bytes_streamed") / kMebi, number(stream, "bytes_resident") / kMebi,
+        number(stream, "pages_resident"), number(stream, "bytes_in_use") / kMebi,
+        number(stream, "error_scale"));
+    std::printf("  resident, with tables and textures: %.1f MiB, %.2f bytes a triangle of the scene\n",
+                number(statistics, "scene_bytes") / kMebi,
+                number(statistics, "scene_bytes") / number(statistics, "source_triangles"));
+    HEARTH_ASSIGN_OR_RETURN(const reference::Picture resident, reference::readPng(arguments.resident));
+    HEARTH_ASSIGN_OR_RETURN(const reference::Picture picture, reference::readPng(arguments.converged));
+    if (picture.width != resident.width || picture.height != resident.height)
+        return Error{Issue::usage, arguments.converged, "", "the picture has another size"};
+    std::printf("  FLIP to the picture with everything resident: %.4f in the mean (limit 0.01)\n",
+                reference::flip(resident, picture).mean());
+    return success();
+}
+
+Status measure(const Arguments& arguments)
+{
+    HEARTH_ASSIGN_OR_RETURN(formats::ContainerReader reader, formats::ContainerReader::open(arguments.pack));
+    HEARTH_ASSIGN_OR_RETURN(const formats::PackView pack, formats::PackView::read(std::move(reader)));
+    HEARTH_ASSIGN_OR_RETURN(const json path, readStatistics(arguments.path_stats));
+    HEARTH_ASSIGN_OR_RETURN(const json cold, readStatistics(arguments.cold_stats));
+    printTimes(path);
+    HEARTH_TRY(printCounts(arguments, pack, path));
+    printBytes(pack, path);
+    return printStreaming(arguments, cold);
+}
+
+int program(int argc, char** argv)
+{
+    CLI::App app("Prints what hearth-render drew of a pack, beside the figures of the talk.");
+    Arguments arguments;
+    app.add_option("PACK", arguments.pack, "the pack that was drawn")->required();
+    app.add_option("--path", arguments.path_stats, "statistics along a camera path, everything resident")
+        ->required();
+    app.add_option("--visibility", arguments.visibility, "dumps of the frames of that path that count")
+        ->required();
+    app.add_option("--cold", arguments.cold_stats, "statistics of equal frames within a budget")->required();
+    app.add_option("--resident", arguments.resident, "the picture of these frames, everything resident")
+        ->required();
+    app.add_option("--converged", arguments.converged, "the last picture within the budget")->required();
+    CLI11_PARSE(app, argc, argv);
+    const Status measured = measure(arguments);
+    if (measured.ok())
+        return 0;
+    std::fprintf(stderr, "%s\n", formatMessage(measured.error()).c_str());
+    return exitCode(measured.error());
+}
+
+} // namespace
+
+int main(int argc, char** argv)
+{
+    return hearth::runProgram("hearth_measure_runtime", [&] { return program(argc, argv); });
+}
