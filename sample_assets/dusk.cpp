@@ -3,7 +3,7 @@
 
 #include "sample_assets/noise.h"
 #include "sample_assets/sample_math.h"
-#include "sample_assets/shapes.h"
+#include "sample_assets/sky.h"
 #include "sample_assets/textures.h"
 
 namespace hearth::samples
@@ -11,13 +11,6 @@ namespace hearth::samples
 
 namespace
 {
-
-/// Direction of a place in the sky's picture: u once around from +X over -Z, v from the horizon (1) to the zenith (0).
-Float3 skyDirection(Float2 uv)
-{
-    const float azimuth = uv.x * 2 * kPi, elevation = (1 - uv.y) * 0.5f * kPi;
-    return {cosine(elevation) * cosine(azimuth), sine(elevation), -cosine(elevation) * sine(azimuth)};
-}
 
 float starAt(Float2 uv)
 {
@@ -70,27 +63,7 @@ Float3 duskSunDirection()
 
 void addDuskSky(Document& document, float radius)
 {
-    const TriangleMesh dome =
-        makeGrid(96, 32,
-                 [&](Float2 uv, Float3& position, Float2& texture_uv)
-                 {
-                     // rows run from the horizon to the zenith and reach a little below
-                     const Float2 place{uv.x == 1.0f ? 0.0f : uv.x, 1.06f - 1.06f * uv.y};
-                     position = skyDirection(place) * radius;
-                     texture_uv = {uv.x, std::min(place.y, 0.998f)};
-                 });
-    TriangleMesh inside = dome;
-    for (size_t i = 0; i < inside.indices.size(); i += 3)
-        std::swap(inside.indices[i + 1], inside.indices[i + 2]);
-    setSmoothNormals(inside);
-    Material material;
-    material.name = "dusk_sky";
-    material.unlit = true;
-    material.base_color_image = add(document.images, paintColor("dusk_sky", 2048, 512, skyColor));
-    Node node;
-    node.name = "sky";
-    node.mesh = add(document.meshes, Mesh{"sky", {{inside, add(document.materials, material)}}});
-    addRoot(document, node);
+    addSky(document, "dusk_sky", radius, skyColor);
 }
 
 int addDuskHillMaterial(Document& document)

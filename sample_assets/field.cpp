@@ -6,6 +6,7 @@
 #include "sample_assets/rock.h"
 #include "sample_assets/sample_math.h"
 #include "sample_assets/shapes.h"
+#include "sample_assets/sky.h"
 #include "sample_assets/terrain.h"
 
 #include <cmath>
@@ -130,6 +131,20 @@ std::vector<Placement> meadow(const HeightGrid& grid)
     return tufts;
 }
 
+/// A summer's day: blue over haze, with fair-weather clouds.
+Float4 daySkyColor(Float2 uv)
+{
+    const float up = skyDirection(uv).y;
+    Float3 color =
+        lerp(Float3{0.46f, 0.58f, 0.68f}, Float3{0.085f, 0.21f, 0.47f}, smoothstep(-0.1f, 0.7f, up));
+    // the clouds are seen from below: they flatten towards the horizon
+    const float heaps = TileNoise{7, 841}.fbm({uv.x, uv.y * uv.y * 3.0f}, 6);
+    const float cloud = smoothstep(0.02f, 0.3f, heaps) * smoothstep(0.02f, 0.12f, up);
+    const float lit = smoothstep(0.55f, 0.1f, heaps);
+    color = lerp(color, lerp(Float3{0.55f, 0.57f, 0.62f}, Float3{0.92f, 0.90f, 0.86f}, lit), cloud * 0.85f);
+    return {color.x, color.y, color.z, 1};
+}
+
 void addSunAndCamera(Document& document, const HeightGrid& grid)
 {
     Node sun;
@@ -159,6 +174,7 @@ Document makeField(uint64_t rock_triangles, uint32_t texture_size)
     addRocks(document, grid, rock_triangles);
     addInstances(document, "grass", makeGrassTuft({.cards = 5, .columns = 1, .rows = 2}),
                  addGrassMaterial(document), meadow(grid));
+    addSky(document, "day_sky", 400, daySkyColor);
     addSunAndCamera(document, grid);
     return document;
 }

@@ -8,7 +8,7 @@ namespace hearth::samples
 {
 
 /// 40 rocks of `rock_triangles` each, instances of four shapes; 4096 tiles of ground of 1024 triangles, 64 tiles a mesh;
-/// 10,000 tufts of grass of 20 triangles; a sun; one camera "field", which looks along -Z.
+/// 10,000 tufts of grass of 20 triangles; a sun and a painted sky; one camera "field", which looks along -Z.
 /// `texture_size`: of the ground's colours.
 Document makeField(uint64_t rock_triangles, uint32_t texture_size);
 

@@ -122,8 +122,9 @@ Status printCounts(const Arguments& arguments, const formats::PackView& pack, co
                 "seen", "pixels", "tri/pixel");
     for (const auto& [kind, figures] : kinds)
         printVisible(kind.c_str(), figures, frames);
+    kinds.erase("sky"); // a backdrop: many pixels for next to no triangles
     const bench::VisibleFigures all = bench::sumOf(kinds);
-    printVisible("all", all, frames);
+    printVisible("scene", all, frames);
     std::printf("  aims: clusters drawn / seen <= 1.6, triangles a covered pixel <= 0.35\n");
     const double slot_bytes =
         static_cast<double>(all.drawn_clusters) / frames * sizeof(shared::VisibleCluster);

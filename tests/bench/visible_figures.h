@@ -16,7 +16,7 @@ struct VisibleFigures
     uint64_t owning_clusters = 0; ///< seen in one pixel at least
     uint64_t drawn_triangles = 0;
     uint64_t owning_triangles = 0;
-    uint64_t covered_pixels = 0; ///< all but the sky
+    uint64_t covered_pixels = 0;
 
     void add(const VisibleFigures& other);
     double trianglesPerPixel() const;
