@@ -4,7 +4,6 @@
 
 #include "cook/clusters/cluster.h"
 #include "cook/clusters/split.h"
-#include "cook/clusters/turning.h"
 #include "tests/cook/shapes.h"
 #include "tests/cook/surface_distance.h"
 
@@ -173,25 +172,6 @@ TEST(SurfaceFit, pointsAndSurfaceGoWithIt)
             const Float3 away = rock.group.positions[p] - placeOf(point, rock.surface.facets);
             EXPECT_EQ(point.distance2, dot(away, away));
         }
-}
-
-TEST(SurfaceFit, turnsNoTriangleOver)
-{
-    for (const uint32_t seed : {1u, 2u, 3u})
-    {
-        const Fitted rock = fit(shapes::rock(20, 0.8f, seed), 0.3, 20);
-        for (size_t f = 0; f < rock.surface.facetCount(); ++f)
-        {
-            const auto normal = [&](const Simplified& simplified)
-            {
-                const auto place = [&](size_t k)
-                { return simplified.placement.places[rock.surface.positions[f * 3 + k]]; };
-                return cross(place(1) - place(0), place(2) - place(0));
-            };
-            // three corners move, each by less than a right angle
-            EXPECT_GT(length(normal(rock.after)), 0.0f) << "seed " << seed << ", facet " << f;
-        }
-    }
 }
 
 } // namespace
