@@ -12,15 +12,16 @@
 namespace hearth::clusters
 {
 
-/// All of them among the facets around where a position went. None for positions that are as they were, and for those
-/// that were pruned.
+/// Those of positions and wedges are among the facets around where the position went; none for positions that are as
+/// they were, and for those that were pruned.
 struct SurfacePoints
 {
     std::vector<FacetPoint> of_position; ///< the nearest
     std::vector<FacetPoint>
         of_wedge; ///< the same, but at a seam the nearest with regard to the attributes as well
-    /// The middles of triangles, as far as the facets around where the first changed corner went have them. Empty where
-    /// islands went or grew, or positions were merged by cells: what is left there is not meant to lie like that.
+    /// Near the middle of each triangle: in what is left of the triangle, if the middle lies over that, else among the
+    /// facets around where its first changed corner went. Empty where islands went or grew, or positions were merged by
+    /// cells: what is left there is not meant to lie like that.
     std::vector<FacetPoint> of_middle;
     std::vector<uint8_t> on_seam; ///< for each position: several wedges are left at it
 };
