@@ -150,6 +150,19 @@ HEARTH_FUNCTION Float4 shadowCasterClip(HEARTH_IN(ShadowLight) light, HEARTH_IN(
     return Float4(clip_x, clip_y, max(depth, 0.0f), w);
 }
 
+/// How far a point that is seen is moved along its normal before it is looked up, metres: the surface in the picture may
+/// lie off the true one by what the threshold allows there, that of the casters by `error_bias` times as much
+/// (makeCasterView). Else the coarser one would shadow the finer one.
+///
+/// distance   from the eye to the point
+HEARTH_FUNCTION float shadowCutOffset(HEARTH_IN(FrameView) view, float distance, float error_bias)
+{
+    HEARTH_PRECISE float pixels = max(view.threshold, 0.0f) * (1.0f + error_bias);
+    HEARTH_PRECISE float offset =
+        pixels * max(distance, view.z_near) / (view.lod_scale * lodFactor(view, distance));
+    return offset;
+}
+
 HEARTH_SHARED_END
 
 #ifdef __cplusplus

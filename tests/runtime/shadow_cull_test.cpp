@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "formats/shared/shadow_cull.h"
 
+#include "formats/shared/lod_curve.h"
 #include "tests/runtime/shadow_cases.h"
 
 #include <cmath>
@@ -153,6 +154,72 @@ TEST(CasterView, refinesEverythingWhereThePictureDoes)
     const FrameView view = makeFrameView({}, 64, 64, 0, 1);
     const FrameView casters = makeCasterView(view, c.light, c.map, 8);
     EXPECT_TRUE(errorExceeds(casters, unmoved(), {0, 0, -5}, 1, 0));
+}
+
+/// Whatever is drawn, in the picture or into a map, is no farther off than its part of the offset.
+TEST(CutOffset, boundsTheErrorsOfBothSurfaces)
+{
+    std::mt19937 random(6);
+    const Case c = randomCase(random, true);
+    constexpr float kBias = 4;
+    size_t seen = 0;
+    size_t cast = 0;
+    for (int run = 0; run < 20000; ++run)
+    {
+        FrameView view = randomView(random);
+        const LodKnot curve[] = {{5, between(random, 0.5f, 2)}, {80, between(random, 0.3f, 2)}};
+        ASSERT_TRUE(setLodCurve(view, curve).ok());
+        const FrameView casters = makeCasterView(view, c.light, c.map, kBias);
+        const float radius = between(random, 0.1f, 5);
+        const Float3 center = randomUnit(random) * between(random, 1, 60);
+        const float error = std::exp2(between(random, -12, 2));
+        const float distance =
+            length(center + randomUnit(random) * (radius * between(random, 0, 1)) - view.eye);
+        const float offset = shadowCutOffset(view, distance, kBias) * 1.00001f;
+        if (!errorExceeds(view, unmoved(), center, radius, error))
+        {
+            ++seen;
+            EXPECT_LE(error, offset / (1 + kBias));
+        }
+        if (!errorExceeds(casters, unmoved(), center, radius, error))
+        {
+            ++cast;
+            EXPECT_LE(error, offset * kBias / (1 + kBias));
+        }
+    }
+    EXPECT_GT(seen, 2000u);
+    EXPECT_GT(cast, seen + 1000u);
+    EXPECT_EQ(shadowCutOffset(makeFrameView({}, 64, 64, 0, 1), 10, kBias), 0);
+}
+
+/// A plane that casts from where its coarser level lies, above the one that is seen.
+TEST(CutOffset, keepsACoarserSurfaceFromShadowingTheOneThatIsSeen)
+{
+    std::mt19937 random(7);
+    size_t without_offset = 0;
+    for (int degrees = 1; degrees <= 89; ++degrees)
+        for (int run = 0; run < 10; ++run)
+        {
+            const Case c = randomCase(random, run % 2 == 0);
+            const float off = 0.02f;
+            const Double3 centre = rayThrough(c.light, c.map, 128, 128).along * 5.0;
+            const Float3 towards_light = narrow(unit(centre)) * -1.0f;
+            const Float3 normal = tilted(towards_light, degrees * kDegree, random);
+            const Double3 seen = rayThrough(c.light, c.map, 128, 128).begin + centre;
+            const Plane casting{seen + widen(normal) * double{off}, widen(normal)};
+            const auto isLit = [&](Float3 point)
+            {
+                const ShadowPoint looked_up = shadowPoint(c.light, point);
+                const Float2 texel = shadowTexel(c.map, looked_up);
+                const LightRay ray = rayThrough(c.light, c.map, double{std::floor(texel.x)} + 0.5,
+                                                double{std::floor(texel.y)} + 0.5);
+                const Float4 clip = shadowCasterClip(c.light, c.map, narrow(casting.meet(ray)), normal);
+                return looked_up.depth >= clip.z / clip.w;
+            };
+            EXPECT_TRUE(isLit(narrow(seen) + normal * off)) << degrees;
+            without_offset += !isLit(narrow(seen));
+        }
+    EXPECT_GT(without_offset, 100u);
 }
 
 } // namespace
