@@ -114,6 +114,7 @@ Status checkNodes(const PackView& view);
 Status checkInstances(const PackView& view);
 Status checkCameras(const PackView& view);
 Status checkLights(const PackView& view);
+Status checkShadowSpheres(const PackView& view);
 Status checkMeshTables(const PackView& view);
 Status checkPageTables(const PackView& view);
 Status checkPageGeometry(const PackView& view);

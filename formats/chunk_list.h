@@ -27,6 +27,8 @@ inline constexpr std::array kChunkList{
     ChunkInfo{kChunkInstances, 1, "InstanceRecord[]", false, "drawn copies of meshes, rest pose"},
     ChunkInfo{kChunkCameras, 1, "CameraRecord[]", false, "cameras of the source"},
     ChunkInfo{kChunkLights, 1, "LightRecord[]", false, "punctual lights"},
+    ChunkInfo{kChunkShadowSpheres, 1, "ShadowSphereRecord[]", false,
+              "spheres that get shadow maps of their own"},
     ChunkInfo{kChunkMaterials, 1, "MaterialRecord[]", false, "metallic-roughness materials"},
     ChunkInfo{kChunkImages, 1, "ImageRecord[]", false, "images"},
     ChunkInfo{kChunkImageData, 1, "texels", true, "one for each image: all mips, finest first"},

@@ -139,6 +139,7 @@ Status checkPack(const PackView& view)
     HEARTH_TRY(check::checkInstances(view));
     HEARTH_TRY(check::checkCameras(view));
     HEARTH_TRY(check::checkLights(view));
+    HEARTH_TRY(check::checkShadowSpheres(view));
     HEARTH_TRY(checkHierarchy(view));
     HEARTH_TRY(check::checkMaterialsOfClusters(view));
     return check::checkDeformations(view);

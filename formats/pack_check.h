@@ -23,7 +23,7 @@ inline constexpr double kUnitSlack = 1e-3;
 inline constexpr uint32_t kImageMaxSize = 16384;
 
 /// Check everything. The first error in reading order is returned: texts, materials, images, skins, animations, nodes,
-/// instances, cameras, lights, then checkHierarchy, then what refers from one to the other.
+/// instances, cameras, lights, shadow spheres, then checkHierarchy, then what refers from one to the other.
 /// Time linear in the size of the tables and decoded pages; safe on any container.
 /// errors: container_kind, chunk_*, page_hash, meaning_*.
 Status checkPack(const PackView& view);

@@ -86,6 +86,7 @@ Status PackView::readTables()
     HEARTH_TRY(table(kChunkInstances, instances_));
     HEARTH_TRY(table(kChunkCameras, cameras_));
     HEARTH_TRY(table(kChunkLights, lights_));
+    HEARTH_TRY(table(kChunkShadowSpheres, shadow_spheres_));
     HEARTH_TRY(table(kChunkMaterials, materials_));
     HEARTH_TRY(table(kChunkImages, images_));
     HEARTH_TRY(table(kChunkSkins, skins_));

@@ -205,6 +205,7 @@ public:
     std::span<const InstanceRecord> instances() const { return instances_.span(); }
     std::span<const CameraRecord> cameras() const { return cameras_.span(); }
     std::span<const LightRecord> lights() const { return lights_.span(); }
+    std::span<const ShadowSphereRecord> shadowSpheres() const { return shadow_spheres_.span(); }
     std::span<const MaterialRecord> materials() const { return materials_.span(); }
     std::span<const ImageRecord> images() const { return images_.span(); }
     std::span<const SkinRecord> skins() const { return skins_.span(); }
@@ -250,6 +251,7 @@ private:
     Records<InstanceRecord> instances_;
     Records<CameraRecord> cameras_;
     Records<LightRecord> lights_;
+    Records<ShadowSphereRecord> shadow_spheres_;
     Records<MaterialRecord> materials_;
     Records<ImageRecord> images_;
     Records<SkinRecord> skins_;

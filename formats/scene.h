@@ -1,28 +1,31 @@
-// Chunks of the scene: nodes, instances, cameras, punctual lights, materials, images, skins and animations.
+// Chunks of the scene: nodes, instances, cameras, punctual lights, shadow spheres, materials, images, skins and animations.
 // Units: metres, radians, candela / lux, linear Rec.709; right-handed, +Y up. See FORMAT.md.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
 #include "formats/container.h"
 
+#include <bit>
+
 namespace hearth::formats
 {
 
-inline constexpr uint32_t kChunkMeta = fourCC("META");         ///< provenance and import report, JSON text
-inline constexpr uint32_t kChunkStrings = fourCC("STRS");      ///< string table, bytes
-inline constexpr uint32_t kChunkNodes = fourCC("NODE");        ///< NodeRecord[]
-inline constexpr uint32_t kChunkInstances = fourCC("INST");    ///< InstanceRecord[]
-inline constexpr uint32_t kChunkCameras = fourCC("CAMR");      ///< CameraRecord[]
-inline constexpr uint32_t kChunkLights = fourCC("LGHT");       ///< LightRecord[]
-inline constexpr uint32_t kChunkMaterials = fourCC("MATL");    ///< MaterialRecord[]
-inline constexpr uint32_t kChunkImages = fourCC("IMGR");       ///< ImageRecord[]
-inline constexpr uint32_t kChunkImageData = fourCC("IMGD");    ///< texels of image `index`, finest mip first
-inline constexpr uint32_t kChunkSkins = fourCC("SKIN");        ///< SkinRecord[]
-inline constexpr uint32_t kChunkJoints = fourCC("JOIN");       ///< JointRecord[]
-inline constexpr uint32_t kChunkAnimations = fourCC("ANIM");   ///< AnimationRecord[]
-inline constexpr uint32_t kChunkChannels = fourCC("ACHN");     ///< AnimationChannelRecord[]
-inline constexpr uint32_t kChunkKeys = fourCC("AKEY");         ///< f32[]: times and values of all channels
-inline constexpr uint32_t kChunkMorphWeights = fourCC("MWGT"); ///< f32[]: rest weights of morph targets
+inline constexpr uint32_t kChunkMeta = fourCC("META");          ///< provenance and import report, JSON text
+inline constexpr uint32_t kChunkStrings = fourCC("STRS");       ///< string table, bytes
+inline constexpr uint32_t kChunkNodes = fourCC("NODE");         ///< NodeRecord[]
+inline constexpr uint32_t kChunkInstances = fourCC("INST");     ///< InstanceRecord[]
+inline constexpr uint32_t kChunkCameras = fourCC("CAMR");       ///< CameraRecord[]
+inline constexpr uint32_t kChunkLights = fourCC("LGHT");        ///< LightRecord[]
+inline constexpr uint32_t kChunkShadowSpheres = fourCC("SHSP"); ///< ShadowSphereRecord[]
+inline constexpr uint32_t kChunkMaterials = fourCC("MATL");     ///< MaterialRecord[]
+inline constexpr uint32_t kChunkImages = fourCC("IMGR");        ///< ImageRecord[]
+inline constexpr uint32_t kChunkImageData = fourCC("IMGD");     ///< texels of image `index`, finest mip first
+inline constexpr uint32_t kChunkSkins = fourCC("SKIN");         ///< SkinRecord[]
+inline constexpr uint32_t kChunkJoints = fourCC("JOIN");        ///< JointRecord[]
+inline constexpr uint32_t kChunkAnimations = fourCC("ANIM");    ///< AnimationRecord[]
+inline constexpr uint32_t kChunkChannels = fourCC("ACHN");      ///< AnimationChannelRecord[]
+inline constexpr uint32_t kChunkKeys = fourCC("AKEY");          ///< f32[]: times and values of all channels
+inline constexpr uint32_t kChunkMorphWeights = fourCC("MWGT");  ///< f32[]: rest weights of morph targets
 
 /// Nodes keep their order and index of the source. A parent may stand after its child; there are no cycles.
 struct NodeRecord
@@ -95,6 +98,26 @@ struct LightRecord
     uint32_t reserved;
     Affine3 world_from_light;
 };
+
+/// A part of the scene whose shadows an artist wants sharp: a map of its own, fitted to the sphere.
+struct ShadowSphereRecord
+{
+    uint32_t node;
+    uint32_t light;
+    Float3 center;
+    float radius;
+    uint32_t texels;
+    uint32_t reserved;
+};
+
+/// Maps of shadow spheres have so many texels each way, a power of two.
+inline constexpr uint32_t kMinShadowTexels = 64;
+inline constexpr uint32_t kMaxShadowTexels = 8192;
+
+constexpr bool isShadowMapSize(uint64_t texels)
+{
+    return std::has_single_bit(texels) && texels >= kMinShadowTexels && texels <= kMaxShadowTexels;
+}
 
 enum class Wrap : uint8_t
 {
@@ -267,6 +290,15 @@ HEARTH_RECORD(hearth::formats::LightRecord, 96,
               HEARTH_FIELD(hearth::formats::LightRecord, outer_cone_rad, "half-angle"),
               HEARTH_FIELD(hearth::formats::LightRecord, reserved, "0"),
               HEARTH_FIELD(hearth::formats::LightRecord, world_from_light, "row-major 3x4; shines along -Z"));
+HEARTH_RECORD(hearth::formats::ShadowSphereRecord, 32,
+              HEARTH_FIELD(hearth::formats::ShadowSphereRecord, node, "node it came from"),
+              HEARTH_FIELD(hearth::formats::ShadowSphereRecord, light,
+                           "sun or spot light, or none: all of them"),
+              HEARTH_FIELD(hearth::formats::ShadowSphereRecord, center, "world"),
+              HEARTH_FIELD(hearth::formats::ShadowSphereRecord, radius, "metres, above 0"),
+              HEARTH_FIELD(hearth::formats::ShadowSphereRecord, texels,
+                           "of its map each way, a power of two from 64 to 8192; 0: the renderer's choice"),
+              HEARTH_FIELD(hearth::formats::ShadowSphereRecord, reserved, "0"));
 HEARTH_RECORD(hearth::formats::TextureRef, 32,
               HEARTH_FIELD(hearth::formats::TextureRef, image, "image, or none"),
               HEARTH_FIELD(hearth::formats::TextureRef, uv_set, "0 to 3"),

@@ -1,4 +1,4 @@
-// Meaning of nodes, instances, cameras and lights.
+// Meaning of nodes, instances, cameras, lights and shadow spheres.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "formats/check_tools.h"
 #include "formats/pack_check.h"
@@ -198,6 +198,30 @@ Status checkLights(const PackView& view)
             return fail(view, Issue::meaning_value, "light", i, "its cone is not possible");
         if (light.reserved != 0)
             return fail(view, Issue::meaning_padding, "light", i, "a reserved field is not 0");
+    }
+    return success();
+}
+
+Status checkShadowSpheres(const PackView& view)
+{
+    constexpr const char* kKind = "shadow sphere";
+    for (size_t i = 0; i < view.shadowSpheres().size(); ++i)
+    {
+        const ShadowSphereRecord& sphere = view.shadowSpheres()[i];
+        if (sphere.node >= view.nodes().size())
+            return fail(view, Issue::meaning_reference, kKind, i, "node " + std::to_string(sphere.node));
+        if (!noneOrBelow(sphere.light, view.lights().size()) ||
+            (sphere.light != kNone &&
+             view.lights()[sphere.light].type == static_cast<uint32_t>(LightType::point)))
+            return fail(view, Issue::meaning_reference, kKind, i,
+                        "light " + std::to_string(sphere.light) + " is no sun and no spot light");
+        const float values[] = {sphere.center.x, sphere.center.y, sphere.center.z, sphere.radius};
+        if (!finite(values) || !(sphere.radius > 0))
+            return fail(view, Issue::meaning_value, kKind, i, "its centre or radius is not possible");
+        if (sphere.texels != 0 && !isShadowMapSize(sphere.texels))
+            return fail(view, Issue::meaning_value, kKind, i, std::to_string(sphere.texels) + " texels");
+        if (sphere.reserved != 0)
+            return fail(view, Issue::meaning_padding, kKind, i, "a reserved field is not 0");
     }
     return success();
 }

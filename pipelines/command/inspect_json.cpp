@@ -109,6 +109,16 @@ Json sceneJson(const PackView& pack, const PackSummary& summary)
                 {"type", lightTypeName(record.type)},
                 {"intensity", record.intensity}};
     };
+    const auto shadow_sphere = [&](uint32_t i) -> Json
+    {
+        const ShadowSphereRecord& record = pack.shadowSpheres()[i];
+        return {{"index", i},
+                {"name", pack.text(pack.nodes()[record.node].name)},
+                {"light", record.light == kNone ? Json() : Json(record.light)},
+                {"center", {record.center.x, record.center.y, record.center.z}},
+                {"radius", record.radius},
+                {"texels", record.texels}};
+    };
     const auto skin = [&](uint32_t i) -> Json
     {
         const SkinRecord& record = pack.skins()[i];
@@ -130,6 +140,7 @@ Json sceneJson(const PackView& pack, const PackSummary& summary)
         {"morph_targets", summary.morph_targets},
         {"cameras", listJson(pack.cameras().size(), camera)},
         {"lights", listJson(pack.lights().size(), light)},
+        {"shadow_spheres", listJson(pack.shadowSpheres().size(), shadow_sphere)},
         {"materials", listJson(pack.materials().size(), [&](uint32_t i) { return materialJson(pack, i); })},
         {"images", listJson(pack.images().size(), [&](uint32_t i) { return imageJson(pack, i); })},
         {"skins", listJson(pack.skins().size(), skin)},

@@ -204,6 +204,14 @@ struct GltfMesh
     std::vector<float> weights;
 };
 
+/// extras of a node: hearth_shadow_radius, hearth_shadow_light, hearth_shadow_texels.
+struct GltfShadowSphere
+{
+    float radius = 1;    ///< in the node's space
+    std::string light;   ///< name of a light or of its node; empty: all lights
+    uint32_t texels = 0; ///< 0: the renderer's choice
+};
+
 struct GltfNode
 {
     std::string name;
@@ -222,6 +230,7 @@ struct GltfNode
     bool has_instancing = false;
     GltfAttributes instancing;  ///< EXT_mesh_gpu_instancing
     std::vector<uint32_t> lods; ///< MSFT_lod: nodes with less and less detail; all exist
+    std::optional<GltfShadowSphere> shadow_sphere;
 };
 
 struct GltfScene

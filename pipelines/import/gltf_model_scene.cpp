@@ -118,6 +118,30 @@ void readNodeExtensions(const GltfObject& object, const GltfModel& model, size_t
     }
 }
 
+/// A node that stands for a shadow sphere, told by its custom properties (Blender writes them to extras).
+void readShadowSphere(const GltfObject& object, GltfNode& node)
+{
+    const std::optional<Json> json = object.json().find("extras");
+    if (!json || !json->isObject()) // anything may stand there
+        return;
+    const GltfObject extras(*json, object.problems());
+    if (!extras.has("hearth_shadow_radius"))
+        return;
+    GltfShadowSphere sphere;
+    sphere.radius = extras.number("hearth_shadow_radius", std::nullopt);
+    if (!(sphere.radius > 0))
+        extras.problems().fail(Issue::gltf_value, extras.json(), "hearth_shadow_radius must be above 0");
+    sphere.light = extras.text("hearth_shadow_light");
+    const uint64_t texels = extras.integer("hearth_shadow_texels", {}, 0);
+    if (texels != 0 && !formats::isShadowMapSize(texels))
+        extras.problems().fail(
+            Issue::gltf_value, extras.json(),
+            fmt::format("hearth_shadow_texels is {}, but must be a power of two from {} to {}", texels,
+                        formats::kMinShadowTexels, formats::kMaxShadowTexels));
+    sphere.texels = static_cast<uint32_t>(texels);
+    node.shadow_sphere = std::move(sphere);
+}
+
 /// Give every node its parent. errors: gltf_hierarchy where a node would have two.
 void linkParents(const std::vector<GltfObject>& objects, GltfModel& model)
 {
@@ -221,6 +245,7 @@ void readNodes(const GltfObject& root, size_t skin_count, GltfModel& model)
         node.weights = object.numberList("weights");
         readTransform(object, node);
         readNodeExtensions(object, model, objects.size(), node);
+        readShadowSphere(object, node);
         model.nodes.push_back(std::move(node));
     }
     // a bad child index has been reported, and would lead outside the array

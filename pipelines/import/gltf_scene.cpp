@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace hearth::import
 {
@@ -76,6 +77,9 @@ public:
     Status writeNode(uint32_t node);
     Status writeContents(uint32_t node);
 
+    /// After the contents of all nodes, as the lights are looked up by name.
+    Status writeShadowSphere(uint32_t node);
+
 private:
     void writeMorphWeights(uint32_t node, NodeRecord& record);
     Status checkSkin(uint32_t node) const;
@@ -84,6 +88,7 @@ private:
     Status writeInstance(uint32_t node, const Transform& world_from_object);
     Status writeCamera(uint32_t node);
     Status writeLight(uint32_t node);
+    std::vector<uint32_t> lightsCalled(const std::string& name) const;
     Result<Affine3> narrow(const Transform& transform, uint32_t node) const;
 
     const GltfModel& model_;
@@ -247,6 +252,51 @@ Status SceneWriter::writeLight(uint32_t node)
     return success();
 }
 
+/// The lights that a sphere names, by their own name or that of their node. Point lights cast no shadow.
+std::vector<uint32_t> SceneWriter::lightsCalled(const std::string& name) const
+{
+    const auto& lights = context_.part.lights;
+    std::vector<uint32_t> found;
+    for (uint32_t i = 0; i < lights.size(); ++i)
+    {
+        const GltfNode& node = model_.nodes[lights[i].node];
+        if (lights[i].type != static_cast<uint32_t>(LightType::point) &&
+            (node.name == name || model_.lights[node.light].name == name))
+            found.push_back(i);
+    }
+    return found;
+}
+
+Status SceneWriter::writeShadowSphere(uint32_t node)
+{
+    const std::optional<GltfShadowSphere>& sphere = model_.nodes[node].shadow_sphere;
+    if (!sphere)
+        return success();
+    HEARTH_ASSIGN_OR_RETURN(const Affine3 world_from_node, narrow(world_from_node_[node], node));
+    ShadowSphereRecord record{};
+    record.node = node;
+    record.center = transformPoint(world_from_node, {0, 0, 0});
+    record.radius = sphere->radius * scaleBound(world_from_node);
+    record.texels = sphere->texels;
+    if (!(record.radius > 0) || !std::isfinite(record.radius))
+        return context_.error(Issue::gltf_value, nodePointer(node),
+                              "the shadow sphere has no size in the world");
+    std::vector<uint32_t> lights{kNone};
+    if (!sphere->light.empty())
+        lights = lightsCalled(sphere->light);
+    if (lights.empty())
+        context_.part.warn(
+            Issue::dropped, nodePointer(node),
+            fmt::format("no sun and no spot light is called \"{}\": the shadow sphere is not kept",
+                        sphere->light));
+    for (const uint32_t light : lights)
+    {
+        record.light = light;
+        context_.part.shadow_spheres.push_back(record);
+    }
+    return success();
+}
+
 Status SceneWriter::writeContents(uint32_t node)
 {
     HEARTH_TRY(writeInstances(node));
@@ -295,6 +345,9 @@ Status writeScene(const GltfModel& model, std::span<const MeshSummary> meshes,
     for (uint32_t node = 0; node < model.nodes.size(); ++node)
         if (drawn[node] && !hidden[node])
             HEARTH_TRY(writer.writeContents(node));
+    for (uint32_t node = 0; node < model.nodes.size(); ++node)
+        if (drawn[node] && !hidden[node])
+            HEARTH_TRY(writer.writeShadowSphere(node));
     reportStillness(model, meshes, context);
     return success();
 }

@@ -1,4 +1,4 @@
-// The scene: nodes, and what stands in them: instances of meshes, cameras and lights.
+// The scene: nodes, and what stands in them: instances of meshes, cameras, lights and shadow spheres.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 

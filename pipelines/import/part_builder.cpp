@@ -198,6 +198,7 @@ Status PartBuilder::finish()
     HEARTH_TRY(writer_.addRecords<InstanceRecord>(kChunkInstances, instances));
     HEARTH_TRY(writer_.addRecords<CameraRecord>(kChunkCameras, cameras));
     HEARTH_TRY(writer_.addRecords<LightRecord>(kChunkLights, lights));
+    HEARTH_TRY(writer_.addRecords<ShadowSphereRecord>(kChunkShadowSpheres, shadow_spheres));
     HEARTH_TRY(writer_.addRecords<MaterialRecord>(kChunkMaterials, materials));
     HEARTH_TRY(writer_.addRecords<ImageRecord>(kChunkImages, images_));
     HEARTH_TRY(writer_.addRecords<SkinRecord>(kChunkSkins, skins));

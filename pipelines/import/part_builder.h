@@ -70,6 +70,7 @@ public:
     std::vector<formats::InstanceRecord> instances;
     std::vector<formats::CameraRecord> cameras;
     std::vector<formats::LightRecord> lights;
+    std::vector<formats::ShadowSphereRecord> shadow_spheres;
     std::vector<formats::MaterialRecord> materials;
     std::vector<formats::SkinRecord> skins;
     std::vector<formats::JointRecord> joints;

@@ -99,9 +99,10 @@ bool advancePast(const Source& source, Offsets& next)
     next.strings = source.offsets.mesh_strings;
     next.page_bytes += alignedPageBytes(meshes);
     return advance(next.strings, meshes.strings().size()) && advance(next.nodes, scene.nodes().size()) &&
-           advance(next.materials, scene.materials().size()) && advance(next.images, scene.images().size()) &&
-           advance(next.skins, scene.skins().size()) && advance(next.joints, scene.joints().size()) &&
-           advance(next.channels, scene.channels().size()) && advance(next.keys, scene.keys().size()) &&
+           advance(next.lights, scene.lights().size()) && advance(next.materials, scene.materials().size()) &&
+           advance(next.images, scene.images().size()) && advance(next.skins, scene.skins().size()) &&
+           advance(next.joints, scene.joints().size()) && advance(next.channels, scene.channels().size()) &&
+           advance(next.keys, scene.keys().size()) &&
            advance(next.morph_weights, scene.morphWeights().size()) &&
            advance(next.meshes, meshes.meshes().size()) && advance(next.levels, meshes.levels().size()) &&
            advance(next.groups, meshes.groups().size()) && advance(next.clusters, meshes.clusters().size()) &&
@@ -169,6 +170,7 @@ Status writeScene(ContainerWriter& writer, std::span<const Source> sources)
     HEARTH_TRY(write(kChunkInstances, &PackView::instances));
     HEARTH_TRY(write(kChunkCameras, &PackView::cameras));
     HEARTH_TRY(write(kChunkLights, &PackView::lights));
+    HEARTH_TRY(write(kChunkShadowSpheres, &PackView::shadowSpheres));
     HEARTH_TRY(write(kChunkMaterials, &PackView::materials));
     HEARTH_TRY(writeTable(writer, sources, kChunkImages, &Source::textures_part, &PackView::images));
     HEARTH_TRY(write(kChunkSkins, &PackView::skins));

@@ -62,6 +62,12 @@ void rebase(LightRecord& light, const Offsets& offsets)
     shift(light.node, offsets.nodes);
 }
 
+void rebase(ShadowSphereRecord& sphere, const Offsets& offsets)
+{
+    shift(sphere.node, offsets.nodes);
+    shift(sphere.light, offsets.lights);
+}
+
 void rebase(MaterialRecord& material, const Offsets& offsets)
 {
     shift(material.name, offsets.strings);

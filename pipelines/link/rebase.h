@@ -14,6 +14,7 @@ struct Offsets
     uint32_t strings = 0;      ///< bytes; of the import part, which the textures part refers to as well
     uint32_t mesh_strings = 0; ///< bytes; of the clusters part
     uint32_t nodes = 0;
+    uint32_t lights = 0;
     uint32_t materials = 0;
     uint32_t images = 0;
     uint32_t skins = 0;
@@ -34,6 +35,7 @@ void rebase(formats::NodeRecord& node, const Offsets& offsets);
 void rebase(formats::InstanceRecord& instance, const Offsets& offsets);
 void rebase(formats::CameraRecord& camera, const Offsets& offsets);
 void rebase(formats::LightRecord& light, const Offsets& offsets);
+void rebase(formats::ShadowSphereRecord& sphere, const Offsets& offsets);
 void rebase(formats::MaterialRecord& material, const Offsets& offsets);
 void rebase(formats::ImageRecord& image, const Offsets& offsets);
 void rebase(formats::SkinRecord& skin, const Offsets& offsets);

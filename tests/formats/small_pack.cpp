@@ -308,6 +308,8 @@ void addScene(PackModel& pack)
         light.world_from_light = Affine3{};
         pack.lights.push_back(light);
     }
+    pack.shadow_spheres.push_back({0, kNone, {1, 2, 3}, 4, 0, 0});
+    pack.shadow_spheres.push_back({1, 2, {0, 0, 0}, 1, 512, 0});
 }
 
 TextureRef texture(uint32_t image)
@@ -417,6 +419,7 @@ std::vector<ChunkImage> PackModel::chunks(bool compressed) const
     table(kChunkInstances, instances);
     table(kChunkCameras, cameras);
     table(kChunkLights, lights);
+    table(kChunkShadowSpheres, shadow_spheres);
     table(kChunkMaterials, materials);
     table(kChunkImages, images);
     table(kChunkSkins, skins);

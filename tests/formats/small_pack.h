@@ -21,6 +21,7 @@ struct PackModel
     std::vector<formats::InstanceRecord> instances;
     std::vector<formats::CameraRecord> cameras;
     std::vector<formats::LightRecord> lights;
+    std::vector<formats::ShadowSphereRecord> shadow_spheres;
     std::vector<formats::MaterialRecord> materials;
     std::vector<formats::ImageRecord> images;
     std::vector<std::vector<std::byte>> image_data;

@@ -189,6 +189,77 @@ TEST(GltfScene, placesCamerasAndLights)
     EXPECT_EQ(lights[1].intensity, 1.0f);
 }
 
+constexpr const char* kTwoLights = R"("extensions":{"KHR_lights_punctual":{"lights":[
+    {"type":"directional","name":"sun"},{"type":"spot","name":"lamp"},{"type":"point","name":"bulb"}]}},)";
+
+/// Nodes: the sun, two that have the lamp, the bulb, and one below a doubled root at (1, 2, 3) with these extras.
+Imported importShadowSphere(const std::string& extras)
+{
+    return GltfData().import(std::string(kTwoLights) + R"("nodes":[
+        {"name":"noon","extensions":{"KHR_lights_punctual":{"light":0}}},
+        {"name":"left","extensions":{"KHR_lights_punctual":{"light":1}}},
+        {"name":"right","extensions":{"KHR_lights_punctual":{"light":1}}},
+        {"name":"bulb","extensions":{"KHR_lights_punctual":{"light":2}}},
+        {"scale":[2,1,1],"children":[5]},
+        {"name":"stage","translation":[1,2,3],"extras":)" +
+                             extras + "}]");
+}
+
+TEST(GltfScene, takesShadowSpheresFromExtras)
+{
+    const Imported all = importShadowSphere(R"({"hearth_shadow_radius":3})");
+    ASSERT_TRUE(all.ok()) << all.message();
+    const auto spheres = all.records<ShadowSphereRecord>(kChunkShadowSpheres);
+    ASSERT_EQ(spheres.size(), 1u);
+    EXPECT_EQ(spheres[0].node, 5u);
+    EXPECT_EQ(spheres[0].light, kNone);
+    EXPECT_EQ(spheres[0].center, (Float3{2, 2, 3}));
+    EXPECT_NEAR(spheres[0].radius, 6, 1e-5f);
+    EXPECT_EQ(spheres[0].texels, 0u);
+
+    // by the light's name: every node that has it; by the node's: that one
+    const auto lightsOf = [](const std::string& name)
+    {
+        const Imported result = importShadowSphere(
+            R"({"hearth_shadow_radius":3,"hearth_shadow_texels":512,"hearth_shadow_light":")" + name + "\"}");
+        EXPECT_TRUE(result.ok()) << result.message();
+        std::vector<uint32_t> lights;
+        for (const ShadowSphereRecord& sphere : result.records<ShadowSphereRecord>(kChunkShadowSpheres))
+        {
+            EXPECT_EQ(sphere.texels, 512u);
+            lights.push_back(sphere.light);
+        }
+        EXPECT_EQ(result.warnsOf(Issue::dropped, name), lights.empty());
+        return lights;
+    };
+    EXPECT_EQ(lightsOf("lamp"), (std::vector<uint32_t>{1, 2}));
+    EXPECT_EQ(lightsOf("right"), (std::vector<uint32_t>{2}));
+    EXPECT_EQ(lightsOf("noon"), (std::vector<uint32_t>{0}));
+    EXPECT_EQ(lightsOf("bulb"), std::vector<uint32_t>{});
+    EXPECT_EQ(lightsOf("moon"), std::vector<uint32_t>{});
+}
+
+TEST(GltfScene, leavesOtherExtrasAloneAndRefusesWrongSpheres)
+{
+    for (const char* extras :
+         {"7", "[1,2]", R"({"radius":"wide"})", R"({"hearth_shadow_texels":"no sphere"})"})
+    {
+        const Imported result = importShadowSphere(extras);
+        EXPECT_TRUE(result.ok()) << extras << result.message();
+        EXPECT_TRUE(result.records<ShadowSphereRecord>(kChunkShadowSpheres).empty());
+    }
+    const auto issueOf = [](const char* extras)
+    {
+        const Imported result = importShadowSphere(extras);
+        return result.ok() ? std::nullopt : std::optional(result.status.error().issue);
+    };
+    EXPECT_EQ(issueOf(R"({"hearth_shadow_radius":"3"})"), Issue::gltf_structure);
+    EXPECT_EQ(issueOf(R"({"hearth_shadow_radius":0})"), Issue::gltf_value);
+    EXPECT_EQ(issueOf(R"({"hearth_shadow_radius":3e38})"), Issue::gltf_value);
+    EXPECT_EQ(issueOf(R"({"hearth_shadow_radius":3,"hearth_shadow_texels":500})"), Issue::gltf_value);
+    EXPECT_EQ(issueOf(R"({"hearth_shadow_radius":3,"hearth_shadow_light":4})"), Issue::gltf_structure);
+}
+
 /// The square, bound to two joints by its accessors 2 to 4: joint 0 moves it all, or each joint two corners.
 Imported importSkinned(bool both_joints, const std::string& nodes)
 {
