@@ -32,23 +32,6 @@ double linearBetween(std::span<const LodKnot> curve, double distance)
     return double{curve.back().factor};
 }
 
-/// As steep as may be, upwards and downwards.
-std::vector<LodKnot> randomCurve(std::mt19937& random)
-{
-    std::vector<LodKnot> curve{{uniform(random, 0, 2), uniform(random, 0.5f, 2)}};
-    const size_t count = 1 + random() % kMaxLodKnots;
-    while (curve.size() < count)
-    {
-        const LodKnot before = curve.back();
-        const float distance = before.distance + uniform(random, 0.1f, 8);
-        const float most = before.distance > 0 ? before.factor * (distance / before.distance) : 8.0f;
-        const float factor = random() % 3 == 0 ? std::min(most, 8 * before.factor) * 0.999999f
-                                               : before.factor * uniform(random, 0.13f, 1);
-        curve.push_back({distance, factor});
-    }
-    return curve;
-}
-
 FrameView viewWith(const Camera& camera, std::span<const LodKnot> curve)
 {
     FrameView view = makeFrameView(camera, 640, 480, 2, 1);
@@ -119,7 +102,7 @@ TEST(LodCurve, isLinearBetweenItsKnots)
     std::mt19937 random(1);
     for (int i = 0; i < 300; ++i)
     {
-        const auto curve = randomCurve(random);
+        const auto curve = randomLodCurve(random);
         const FrameView view = viewWith({}, curve);
         for (int k = 0; k < 40; ++k)
         {
@@ -158,7 +141,7 @@ TEST(LodCurve, noGroupIsRefinedBelowOneThatIsNot)
 {
     std::mt19937 curves(8);
     const Inversions sum =
-        inversionsWith([&](FrameView& view) { EXPECT_TRUE(setLodCurve(view, randomCurve(curves)).ok()); });
+        inversionsWith([&](FrameView& view) { EXPECT_TRUE(setLodCurve(view, randomLodCurve(curves)).ok()); });
     EXPECT_EQ(sum.wrong, 0u);
     EXPECT_GT(sum.refined, 1000u);
     EXPECT_GT(sum.coarse, 1000u);

@@ -2,10 +2,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/pack/cut.h"
 #include "runtime/pack/residency.h"
-#include "tests/cook/cuts.h"
 #include "tests/cook/shapes.h"
-#include "tests/reference/cut_checker.h"
-#include "tests/runtime/test_scene.h"
+#include "tests/runtime/cooked_mesh.h"
 
 #include <cmath>
 #include <gmock/gmock.h>
@@ -18,76 +16,7 @@ namespace
 {
 
 using namespace formats;
-using clusters::Hierarchy;
 using testing::ElementsAreArray;
-
-mesh::SourceMesh plain(mesh::SourceMesh mesh)
-{
-    return withMaterial(std::move(mesh), kNone);
-}
-
-/// A mesh as a pack and as the cooker's own tables, whose numbers are the same.
-class CookedMesh
-{
-public:
-    explicit CookedMesh(const mesh::SourceMesh& source, std::span<const mesh::SourceMesh> authored = {})
-        : hierarchy_(clusters::buildHierarchy(source, authored, {}))
-    {
-        scene_.addHierarchy(hierarchy_);
-        view_ = scene_.build();
-        auto decoded = clusters::decodeHierarchy(hierarchy_);
-        HEARTH_ASSERT(decoded.ok());
-        decoded_ = std::move(*decoded);
-        border_ = cuts::borderOf(hierarchy_, decoded_);
-    }
-
-    const PackView& view() const { return *view_; }
-
-    /// Draws the surface once, and where it is made of one mesh alone, without a crack.
-    void expectWhole(const std::vector<uint32_t>& cut, bool watertight = true) const
-    {
-        const reference::CoverageReport coverage = reference::checkCoverage(view(), 0, cut);
-        EXPECT_EQ(coverage.missing, 0u);
-        EXPECT_EQ(coverage.overlapping, 0u);
-        std::vector<uint32_t> triangles;
-        for (const uint32_t cluster : cut)
-            triangles.insert(triangles.end(), decoded_.clusters[cluster].positions.begin(),
-                             decoded_.clusters[cluster].positions.end());
-        if (watertight)
-        {
-            EXPECT_EQ(cuts::crackOf(border_, triangles), "");
-        }
-    }
-
-private:
-    Hierarchy hierarchy_;
-    TestScene scene_;
-    std::optional<PackView> view_;
-    clusters::DecodedHierarchy decoded_;
-    cuts::Border border_;
-};
-
-std::vector<uint8_t> pinnedOf(const pack::PageGraph& graph)
-{
-    std::vector<uint8_t> resident(graph.pageCount(), 0);
-    for (const uint32_t page : graph.pinned())
-        resident[page] = 1;
-    return resident;
-}
-
-/// The pinned pages, and each other with the given chance if all that it needs is there.
-std::vector<uint8_t> randomClosedSet(const pack::PageGraph& graph, double chance, std::mt19937& random)
-{
-    std::vector<uint8_t> resident = pinnedOf(graph);
-    for (uint32_t page = 0; page < graph.pageCount(); ++page)
-    {
-        bool possible = static_cast<double>(random()) < chance * 4294967296.0;
-        for (const uint32_t needed : graph.needs(page))
-            possible &= resident[needed] != 0;
-        resident[page] |= possible ? 1 : 0;
-    }
-    return resident;
-}
 
 /// The error of a random group, or 0.
 float randomThreshold(const PackView& view, std::mt19937& random)
@@ -99,14 +28,6 @@ float randomThreshold(const PackView& view, std::mt19937& random)
 uint64_t countOf(const std::vector<uint8_t>& resident)
 {
     return static_cast<uint64_t>(std::count(resident.begin(), resident.end(), uint8_t{1}));
-}
-
-/// Cuts that have more than one level: seams between what is resident and what stands in for the rest.
-bool mixesLevels(const PackView& view, const std::vector<uint32_t>& cut)
-{
-    return std::any_of(cut.begin(), cut.end(),
-                       [&](uint32_t cluster)
-                       { return view.clusters()[cluster].level != view.clusters()[cut.front()].level; });
 }
 
 void expectWholeAtRandomSets(const CookedMesh& mesh, bool watertight, uint32_t seed)
@@ -133,14 +54,6 @@ TEST(ResidentCut, coversTheSurfaceOnceForEveryClosedSet)
 {
     expectWholeAtRandomSets(CookedMesh(plain(shapes::rock(72, 0.3f))), true, 1);
     expectWholeAtRandomSets(CookedMesh(plain(shapes::terrain(160))), true, 2);
-}
-
-/// A rock with levels made by hand: sets of groups that are replaced together, over several pages.
-CookedMesh rockWithAuthoredLevels()
-{
-    const std::vector<mesh::SourceMesh> levels{plain(shapes::rock(36, 0.3f)), plain(shapes::rock(20, 0.28f)),
-                                               plain(shapes::rock(4, 0.2f))};
-    return CookedMesh(plain(shapes::rock(60, 0.3f)), levels);
 }
 
 TEST(ResidentCut, drawsASetOfGroupsOnlyWhereAllItsPagesAreResident)

@@ -203,6 +203,22 @@ Affine3 translated(Float3 offset)
     return t;
 }
 
+std::vector<shared::LodKnot> randomLodCurve(std::mt19937& random)
+{
+    std::vector<shared::LodKnot> curve{{uniform(random, 0, 2), uniform(random, 0.5f, 2)}};
+    const size_t count = 1 + random() % shared::kMaxLodKnots;
+    while (curve.size() < count)
+    {
+        const shared::LodKnot before = curve.back();
+        const float distance = before.distance + uniform(random, 0.1f, 8);
+        const float most = before.distance > 0 ? before.factor * (distance / before.distance) : 8.0f;
+        const float factor = random() % 3 == 0 ? std::min(most, 8 * before.factor) * 0.999999f
+                                               : before.factor * uniform(random, 0.13f, 1);
+        curve.push_back({distance, factor});
+    }
+    return curve;
+}
+
 float uniform(std::mt19937& random, float low, float high)
 {
     return low + (high - low) * (static_cast<float>(random() >> 8) * 0x1p-24f);

@@ -6,6 +6,7 @@
 #include "cook/mesh/source_mesh.h"
 #include "formats/pack_view.h"
 #include "formats/shared/frame.h"
+#include "formats/shared/lod_curve.h"
 #include "tests/formats/small_pack.h"
 
 #include <random>
@@ -58,6 +59,9 @@ Affine3 randomAffine(std::mt19937& random, float reach);
 
 /// Eye and target about the origin, field of view and near plane at random.
 shared::Camera randomCamera(std::mt19937& random, float reach);
+
+/// A valid distance curve, as steep as may be, upwards and downwards.
+std::vector<shared::LodKnot> randomLodCurve(std::mt19937& random);
 
 /// Uniform in [low, high), the same on every machine.
 float uniform(std::mt19937& random, float low, float high);
