@@ -1,6 +1,8 @@
 // Measures the hierarchies of whole meshes: speed, shape, bytes, quality and honesty, with the peers' figures beside
 // them. `./dev bench clusters` makes the meshes and runs it.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/clusters/authored_levels.h"
+#include "cook/clusters/levels.h"
 #include "cook/clusters/manual_lods.h"
 #include "formats/pack_view.h"
 #include "formats/program.h"
@@ -267,6 +269,15 @@ void printShape(const clusters::Hierarchy& hierarchy)
                 pages.decoded_bytes / pages.seconds * 1e-9, pages.decoded_bytes / pages.zstd_seconds * 1e-9);
 }
 
+/// The clusters of all levels with their groups and errors: what the peers make, who have neither pages nor records.
+void buildLevelsAlone(const mesh::SourceMesh& mesh)
+{
+    clusters::JoinedMesh joined = clusters::joinAuthored(mesh, {});
+    const clusters::Config config;
+    clusters::Build build{std::move(joined.mesh), config, {}, joined.levels, {}};
+    clusters::buildLevels(build);
+}
+
 bench::MeshCurve measureMesh(const std::string& name, const mesh::SourceMesh& mesh, size_t samples)
 {
     const auto* peer = std::find_if(bench::kPeerFigures.begin(), bench::kPeerFigures.end(),
@@ -275,10 +286,11 @@ bench::MeshCurve measureMesh(const std::string& name, const mesh::SourceMesh& me
         peer = nullptr;
     clusters::Hierarchy hierarchy;
     const auto build = [&] { hierarchy = clusters::buildHierarchy(mesh); };
-    Times one, two;
+    Times one, levels, two;
     {
         const tbb::global_control threads(tbb::global_control::max_allowed_parallelism, 1);
         one = timesOf(build);
+        levels = timesOf([&] { buildLevelsAlone(mesh); });
     }
     {
         const tbb::global_control threads(tbb::global_control::max_allowed_parallelism, 2);
@@ -287,11 +299,12 @@ bench::MeshCurve measureMesh(const std::string& name, const mesh::SourceMesh& me
     const double calibration = calibrationSeconds(mesh);
     const double ktris = static_cast<double>(mesh.triangleCount()) / 1000;
     std::printf("%s: %zu triangles\n", name.c_str(), mesh.triangleCount());
-    std::printf("  %.0f k triangles a user second on one thread", ktris / one.user);
+    std::printf("  %.0f k triangles a user second on one thread, %.0f without pages", ktris / one.user,
+                ktris / levels.user);
     if (peer != nullptr && peer->ktris_per_second > 0)
         std::printf(" (clod %.0f on its machine)", peer->ktris_per_second);
-    std::printf("; time / that of meshlets and one halving by meshoptimizer 0.18: %.2f",
-                one.user / calibration);
+    std::printf("; time / that of meshlets and one halving by meshoptimizer 0.18: %.2f, %.2f without pages",
+                one.user / calibration, levels.user / calibration);
     if (peer != nullptr && peer->calibration > 0)
         std::printf(" (clod %.2f)", peer->calibration);
     std::printf("; two threads %.2f times as fast\n", one.wall / two.wall);
