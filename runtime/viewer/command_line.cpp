@@ -2,6 +2,7 @@
 #include "runtime/viewer/command_line.h"
 
 #include <algorithm>
+#include <cstdio>
 
 namespace hearth::viewer
 {
@@ -31,6 +32,11 @@ std::string quoted(std::string_view text)
 Error usageError(const std::string& detail)
 {
     return {Issue::usage, "", "", detail};
+}
+
+void printError(const Error& error)
+{
+    std::fprintf(stderr, "%s\n", formatMessage(error).c_str());
 }
 
 void CommandLine::addText(std::string_view name, std::string& text)

@@ -45,6 +45,9 @@ private:
 /// The error of a command line.
 Error usageError(const std::string& detail);
 
+/// The one line of an error, on stderr.
+void printError(const Error& error);
+
 /// In quotation marks.
 std::string quoted(std::string_view text);
 

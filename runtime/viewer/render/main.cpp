@@ -6,6 +6,7 @@
 #include "runtime/viewer/camera_path.h"
 #include "runtime/viewer/file_output.h"
 #include "runtime/viewer/frame_report.h"
+#include "runtime/viewer/page_reading.h"
 #include "runtime/viewer/pyramid_start.h"
 #include "runtime/viewer/render/options.h"
 
@@ -19,11 +20,6 @@ namespace hearth::viewer
 
 namespace
 {
-
-void print(const Error& error)
-{
-    std::fprintf(stderr, "%s\n", formatMessage(error).c_str());
-}
 
 /// The texels of the finished picture, at the size that was asked for.
 Result<std::vector<std::byte>> readPicture(VulkanHost& host, const gpu::Renderer& renderer,
@@ -55,13 +51,13 @@ FrameSettings settingsOfSamples(const RenderOptions& options, VkExtent2D extent)
 void warnAboutLimits(const gpu::Scene& scene, const VisibleList& list, const std::string& name)
 {
     if (list.counters.dropped_clusters > 0)
-        print({Issue::degraded, name, "",
-               std::to_string(list.counters.dropped_clusters) +
-                   " clusters are more than the visible list holds and are not drawn"});
+        printError({Issue::degraded, name, "",
+                    std::to_string(list.counters.dropped_clusters) +
+                        " clusters are more than the visible list holds and are not drawn"});
     if (scene.dropped_lights > 0)
-        print({Issue::degraded, name, "",
-               std::to_string(scene.dropped_lights) + " lights are more than the " +
-                   std::to_string(shared::kMaxLights) + " that are drawn"});
+        printError({Issue::degraded, name, "",
+                    std::to_string(scene.dropped_lights) + " lights are more than the " +
+                        std::to_string(shared::kMaxLights) + " that are drawn"});
 }
 
 /// Draws the frames of one run, and writes what was asked for.
@@ -229,17 +225,11 @@ private:
     uint64_t serial_ = 0; ///< of the last frame
 };
 
-/// Reads at once. What cannot be read is told, and drawn coarser.
+/// Reads at once.
 pack::PageReader pageReader(const formats::PackView& pack)
 {
     return [&pack](uint32_t page, std::span<std::byte> destination, pack::ReadDone done)
-    {
-        const Status read = pack.decodePage(page, destination);
-        if (!read.ok())
-            print({Issue::degraded, pack.name(), "page " + std::to_string(page),
-                   "cannot be read, what it refines stays coarse: " + formatMessage(read.error())});
-        done(read.ok());
-    };
+    { done(readPage(pack, page, destination)); };
 }
 
 Status drawPack(const RenderOptions& options, const formats::PackView& pack, VulkanHost& host)
@@ -289,13 +279,8 @@ Status render(const RenderOptions& options)
         std::fprintf(stderr, "drawing with %s%s\n", host->deviceName().c_str(),
                      host->software() ? " (software)" : "");
     const Status drawn = drawPack(options, pack.view(), *host);
-    for (const std::string& message : host->messages())
-        std::fprintf(stderr, "validation: %s\n", message.c_str());
-    HEARTH_TRY(drawn);
-    if (!host->messages().empty())
-        return Error{Issue::internal, options.pack, "",
-                     "the validation layer has " + std::to_string(host->messages().size()) + " messages"};
-    return success();
+    const Status validated = host->printMessages();
+    return drawn.ok() ? validated : drawn;
 }
 
 } // namespace
@@ -311,7 +296,7 @@ int runRender(std::span<const char* const> arguments)
     const Status status = options.ok() ? render(*options) : Status(options.error());
     if (status.ok())
         return 0;
-    print(status.error());
+    printError(status.error());
     return exitCode(status.error());
 }
 
