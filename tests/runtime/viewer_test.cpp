@@ -186,6 +186,20 @@ TEST(CameraPath, isACameraALine)
     EXPECT_EQ(viewer::readCameraPath(file + ".none").error().issue, Issue::input_missing);
 }
 
+TEST(CameraPath, readsWhatItWrites)
+{
+    std::mt19937 random(4);
+    for (int i = 0; i < 100; ++i)
+    {
+        const shared::Camera camera = randomCamera(random, 100);
+        const auto read = viewer::parseCamera(viewer::formatCamera(camera));
+        ASSERT_TRUE(read) << viewer::formatCamera(camera);
+        EXPECT_EQ(read->position, camera.position);
+        EXPECT_EQ(read->target, camera.target);
+        EXPECT_NEAR(read->y_fov_rad, camera.y_fov_rad, 1e-6f);
+    }
+}
+
 TEST(CameraPath, numbersItsFiles)
 {
     EXPECT_EQ(viewer::numberedFile("a.png", 0), "a-0000.png");

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/viewer/window/viewer.h"
 
-#include "runtime/gpu/scene_shading.h"
 #include "runtime/viewer/camera_fit.h"
 #include "runtime/viewer/camera_path.h"
 #include "runtime/viewer/file_output.h"
@@ -19,11 +18,22 @@ namespace
 
 constexpr double kLongestStep = 0.1; // seconds: whoever waited longer does not want to be far away afterwards
 
-/// Metres a second that cross the scene in eight seconds.
-float flySpeed(const formats::PackView& pack)
+/// Metres a second that bring the eye to most of what is there in a few seconds: a quarter of the median distance of the
+/// instances. Their box would count a sky that is one of them.
+float flySpeed(const formats::PackView& pack, Float3 eye)
 {
-    const Box3 bounds = gpu::sceneBounds(pack);
-    return bounds.empty() ? 1 : std::max(length(bounds.max - bounds.min) / 8, 1e-4f);
+    std::vector<float> distances;
+    for (const formats::InstanceRecord& instance : pack.instances())
+    {
+        const formats::MeshRecord& mesh = pack.meshes()[instance.mesh];
+        const Float3 center = (mesh.box_min + mesh.box_max) * 0.5f;
+        distances.push_back(length(transformPoint(instance.world_from_object, center) - eye));
+    }
+    if (distances.empty())
+        return 1;
+    const auto median = distances.begin() + static_cast<ptrdiff_t>(distances.size() / 2);
+    std::nth_element(distances.begin(), median, distances.end());
+    return std::max(*median / 4, 1e-4f);
 }
 
 std::vector<NamedCamera> camerasOf(const formats::PackView& pack, const shared::Camera& start, float aspect)
@@ -49,7 +59,7 @@ Viewer::Viewer(const DrawOptions& options, const formats::PackView& pack, const 
     : pack_(pack),
       settings_{.frame = options.settings, .geometry_budget = options.geometry_budget},
       panel_(settings_, geometryBytes(pack)),
-      camera_(start, flySpeed(pack)),
+      camera_(start, flySpeed(pack, start.position)),
       cameras_(camerasOf(pack, start, static_cast<float>(options.width) / static_cast<float>(options.height)))
 {
 }
