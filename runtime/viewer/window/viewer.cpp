@@ -104,14 +104,14 @@ Result<bool> Viewer::step(double seconds)
     handleEvents();
     controls_.fly(camera_, static_cast<float>(std::clamp(seconds, 0.0, kLongestStep)));
     HEARTH_TRY(followSettings());
-    if (minimized_)
+    if (resized_ && !minimized_)
+        HEARTH_TRY(resize());
+    if (minimized_ || !targets_)
     {
         constexpr int kPatienceMs = 50;
         SDL_WaitEventTimeout(nullptr, kPatienceMs);
         return false;
     }
-    if (resized_)
-        HEARTH_TRY(resize());
     return drawFrame(settings_.panel, nullptr);
 }
 
