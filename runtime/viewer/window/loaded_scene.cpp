@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/viewer/window/loaded_scene.h"
 
+#include "runtime/viewer/page_reading.h"
 #include "runtime/viewer/window/frame_ring.h"
 
 namespace hearth::viewer
@@ -15,7 +16,9 @@ Result<std::unique_ptr<LoadedScene>> LoadedScene::load(VulkanHost& host, gpu::Re
     gpu::SceneOptions options{.geometry_budget = geometry_budget};
     if (geometry_budget > 0)
     {
-        loaded->loader_ = std::make_unique<PageLoader>(pack);
+        loaded->loader_ =
+            std::make_unique<PageLoader>([&pack](uint32_t page, std::span<std::byte> destination)
+                                         { return readPage(pack, page, destination); });
         options.stream = {.read = loaded->loader_->reader(), .frames_in_flight = kFramesInFlight};
     }
     HEARTH_TRY(host.run(

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/viewer/window/page_loader.h"
 
-#include "runtime/viewer/page_reading.h"
+#include <utility>
 
 namespace hearth::viewer
 {
 
-PageLoader::PageLoader(const formats::PackView& pack) : pack_(pack), thread_([this] { work(); }) {}
+PageLoader::PageLoader(Decode decode) : decode_(std::move(decode)), thread_([this] { work(); }) {}
 
 PageLoader::~PageLoader()
 {
@@ -41,7 +41,7 @@ void PageLoader::work()
         const Read read = waiting_.front();
         waiting_.pop_front();
         lock.unlock();
-        read.done(readPage(pack_, read.page, read.destination));
+        read.done(decode_(read.page, read.destination));
     }
 }
 

@@ -2,12 +2,13 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include "formats/pack_view.h"
 #include "runtime/pack/page_stream.h"
 
 #include <condition_variable>
 #include <deque>
+#include <functional>
 #include <mutex>
+#include <span>
 #include <thread>
 
 namespace hearth::viewer
@@ -17,8 +18,10 @@ namespace hearth::viewer
 class PageLoader
 {
 public:
-    /// pack  outlives the loader
-    explicit PageLoader(const formats::PackView& pack);
+    /// Decodes a page into memory of its size; false where it cannot be read. Called on the loader's thread.
+    using Decode = std::function<bool(uint32_t page, std::span<std::byte> destination)>;
+
+    explicit PageLoader(Decode decode);
     ~PageLoader();
     PageLoader(const PageLoader&) = delete;
     PageLoader& operator=(const PageLoader&) = delete;
@@ -35,7 +38,7 @@ private:
     };
     void work();
 
-    const formats::PackView& pack_;
+    Decode decode_;
     std::mutex mutex_;
     std::condition_variable changed_;
     std::deque<Read> waiting_; ///< in the order in which they were asked for
