@@ -84,7 +84,7 @@ Panel::Panel(const ViewSettings& settings, uint64_t geometry_bytes)
 void Panel::build(ViewSettings& settings, const PanelFacts& facts)
 {
     ImGui::SetNextWindowPos({10, 10}, ImGuiCond_FirstUseEver);
-    ImGui::SetNextWindowSize({380, 560}, ImGuiCond_FirstUseEver);
+    ImGui::SetNextWindowSize({380, 460}, ImGuiCond_FirstUseEver);
     if (ImGui::Begin("Hearth"))
     {
         ImGui::Text("%s, %u x %u", facts.device.c_str(), facts.extent.width, facts.extent.height);
@@ -188,7 +188,7 @@ void Panel::buildCulling(ViewSettings& settings, const PanelFacts& facts)
     ImGui::NewLine();
     const FrameFigures& figures = facts.figures;
     showCount("clusters drawn", figures.counters.drawn_clusters);
-    showCount("early", figures.counters.early_clusters);
+    showCount("of these early", figures.counters.early_clusters);
     if (figures.counters.dropped_clusters > 0)
         showCount("without a slot", figures.counters.dropped_clusters);
     ImGui::Checkbox("Count what each test leaves out", &settings.count_culling);
