@@ -324,7 +324,8 @@ gpu::DeviceDescription VulkanHost::description() const
             .instance = instance_,
             .physical_device = physical_device_,
             .device = device_,
-            .sampler_anisotropy = sampler_anisotropy_};
+            .sampler_anisotropy = sampler_anisotropy_,
+            .debug_labels = messenger_ != VK_NULL_HANDLE}; // messages then name the pass
 }
 
 Status VulkanHost::run(const std::function<Status(VkCommandBuffer)>& record)

@@ -224,6 +224,7 @@ protected:
     {
         gpu::DeviceDescription description = host().description();
         description.get_instance_proc_addr = getInstanceProcAddr;
+        description.debug_labels = false;
         return description;
     }
 

@@ -90,6 +90,8 @@ void Panel::build(ViewSettings& settings, const PanelFacts& facts)
         ImGui::Text("%s, %u x %u", facts.device.c_str(), facts.extent.width, facts.extent.height);
         ImGui::Text("%.2f ms a picture, %.3g m/s", facts.frame_seconds * 1e3,
                     static_cast<double>(facts.camera.speed()));
+        if (const uint32_t dropped = facts.scene.scene().dropped_lights; dropped > 0)
+            showProblem(std::to_string(dropped) + " lights are more than can be drawn");
         chooseCamera(settings, facts);
         buildPicture(settings.frame);
         buildCurve(settings.frame);
