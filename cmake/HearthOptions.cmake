@@ -1,5 +1,6 @@
 # Compiler settings that hold for every target of the project.
 option(HEARTH_BUILD_TESTS "Build tests and benchmarks" ${PROJECT_IS_TOP_LEVEL})
+option(HEARTH_BUILD_WINDOW "Build hearth-view, which needs SDL2 and Dear ImGui" ${PROJECT_IS_TOP_LEVEL})
 option(HEARTH_HARDENED "Turn on the standard library's own checks" OFF)
 option(HEARTH_FUZZ "Build the libFuzzer targets (clang only)" OFF)
 set(HEARTH_SANITIZE "" CACHE STRING "Sanitizers to build with, as for -fsanitize")

@@ -13,13 +13,14 @@ function(hearth_executable name)
   target_link_libraries(${name} PRIVATE hearth_settings hearth_warnings ${ARG_LINKS})
 endfunction()
 
-# hearth_test(NAME SOURCES ... LINKS ... LABELS ...): a GoogleTest program, registered as one ctest per program.
+# hearth_test(NAME SOURCES ... LINKS ... LABELS ... LAUNCHER ...): a GoogleTest program, registered as one ctest per program.
+# LAUNCHER is a command that runs it.
 function(hearth_test name)
-  cmake_parse_arguments(ARG "" "TIMEOUT" "SOURCES;LINKS;LABELS" ${ARGN})
+  cmake_parse_arguments(ARG "" "TIMEOUT" "SOURCES;LINKS;LABELS;LAUNCHER" ${ARGN})
   add_executable(${name} ${ARG_SOURCES})
   target_link_libraries(${name} PRIVATE hearth_settings hearth_warnings ${ARG_LINKS} GTest::gtest GTest::gmock GTest::gtest_main)
   set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
-  add_test(NAME ${name} COMMAND ${name})
+  add_test(NAME ${name} COMMAND ${ARG_LAUNCHER} $<TARGET_FILE:${name}>)
   if(NOT ARG_TIMEOUT)
     set(ARG_TIMEOUT 600)
   endif()

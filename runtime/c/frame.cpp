@@ -65,7 +65,12 @@ Status checkCall(const hearth_scene& scene, const hearth_targets* targets, VkCom
     if (targets->renderer != scene.renderer)
         return usage("scene and targets are of different renderers");
     HEARTH_TRY(checkStruct("frame", frame));
-    HEARTH_TRY(check(*scene.renderer, *frame));
+    return check(*scene.renderer, *frame);
+}
+
+/// That a frame of the scene may begin.
+Status checkBegun(const hearth_scene& scene)
+{
     if (scene.scene->stream != nullptr && !scene.to_be_recorded)
         return usage("the scene has a geometry_budget: each frame begins with hearth_scene_begin_frame");
     return success();
@@ -112,6 +117,56 @@ Status makeMoves(hearth_scene& scene, const hearth_frame& frame)
     return success();
 }
 
+/// The moves are those of the frame's first part.
+Result<gpu::FrameInput> makeInput(const hearth_scene& scene, const gpu::FrameTargets& targets,
+                                  const hearth_frame& frame)
+{
+    HEARTH_ASSIGN_OR_RETURN(const shared::FrameView view, makeView(scene, targets, frame));
+    return gpu::FrameInput{.view = view,
+                           .shading = {.shown = frame.shown,
+                                       .depth_scale = frame.depth_scale,
+                                       .area = static_cast<gpu::ShadedArea>(frame.shaded_area)},
+                           .moves = scene.moves,
+                           .timestamps = frame.timestamps};
+}
+
+/// A whole frame, or its first part, by `record(renderer, input)`.
+template <typename Record>
+Status beginFrame(hearth_scene& scene, const hearth_targets* targets, VkCommandBuffer commands,
+                  const hearth_frame* frame, const Record& record)
+{
+    HEARTH_TRY(checkCall(scene, targets, commands, frame));
+    HEARTH_TRY(checkBegun(scene));
+    HEARTH_TRY(makeMoves(scene, *frame));
+    HEARTH_ASSIGN_OR_RETURN(const gpu::FrameInput input, makeInput(scene, targets->targets, *frame));
+    scene.to_be_recorded = false;
+    record(*scene.renderer->renderer, input);
+    return success();
+}
+
+/// The part behind `before` others, by `record(renderer, input)`.
+template <typename Record>
+Status continueFrame(hearth_scene& scene, const hearth_targets* targets, VkCommandBuffer commands,
+                     const hearth_frame* frame, uint32_t before, const Record& record)
+{
+    HEARTH_TRY(checkCall(scene, targets, commands, frame));
+    if (scene.parts_recorded != before || scene.parts_targets != targets)
+        return usage("the parts of a frame are recorded in order, with the same targets");
+    HEARTH_ASSIGN_OR_RETURN(const gpu::FrameInput input, makeInput(scene, targets->targets, *frame));
+    record(*scene.renderer->renderer, input);
+    return success();
+}
+
+hearth_image_state toC(const gpu::ImageState& state)
+{
+    return {state.layout, state.stages, state.access};
+}
+
+hearth_image_use toC(const gpu::ImageUse& use)
+{
+    return {toC(use.before), toC(use.after)};
+}
+
 } // namespace
 
 hearth_result hearth_record_frame(hearth_scene* scene, hearth_targets* targets, VkCommandBuffer commands,
@@ -120,21 +175,83 @@ hearth_result hearth_record_frame(hearth_scene* scene, hearth_targets* targets, 
     if (scene == nullptr)
         return HEARTH_ERROR_USAGE;
     return call(scene->renderer->message(), __func__,
+                [&]
+                {
+                    return beginFrame(*scene, targets, commands, frame,
+                                      [&](const gpu::Renderer& renderer, const gpu::FrameInput& input)
+                                      {
+                                          renderer.record(commands, *scene->scene, targets->targets, input);
+                                          scene->parts_recorded = 0;
+                                      });
+                });
+}
+
+hearth_result hearth_record_cull(hearth_scene* scene, hearth_targets* targets, VkCommandBuffer commands,
+                                 const hearth_frame* frame)
+{
+    if (scene == nullptr)
+        return HEARTH_ERROR_USAGE;
+    return call(scene->renderer->message(), __func__,
+                [&]
+                {
+                    return beginFrame(*scene, targets, commands, frame,
+                                      [&](const gpu::Renderer& renderer, const gpu::FrameInput& input)
+                                      {
+                                          renderer.recordCull(commands, *scene->scene, targets->targets,
+                                                              input);
+                                          scene->parts_recorded = 1;
+                                          scene->parts_targets = targets;
+                                      });
+                });
+}
+
+hearth_result hearth_record_visibility(hearth_scene* scene, hearth_targets* targets, VkCommandBuffer commands,
+                                       const hearth_frame* frame)
+{
+    if (scene == nullptr)
+        return HEARTH_ERROR_USAGE;
+    return call(scene->renderer->message(), __func__,
+                [&]
+                {
+                    return continueFrame(*scene, targets, commands, frame, 1,
+                                         [&](const gpu::Renderer& renderer, const gpu::FrameInput& input)
+                                         {
+                                             renderer.recordVisibility(commands, *scene->scene,
+                                                                       targets->targets, input);
+                                             scene->parts_recorded = 2;
+                                         });
+                });
+}
+
+hearth_result hearth_record_materials(hearth_scene* scene, hearth_targets* targets, VkCommandBuffer commands,
+                                      const hearth_frame* frame)
+{
+    if (scene == nullptr)
+        return HEARTH_ERROR_USAGE;
+    return call(scene->renderer->message(), __func__,
+                [&]
+                {
+                    return continueFrame(*scene, targets, commands, frame, 2,
+                                         [&](const gpu::Renderer& renderer, const gpu::FrameInput& input)
+                                         {
+                                             renderer.recordMaterials(commands, *scene->scene,
+                                                                      targets->targets, input);
+                                             scene->parts_recorded = 0;
+                                         });
+                });
+}
+
+hearth_result hearth_part_inform(uint32_t part, hearth_part_information* information)
+{
+    return call({}, __func__,
                 [&]() -> Status
                 {
-                    HEARTH_TRY(checkCall(*scene, targets, commands, frame));
-                    HEARTH_ASSIGN_OR_RETURN(const shared::FrameView view,
-                                            makeView(*scene, targets->targets, *frame));
-                    HEARTH_TRY(makeMoves(*scene, *frame));
-                    scene->to_be_recorded = false;
-                    scene->renderer->renderer->record(
-                        commands, *scene->scene, targets->targets,
-                        {.view = view,
-                         .shading = {.shown = frame->shown,
-                                     .depth_scale = frame->depth_scale,
-                                     .area = static_cast<gpu::ShadedArea>(frame->shaded_area)},
-                         .moves = scene->moves,
-                         .timestamps = frame->timestamps});
+                    HEARTH_TRY(checkStruct("information", information));
+                    if (part > HEARTH_PART_MATERIALS)
+                        return usage("part is not one that this version knows");
+                    const gpu::PartImages images = gpu::imagesOf(static_cast<gpu::FramePart>(part));
+                    information->color = toC(images.color);
+                    information->visibility = toC(images.visibility);
                     return success();
                 });
 }
@@ -149,10 +266,12 @@ hearth_result hearth_record_prefetch(hearth_scene* scene, hearth_targets* target
         [&]() -> Status
         {
             HEARTH_TRY(checkCall(*scene, targets, commands, frame));
+            HEARTH_TRY(checkBegun(*scene));
             if (scene->scene->stream == nullptr)
                 return usage("the scene has no geometry_budget: all of it is there");
             HEARTH_ASSIGN_OR_RETURN(const shared::FrameView view, makeView(*scene, targets->targets, *frame));
             scene->to_be_recorded = false;
+            scene->parts_recorded = 0;
             scene->renderer->renderer->recordPrefetch(commands, *scene->scene, targets->targets, view);
             return success();
         });

@@ -19,6 +19,7 @@ struct hearth_pack
 
 struct hearth_renderer
 {
+    hearth_memory_hooks memory{}; ///< the renderer below refers to them
     std::unique_ptr<hearth::gpu::Renderer> renderer;
     bool shows_overdraw = false;
     uint32_t child_count = 0; ///< scenes and targets
@@ -36,6 +37,10 @@ struct hearth_scene
     /// The frame that was begun; of a streamed scene only.
     uint64_t serial = 0, completed_serial = 0;
     bool to_be_recorded = false;
+
+    /// Where a frame is recorded in parts: how many of them, and with which targets.
+    uint32_t parts_recorded = 0;
+    const hearth_targets* parts_targets = nullptr;
 
     std::vector<hearth::gpu::InstanceMove> moves; ///< of the frame that is recorded; kept for its memory
 };

@@ -29,7 +29,7 @@
 #endif
 
 /* Major version << 16 | minor version. A library takes callers of its major version and of no later minor version. */
-#define HEARTH_API_VERSION 0x00010000u
+#define HEARTH_API_VERSION 0x00010001u
 
 typedef int32_t hearth_result;
 enum
@@ -83,8 +83,47 @@ HEARTH_API hearth_result hearth_pack_close(hearth_pack* pack);
 enum
 {
     HEARTH_FEATURE_SAMPLER_ANISOTROPY = 1, /* the caller enabled samplerAnisotropy: it shall be used */
-    HEARTH_FEATURE_OVERDRAW = 2            /* make the pipelines of HEARTH_SHOW_OVERDRAW */
+    HEARTH_FEATURE_OVERDRAW = 2,           /* make the pipelines of HEARTH_SHOW_OVERDRAW */
+    HEARTH_FEATURE_DEBUG_LABELS = 4 /* 1.1: the caller enabled VK_EXT_debug_utils: passes shall have names */
 };
+
+/* What memory is for. */
+enum
+{
+    HEARTH_MEMORY_DEVICE = 0,  /* fastest for the GPU; not mapped */
+    HEARTH_MEMORY_STAGING = 1, /* mapped and coherent, written by the CPU */
+    HEARTH_MEMORY_READBACK = 2 /* mapped and coherent, read by the CPU; cached where there is such memory */
+};
+
+/* Of one buffer or image. */
+typedef struct hearth_memory_request
+{
+    VkMemoryRequirements needs;
+    uint32_t kind;     /* HEARTH_MEMORY_* */
+    uint32_t is_image; /* 1: optimally tiled; bufferImageGranularity is the allocator's to keep */
+} hearth_memory_request;
+
+typedef struct hearth_memory_piece
+{
+    VkDeviceMemory memory;
+    VkDeviceSize offset;
+    void* mapped;     /* where the piece begins, of kinds that are mapped; until it is freed */
+    void* allocation; /* the allocator's own */
+} hearth_memory_piece;
+
+/* Device memory from the caller: both functions or none. Called by calls that create and destroy, on their thread. `allocate`
+ * gives a piece of a type that `needs` allows, with the properties of the kind. Nothing uses what is bound to a piece any
+ * more when it is freed. */
+typedef struct hearth_memory_hooks
+{
+    void* user;
+    VkResult (*allocate)(void* user, const hearth_memory_request* request, hearth_memory_piece* piece);
+    void (*free)(void* user, const hearth_memory_piece* piece);
+} hearth_memory_hooks;
+
+/* What is degraded and no error, in one line: lights that are left out, pages that cannot be read. On the thread of the call
+ * that finds it; must not call the library. */
+typedef void (*hearth_message)(void* user, const char* message);
 
 typedef struct hearth_renderer_description
 {
@@ -98,12 +137,16 @@ typedef struct hearth_renderer_description
     VkPipelineCache pipeline_cache;         /* or VK_NULL_HANDLE */
     uint32_t features;                      /* HEARTH_FEATURE_* */
     uint32_t reserved;                      /* 0 */
+    /* since 1.1 */
+    hearth_memory_hooks memory; /* or NULLs: blocks from vkAllocateMemory */
+    hearth_message message;     /* or NULL */
+    void* message_user;
 } hearth_renderer_description;
 
 #define HEARTH_RENDERER_DESCRIPTION_INIT                                                                     \
     {                                                                                                        \
         sizeof(hearth_renderer_description), HEARTH_API_VERSION, NULL, VK_NULL_HANDLE, VK_NULL_HANDLE,       \
-            VK_NULL_HANDLE, NULL, VK_NULL_HANDLE, 0, 0                                                       \
+            VK_NULL_HANDLE, NULL, VK_NULL_HANDLE, 0, 0, {NULL, NULL, NULL}, NULL, NULL                       \
     }
 
 /* Makes pipelines: seconds on some devices. What the description names outlives the renderer.
@@ -375,7 +418,55 @@ typedef struct hearth_frame
 HEARTH_API hearth_result hearth_record_frame(hearth_scene* scene, hearth_targets* targets,
                                              VkCommandBuffer commands, const hearth_frame* frame);
 
-/* The same for a scene with a budget, without drawing: asks for what such a frame would want. Moves nothing. Record frames
+/* The parts of a frame (1.1), for callers that put something between them. */
+enum
+{
+    HEARTH_PART_CULL = 0,
+    HEARTH_PART_VISIBILITY = 1,
+    HEARTH_PART_MATERIALS = 2
+};
+
+/* In place of hearth_record_frame: all three in this order, with the same targets and frame, in one command buffer or in
+ * several of one queue. They order their own work; hearth_part_inform says how they find and leave the images. In scenes of few
+ * materials the parts cost a tile-based GPU more: hearth_record_frame keeps the visibility buffer in the tile. errors: USAGE. */
+HEARTH_API hearth_result hearth_record_cull(hearth_scene* scene, hearth_targets* targets,
+                                            VkCommandBuffer commands, const hearth_frame* frame);
+HEARTH_API hearth_result hearth_record_visibility(hearth_scene* scene, hearth_targets* targets,
+                                                  VkCommandBuffer commands, const hearth_frame* frame);
+HEARTH_API hearth_result hearth_record_materials(hearth_scene* scene, hearth_targets* targets,
+                                                 VkCommandBuffer commands, const hearth_frame* frame);
+
+/* Of an image of the targets; stages 0: the part does not touch it. */
+typedef struct hearth_image_use
+{
+    hearth_image_state before; /* the part waits for such uses; layout UNDEFINED: the content is lost */
+    hearth_image_state after;  /* the part leaves it so, visible to these accesses */
+} hearth_image_use;
+
+typedef struct hearth_part_information
+{
+    uint32_t struct_size;
+    uint32_t reserved; /* 0 */
+    hearth_image_use color;
+    hearth_image_use visibility;
+} hearth_part_information;
+
+#define HEARTH_PART_INFORMATION_INIT                                                                         \
+    {                                                                                                        \
+        sizeof(hearth_part_information), 0,                                                                  \
+            {{VK_IMAGE_LAYOUT_UNDEFINED, 0, 0}, {VK_IMAGE_LAYOUT_UNDEFINED, 0, 0}},                          \
+        {                                                                                                    \
+            {VK_IMAGE_LAYOUT_UNDEFINED, 0, 0},                                                               \
+            {                                                                                                \
+                VK_IMAGE_LAYOUT_UNDEFINED, 0, 0                                                              \
+            }                                                                                                \
+        }                                                                                                    \
+    }
+
+/* part  HEARTH_PART_*; the same for all renderers. errors: USAGE. */
+HEARTH_API hearth_result hearth_part_inform(uint32_t part, hearth_part_information* information);
+
+/* hearth_record_frame for a scene with a budget, without drawing: asks for what such a frame would want. Moves nothing. Record frames
  * of it until settled_serial reaches the serial of the first of them, and the view is there. errors: USAGE. */
 HEARTH_API hearth_result hearth_record_prefetch(hearth_scene* scene, hearth_targets* targets,
                                                 VkCommandBuffer commands, const hearth_frame* frame);

@@ -169,6 +169,21 @@ public:
     {
         return hearth_record_frame(get(), targets.get(), commands, &frame);
     }
+    [[nodiscard]] hearth_result recordCull(Targets& targets, VkCommandBuffer commands,
+                                           const hearth_frame& frame)
+    {
+        return hearth_record_cull(get(), targets.get(), commands, &frame);
+    }
+    [[nodiscard]] hearth_result recordVisibility(Targets& targets, VkCommandBuffer commands,
+                                                 const hearth_frame& frame)
+    {
+        return hearth_record_visibility(get(), targets.get(), commands, &frame);
+    }
+    [[nodiscard]] hearth_result recordMaterials(Targets& targets, VkCommandBuffer commands,
+                                                const hearth_frame& frame)
+    {
+        return hearth_record_materials(get(), targets.get(), commands, &frame);
+    }
     [[nodiscard]] hearth_result recordPrefetch(Targets& targets, VkCommandBuffer commands,
                                                const hearth_frame& frame)
     {

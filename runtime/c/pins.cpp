@@ -52,6 +52,22 @@ static_assert(equal(HEARTH_TIMESTAMP_MATERIAL_DEPTH, gpu::kTimestampMaterialDept
 static_assert(equal(HEARTH_TIMESTAMP_SHADING, gpu::kTimestampShading));
 static_assert(equal(HEARTH_TIMESTAMP_COUNT, gpu::kTimestampCount));
 
+constexpr bool equal(int c, gpu::MemoryKind kind)
+{
+    return c == static_cast<int>(kind);
+}
+static_assert(equal(HEARTH_MEMORY_DEVICE, gpu::MemoryKind::device));
+static_assert(equal(HEARTH_MEMORY_STAGING, gpu::MemoryKind::staging));
+static_assert(equal(HEARTH_MEMORY_READBACK, gpu::MemoryKind::readback));
+
+constexpr bool equal(int c, gpu::FramePart part)
+{
+    return c == static_cast<int>(part);
+}
+static_assert(equal(HEARTH_PART_CULL, gpu::FramePart::cull));
+static_assert(equal(HEARTH_PART_VISIBILITY, gpu::FramePart::visibility));
+static_assert(equal(HEARTH_PART_MATERIALS, gpu::FramePart::materials));
+
 static_assert(sizeof(hearth_frame_counters) == sizeof(FrameCounters));
 static_assert(offsetof(hearth_frame_counters, drawn_clusters) == offsetof(FrameCounters, drawn_clusters));
 static_assert(offsetof(hearth_frame_counters, dropped_clusters) == offsetof(FrameCounters, dropped_clusters));

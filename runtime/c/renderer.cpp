@@ -1,47 +1,93 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/c/handles.h"
 
+#include <cstddef>
+#include <cstring>
+
 using namespace hearth;
 using namespace hearth::c;
 
 namespace
 {
 
-constexpr uint32_t kFeatures = HEARTH_FEATURE_SAMPLER_ANISOTROPY | HEARTH_FEATURE_OVERDRAW;
+constexpr uint32_t kFeatures =
+    HEARTH_FEATURE_SAMPLER_ANISOTROPY | HEARTH_FEATURE_OVERDRAW | HEARTH_FEATURE_DEBUG_LABELS;
+
+/// The description of version 1.0 ends here.
+constexpr size_t kDescriptionBytes10 = offsetof(hearth_renderer_description, memory);
 
 bool understands(uint32_t version)
 {
     return version >> 16 == HEARTH_API_VERSION >> 16 && (version & 0xFFFFu) <= (HEARTH_API_VERSION & 0xFFFFu);
 }
 
-Status check(const hearth_renderer_description* description)
+/// What the caller has, of whatever version, and the defaults of what it does not have.
+Result<hearth_renderer_description> complete(const hearth_renderer_description* given)
 {
-    HEARTH_TRY(checkStruct("description", description));
-    if (!understands(description->api_version))
-        return usage("the caller was compiled for version " + std::to_string(description->api_version >> 16) +
-                     "." + std::to_string(description->api_version & 0xFFFFu) + ", the library is " +
+    if (given == nullptr || given->struct_size != kDescriptionBytes10)
+        HEARTH_TRY(checkStruct("description", given));
+    hearth_renderer_description description = HEARTH_RENDERER_DESCRIPTION_INIT;
+    std::memcpy(&description, given, given->struct_size);
+    return description;
+}
+
+Status check(const hearth_renderer_description& description)
+{
+    if (!understands(description.api_version))
+        return usage("the caller was compiled for version " + std::to_string(description.api_version >> 16) +
+                     "." + std::to_string(description.api_version & 0xFFFFu) + ", the library is " +
                      std::to_string(HEARTH_API_VERSION >> 16) + "." +
                      std::to_string(HEARTH_API_VERSION & 0xFFFFu));
-    if (description->get_instance_proc_addr == nullptr || description->instance == VK_NULL_HANDLE ||
-        description->physical_device == VK_NULL_HANDLE || description->device == VK_NULL_HANDLE)
+    if (description.get_instance_proc_addr == nullptr || description.instance == VK_NULL_HANDLE ||
+        description.physical_device == VK_NULL_HANDLE || description.device == VK_NULL_HANDLE)
         return usage("get_instance_proc_addr, instance, physical_device or device is missing");
-    if ((description->features & ~kFeatures) != 0 || description->reserved != 0)
+    if ((description.features & ~kFeatures) != 0 || description.reserved != 0)
         return usage("features has bits that this version does not know, or reserved is not 0");
+    if ((description.memory.allocate == nullptr) != (description.memory.free == nullptr))
+        return usage("memory has one function and not the other");
     return success();
+}
+
+VkResult allocateFrom(void* hooks, const gpu::MemoryRequest& request, gpu::MemoryPiece& piece)
+{
+    const auto& memory = *static_cast<const hearth_memory_hooks*>(hooks);
+    const hearth_memory_request asked{request.needs, static_cast<uint32_t>(request.kind),
+                                      request.image ? 1u : 0u};
+    hearth_memory_piece given{};
+    const VkResult result = memory.allocate(memory.user, &asked, &given);
+    piece = {given.memory, given.offset, static_cast<std::byte*>(given.mapped), given.allocation};
+    return result;
+}
+
+void freeTo(void* hooks, const gpu::MemoryPiece& piece)
+{
+    const auto& memory = *static_cast<const hearth_memory_hooks*>(hooks);
+    const hearth_memory_piece given{piece.memory, piece.offset, piece.mapped, piece.allocation};
+    memory.free(memory.user, &given);
+}
+
+gpu::DeviceDescription toDevice(const hearth_renderer_description& description, hearth_memory_hooks& memory)
+{
+    const auto has = [&](uint32_t feature) { return (description.features & feature) != 0; };
+    gpu::DeviceDescription device{.get_instance_proc_addr = description.get_instance_proc_addr,
+                                  .instance = description.instance,
+                                  .physical_device = description.physical_device,
+                                  .device = description.device,
+                                  .sampler_anisotropy = has(HEARTH_FEATURE_SAMPLER_ANISOTROPY),
+                                  .debug_labels = has(HEARTH_FEATURE_DEBUG_LABELS),
+                                  .allocator = description.allocator,
+                                  .pipeline_cache = description.pipeline_cache,
+                                  .message_hook = {description.message_user, description.message}};
+    if (memory.allocate != nullptr)
+        device.memory_hooks = {&memory, allocateFrom, freeTo};
+    return device;
 }
 
 Result<std::unique_ptr<hearth_renderer>> create(const hearth_renderer_description& description)
 {
     auto made = std::make_unique<hearth_renderer>();
-    const bool anisotropy = (description.features & HEARTH_FEATURE_SAMPLER_ANISOTROPY) != 0;
-    HEARTH_ASSIGN_OR_RETURN(
-        made->renderer, gpu::Renderer::create({.get_instance_proc_addr = description.get_instance_proc_addr,
-                                               .instance = description.instance,
-                                               .physical_device = description.physical_device,
-                                               .device = description.device,
-                                               .sampler_anisotropy = anisotropy,
-                                               .allocator = description.allocator,
-                                               .pipeline_cache = description.pipeline_cache}));
+    made->memory = description.memory;
+    HEARTH_ASSIGN_OR_RETURN(made->renderer, gpu::Renderer::create(toDevice(description, made->memory)));
     made->shows_overdraw = (description.features & HEARTH_FEATURE_OVERDRAW) != 0;
     if (made->shows_overdraw)
         HEARTH_TRY(made->renderer->prepareOverdraw());
@@ -58,8 +104,9 @@ hearth_result hearth_renderer_create(const hearth_renderer_description* descript
                 {
                     if (renderer == nullptr)
                         return usage("renderer is NULL");
-                    HEARTH_TRY(check(description));
-                    HEARTH_ASSIGN_OR_RETURN(std::unique_ptr<hearth_renderer> made, create(*description));
+                    HEARTH_ASSIGN_OR_RETURN(const hearth_renderer_description whole, complete(description));
+                    HEARTH_TRY(check(whole));
+                    HEARTH_ASSIGN_OR_RETURN(std::unique_ptr<hearth_renderer> made, create(whole));
                     *renderer = made.release();
                     return success();
                 });

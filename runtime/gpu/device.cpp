@@ -30,8 +30,11 @@ constexpr RequiredFormat kRequiredFormats[] = {
 Result<Device> makeDevice(const DeviceDescription& description)
 {
     Device device;
-    if (const char* missing =
-            device.vk.load(description.get_instance_proc_addr, description.instance, description.device))
+    const char* missing =
+        device.vk.load(description.get_instance_proc_addr, description.instance, description.device);
+    if (missing == nullptr && description.debug_labels)
+        missing = device.vk.loadDebugLabels(description.get_instance_proc_addr, description.instance);
+    if (missing != nullptr)
         return Error{Issue::device, "", "", std::string("the driver has no entry point ") + missing};
 
     VkPhysicalDeviceProperties properties;
@@ -51,8 +54,17 @@ Result<Device> makeDevice(const DeviceDescription& description)
     device.handle = description.device;
     device.allocator = description.allocator;
     device.pipeline_cache = description.pipeline_cache;
+    device.memory_hooks = description.memory_hooks;
+    device.message_hook = description.message_hook;
     device.sampler_anisotropy = description.sampler_anisotropy;
     return device;
+}
+
+void tell(const Device& device, const std::string& name, const std::string& where, const std::string& what)
+{
+    if (device.message_hook.tell != nullptr)
+        device.message_hook.tell(device.message_hook.user,
+                                 formatMessage({Issue::degraded, name, where, what}).c_str());
 }
 
 Error vulkanError(VkResult result, const char* what)

@@ -3,12 +3,20 @@
 #pragma once
 
 #include "formats/result.h"
-#include "runtime/gpu/device_table.h"
+#include "runtime/gpu/memory_hooks.h"
 
 #include <utility>
 
 namespace hearth::gpu
 {
+
+/// Where the library tells what is degraded and no error: lights that are left out, pages that cannot be read.
+struct MessageHook
+{
+    void* user = nullptr;
+    /// One line, as of an error. By the thread that makes the call; it must not call the library.
+    void (*tell)(void* user, const char* message) = nullptr;
+};
 
 /// What the caller created and keeps alive longer than everything made from it.
 /// Vulkan 1.1; no feature is required. Uses samplerAnisotropy where the caller enabled it and says so.
@@ -19,8 +27,11 @@ struct DeviceDescription
     VkPhysicalDevice physical_device = VK_NULL_HANDLE;
     VkDevice device = VK_NULL_HANDLE;
     bool sampler_anisotropy = false;
+    bool debug_labels = false; ///< the caller enabled VK_EXT_debug_utils: passes are named in command buffers
     const VkAllocationCallbacks* allocator = nullptr;
-    VkPipelineCache pipeline_cache = VK_NULL_HANDLE;
+    VkPipelineCache pipeline_cache = VK_NULL_HANDLE; ///< for all pipelines
+    MemoryHooks memory_hooks{};                      ///< none: blocks of the library's own
+    MessageHook message_hook{};
 };
 
 /// Everything else holds a reference to it: it must not move once it is used.
@@ -30,6 +41,8 @@ struct Device
     VkDevice handle = VK_NULL_HANDLE;
     const VkAllocationCallbacks* allocator = nullptr;
     VkPipelineCache pipeline_cache = VK_NULL_HANDLE;
+    MemoryHooks memory_hooks{};
+    MessageHook message_hook{};
     bool sampler_anisotropy = false;
     VkPhysicalDeviceLimits limits{};
     VkPhysicalDeviceMemoryProperties memory{};
@@ -37,6 +50,9 @@ struct Device
 
 /// errors: device, where an entry point or a required format is missing.
 Result<Device> makeDevice(const DeviceDescription& description);
+
+/// Tell the caller that something is degraded. Allocates, where the caller wants to hear it.
+void tell(const Device& device, const std::string& name, const std::string& where, const std::string& what);
 
 /// The Error of a Vulkan call that failed: `what` says what was tried.
 Error vulkanError(VkResult result, const char* what);

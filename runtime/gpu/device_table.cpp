@@ -22,4 +22,17 @@ const char* DeviceTable::load(PFN_vkGetInstanceProcAddr get_instance_proc_addr, 
     return nullptr;
 }
 
+const char* DeviceTable::loadDebugLabels(PFN_vkGetInstanceProcAddr get_instance_proc_addr,
+                                         VkInstance instance)
+{
+#define HEARTH_LOAD(name)                                                                                    \
+    name = reinterpret_cast<PFN_##name>(get_instance_proc_addr(instance, #name));                            \
+    if (name == nullptr)                                                                                     \
+        return #name;
+    HEARTH_LOAD(vkCmdBeginDebugUtilsLabelEXT)
+    HEARTH_LOAD(vkCmdEndDebugUtilsLabelEXT)
+#undef HEARTH_LOAD
+    return nullptr;
+}
+
 } // namespace hearth::gpu

@@ -76,9 +76,13 @@ struct DeviceTable
     HEARTH_INSTANCE_FUNCTIONS(HEARTH_MEMBER)
     HEARTH_DEVICE_FUNCTIONS(HEARTH_MEMBER)
 #undef HEARTH_MEMBER
+    PFN_vkCmdBeginDebugUtilsLabelEXT vkCmdBeginDebugUtilsLabelEXT = nullptr; ///< with loadDebugLabels only
+    PFN_vkCmdEndDebugUtilsLabelEXT vkCmdEndDebugUtilsLabelEXT = nullptr;
 
     /// nullptr, or the name of the first entry point that is missing.
     const char* load(PFN_vkGetInstanceProcAddr get_instance_proc_addr, VkInstance instance, VkDevice device);
+    /// The same, of an instance with VK_EXT_debug_utils.
+    const char* loadDebugLabels(PFN_vkGetInstanceProcAddr get_instance_proc_addr, VkInstance instance);
 };
 
 } // namespace hearth::gpu

@@ -46,42 +46,64 @@ VkDeviceSize alignUp(VkDeviceSize value, VkDeviceSize alignment)
 
 } // namespace
 
-Result<MemoryArena::Piece> MemoryArena::allocate(const VkMemoryRequirements& needs, MemoryKind kind,
-                                                 bool image)
+Result<MemoryPiece> MemoryArena::allocateHooked(const MemoryRequest& request)
 {
-    const auto type = chooseType(device_->memory, needs.memoryTypeBits, kind);
+    const MemoryHooks& hooks = device_->memory_hooks;
+    MemoryPiece piece;
+    HEARTH_TRY_VK(hooks.allocate(hooks.user, request, piece), "allocate device memory");
+    hooked_.emplace_back(hooks, piece, request.needs.size);
+    if (request.kind != MemoryKind::device && piece.mapped == nullptr)
+        return vulkanError(VK_ERROR_MEMORY_MAP_FAILED, "map device memory");
+    return piece;
+}
+
+Result<MemoryArena::Block> MemoryArena::allocateBlock(const MemoryRequest& request, uint32_t type) const
+{
+    Block block;
+    block.type = type;
+    block.images = request.image;
+    block.size = std::max(block_bytes_, request.needs.size);
+    const VkMemoryAllocateInfo info{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, nullptr, block.size, type};
+    VkDeviceMemory memory;
+    HEARTH_TRY_VK(device_->vk.vkAllocateMemory(device_->handle, &info, device_->allocator, &memory),
+                  "allocate device memory");
+    block.memory = UniqueMemory(*device_, memory);
+    if (request.kind != MemoryKind::device)
+    {
+        void* mapped = nullptr;
+        HEARTH_TRY_VK(device_->vk.vkMapMemory(device_->handle, memory, 0, VK_WHOLE_SIZE, 0, &mapped),
+                      "map device memory");
+        block.mapped = static_cast<std::byte*>(mapped);
+    }
+    return block;
+}
+
+Result<MemoryPiece> MemoryArena::allocate(const MemoryRequest& request)
+{
+    if (device_->memory_hooks.allocate != nullptr)
+        return allocateHooked(request);
+    const VkMemoryRequirements& needs = request.needs;
+    const auto type = chooseType(device_->memory, needs.memoryTypeBits, request.kind);
     if (!type)
         return vulkanError(VK_ERROR_OUT_OF_DEVICE_MEMORY, "find a fitting memory type");
 
     Block* block = nullptr;
     for (Block& b : blocks_)
-        if (b.type == *type && b.images == image && (b.mapped != nullptr) == (kind != MemoryKind::device) &&
+        if (b.type == *type && b.images == request.image &&
+            (b.mapped != nullptr) == (request.kind != MemoryKind::device) &&
             alignUp(b.used, needs.alignment) + needs.size <= b.size)
             block = &b;
     if (block == nullptr)
     {
-        Block fresh;
-        fresh.type = *type;
-        fresh.images = image;
-        fresh.size = std::max(block_bytes_, needs.size);
-        const VkMemoryAllocateInfo info{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, nullptr, fresh.size, *type};
-        VkDeviceMemory memory;
-        HEARTH_TRY_VK(device_->vk.vkAllocateMemory(device_->handle, &info, device_->allocator, &memory),
-                      "allocate device memory");
-        fresh.memory = UniqueMemory(*device_, memory);
-        if (kind != MemoryKind::device)
-        {
-            void* mapped = nullptr;
-            HEARTH_TRY_VK(device_->vk.vkMapMemory(device_->handle, memory, 0, VK_WHOLE_SIZE, 0, &mapped),
-                          "map device memory");
-            fresh.mapped = static_cast<std::byte*>(mapped);
-        }
+        HEARTH_ASSIGN_OR_RETURN(Block fresh, allocateBlock(request, *type));
         blocks_.push_back(std::move(fresh));
         block = &blocks_.back();
     }
     const VkDeviceSize offset = alignUp(block->used, needs.alignment);
     block->used = offset + needs.size;
-    return Piece{block->memory.get(), offset, block->mapped == nullptr ? nullptr : block->mapped + offset};
+    return MemoryPiece{.memory = block->memory.get(),
+                       .offset = offset,
+                       .mapped = block->mapped == nullptr ? nullptr : block->mapped + offset};
 }
 
 Result<Buffer> MemoryArena::createBuffer(VkDeviceSize size, VkBufferUsageFlags usage, MemoryKind kind)
@@ -100,7 +122,7 @@ Result<Buffer> MemoryArena::createBuffer(VkDeviceSize size, VkBufferUsageFlags u
 
     VkMemoryRequirements needs;
     device_->vk.vkGetBufferMemoryRequirements(device_->handle, handle, &needs);
-    HEARTH_ASSIGN_OR_RETURN(const Piece piece, allocate(needs, kind, false));
+    HEARTH_ASSIGN_OR_RETURN(const MemoryPiece piece, allocate({needs, kind, false}));
     HEARTH_TRY_VK(device_->vk.vkBindBufferMemory(device_->handle, handle, piece.memory, piece.offset),
                   "bind a buffer's memory");
     buffer.mapped = piece.mapped;
@@ -132,7 +154,7 @@ Result<Image> MemoryArena::createImage(const ImageDescription& description)
 
     VkMemoryRequirements needs;
     device_->vk.vkGetImageMemoryRequirements(device_->handle, handle, &needs);
-    HEARTH_ASSIGN_OR_RETURN(const Piece piece, allocate(needs, MemoryKind::device, true));
+    HEARTH_ASSIGN_OR_RETURN(const MemoryPiece piece, allocate({needs, MemoryKind::device, true}));
     HEARTH_TRY_VK(device_->vk.vkBindImageMemory(device_->handle, handle, piece.memory, piece.offset),
                   "bind an image's memory");
 
@@ -154,6 +176,8 @@ VkDeviceSize MemoryArena::allocatedBytes() const
     VkDeviceSize bytes = 0;
     for (const Block& block : blocks_)
         bytes += block.size;
+    for (const HookedMemory& memory : hooked_)
+        bytes += memory.size();
     return bytes;
 }
 

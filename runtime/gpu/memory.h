@@ -11,13 +11,6 @@
 namespace hearth::gpu
 {
 
-enum class MemoryKind
-{
-    device,   ///< fastest for the GPU; not mapped
-    staging,  ///< mapped and coherent, written by the CPU
-    readback, ///< mapped and coherent, read by the CPU; cached where there is such memory
-};
-
 struct Buffer
 {
     UniqueBuffer handle;
@@ -43,8 +36,41 @@ struct ImageDescription
     VkImageAspectFlags aspect = VK_IMAGE_ASPECT_COLOR_BIT;
 };
 
-/// Gives out pieces of blocks and takes nothing back: everything ends with the arena. What is made from it must
-/// be destroyed before it, so it stands first among the members of its owner.
+/// A piece from MemoryHooks, given back when it goes.
+class HookedMemory
+{
+public:
+    HookedMemory(const MemoryHooks& hooks, const MemoryPiece& piece, VkDeviceSize size)
+        : hooks_(&hooks), piece_(piece), size_(size)
+    {
+    }
+    HookedMemory(HookedMemory&& other) noexcept
+        : hooks_(std::exchange(other.hooks_, nullptr)), piece_(other.piece_), size_(other.size_)
+    {
+    }
+    HookedMemory& operator=(HookedMemory&& other) noexcept
+    {
+        std::swap(hooks_, other.hooks_);
+        std::swap(piece_, other.piece_);
+        std::swap(size_, other.size_);
+        return *this;
+    }
+    ~HookedMemory()
+    {
+        if (hooks_ != nullptr)
+            hooks_->free(hooks_->user, piece_);
+    }
+
+    VkDeviceSize size() const { return size_; }
+
+private:
+    const MemoryHooks* hooks_;
+    MemoryPiece piece_;
+    VkDeviceSize size_;
+};
+
+/// Gives out pieces of blocks, or of the caller's hooks where there are some, and takes nothing back: everything ends with the
+/// arena. What is made from it must be destroyed before it, so it stands first among the members of its owner.
 class MemoryArena
 {
 public:
@@ -73,17 +99,14 @@ private:
         VkDeviceSize used = 0;
         std::byte* mapped = nullptr;
     };
-    struct Piece
-    {
-        VkDeviceMemory memory = VK_NULL_HANDLE;
-        VkDeviceSize offset = 0;
-        std::byte* mapped = nullptr;
-    };
-    Result<Piece> allocate(const VkMemoryRequirements& needs, MemoryKind kind, bool image);
+    Result<MemoryPiece> allocate(const MemoryRequest& request);
+    Result<MemoryPiece> allocateHooked(const MemoryRequest& request);
+    Result<Block> allocateBlock(const MemoryRequest& request, uint32_t type) const;
 
     const Device* device_;
     VkDeviceSize block_bytes_;
     std::vector<Block> blocks_;
+    std::vector<HookedMemory> hooked_;
 };
 
 } // namespace hearth::gpu

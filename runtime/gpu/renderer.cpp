@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/gpu/renderer.h"
 
+#include "runtime/gpu/debug_label.h"
+
 namespace hearth::gpu
 {
 
@@ -11,6 +13,12 @@ void writeTimestamp(const Device& device, VkCommandBuffer commands, VkQueryPool 
 {
     if (pool != VK_NULL_HANDLE)
         device.vk.vkCmdWriteTimestamp(commands, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, pool, which);
+}
+
+/// Whether it is culled and drawn in two phases.
+bool inPhases(const FrameInput& input)
+{
+    return (input.view.flags & shared::kCullOcclusion) != 0;
 }
 
 } // namespace
@@ -51,6 +59,10 @@ Result<std::unique_ptr<Scene>> Renderer::upload(const formats::PackView& pack, V
     {
         HEARTH_ASSIGN_OR_RETURN(material.pipelines, shading_.prepare(device_, layouts_, material.variant));
     }
+    if (scene->dropped_lights > 0)
+        tell(device_, pack.name(), "",
+             std::to_string(scene->dropped_lights) + " lights are more than the " +
+                 std::to_string(shared::kMaxLights) + " that are drawn");
     return scene;
 }
 
@@ -66,32 +78,61 @@ Status Renderer::prepareOverdraw()
 void Renderer::record(VkCommandBuffer commands, const Scene& scene, FrameTargets& targets,
                       const FrameInput& input) const
 {
+    recordCull(commands, scene, targets, input);
+    if (shadesTiles(scene, input.shading.area))
+    {
+        recordVisibility(commands, scene, targets, input);
+        recordMaterials(commands, scene, targets, input);
+        return;
+    }
+    recordEarly(commands, scene, targets, input);
+    beginPass(commands, targets, (inPhases(input) ? passes_.late : passes_.whole).get());
+    drawVisibility(commands, scene, input);
+    writeTimestamp(device_, commands, input.timestamps, kTimestampVisibility);
+    writeTimestamp(device_, commands, input.timestamps, kTimestampMaterialTiles);
+    recordPicture(commands, scene, targets, input);
+}
+
+void Renderer::recordCull(VkCommandBuffer commands, const Scene& scene, const FrameTargets& targets,
+                          const FrameInput& input) const
+{
     HEARTH_ASSERT(input.view.instance_count == scene.instance_count);
     if (input.timestamps != VK_NULL_HANDLE)
         device_.vk.vkCmdResetQueryPool(commands, input.timestamps, 0, kTimestampCount);
-    const auto stamp = [&](FrameTimestamp which)
-    { writeTimestamp(device_, commands, input.timestamps, which); };
-    stamp(kTimestampBegin);
+    writeTimestamp(device_, commands, input.timestamps, kTimestampBegin);
+    const DebugLabel label(device_, commands, "cull");
     cull_.recordConstants(device_, commands, scene, targets,
                           scene.stream == nullptr ? input.view : scene.stream->scaled(input.view),
                           input.moves);
-    const bool in_phases = (input.view.flags & shared::kCullOcclusion) != 0;
-    cull_.record(device_, commands, scene, targets, in_phases ? shared::kPhaseEarly : shared::kPhaseWhole);
+    cull_.record(device_, commands, scene, targets,
+                 inPhases(input) ? shared::kPhaseEarly : shared::kPhaseWhole);
     if (scene.stream != nullptr)
         recordRequests(commands, scene);
-    stamp(kTimestampCull);
-    if (in_phases)
-        recordEarly(commands, scene, targets);
-    stamp(kTimestampEarlyVisibility);
-    if (in_phases)
-        pyramid_.record(device_, commands, targets);
-    stamp(kTimestampPyramid);
-    if (in_phases)
-        cull_.record(device_, commands, scene, targets, shared::kPhaseLate);
-    stamp(kTimestampLateCull);
-    recordPicture(commands, scene, targets, input, in_phases);
-    if (in_phases)
-        targets.setPyramidView(shared::makeOcclusionView(input.view));
+    writeTimestamp(device_, commands, input.timestamps, kTimestampCull);
+}
+
+void Renderer::recordVisibility(VkCommandBuffer commands, const Scene& scene, FrameTargets& targets,
+                                const FrameInput& input) const
+{
+    recordEarly(commands, scene, targets, input);
+    beginPass(commands, targets,
+              (inPhases(input) ? passes_.late_visibility : passes_.whole_visibility).get());
+    drawVisibility(commands, scene, input);
+    endAtVisibility(commands);
+    writeTimestamp(device_, commands, input.timestamps, kTimestampVisibility);
+}
+
+void Renderer::recordMaterials(VkCommandBuffer commands, const Scene& scene, const FrameTargets& targets,
+                               const FrameInput& input) const
+{
+    if (shadesTiles(scene, input.shading.area))
+    {
+        const DebugLabel label(device_, commands, "material tiles");
+        material_tiles_.record(device_, commands, scene, targets);
+    }
+    writeTimestamp(device_, commands, input.timestamps, kTimestampMaterialTiles);
+    beginPass(commands, targets, passes_.picture.get());
+    recordPicture(commands, scene, targets, input);
 }
 
 void Renderer::recordPrefetch(VkCommandBuffer commands, const Scene& scene, const FrameTargets& targets,
@@ -131,11 +172,41 @@ void Renderer::beginPass(VkCommandBuffer commands, const FrameTargets& targets,
     device_.vk.vkCmdSetScissor(commands, 0, 1, &area);
 }
 
-void Renderer::recordEarly(VkCommandBuffer commands, const Scene& scene, const FrameTargets& targets) const
+/// What the last frame's depth does not hide, and with the pyramid of that what it hid wrongly. Nothing where the frame has
+/// one phase.
+void Renderer::recordEarly(VkCommandBuffer commands, const Scene& scene, FrameTargets& targets,
+                           const FrameInput& input) const
 {
-    beginPass(commands, targets, passes_.early.get());
-    visibility_.record(device_, commands, layouts_, scene, shared::kPhaseEarly);
-    endAtVisibility(commands);
+    const bool in_phases = inPhases(input);
+    if (in_phases)
+    {
+        const DebugLabel label(device_, commands, "early visibility");
+        beginPass(commands, targets, passes_.early.get());
+        visibility_.record(device_, commands, layouts_, scene, shared::kPhaseEarly);
+        endAtVisibility(commands);
+    }
+    writeTimestamp(device_, commands, input.timestamps, kTimestampEarlyVisibility);
+    if (in_phases)
+    {
+        const DebugLabel label(device_, commands, "pyramid");
+        pyramid_.record(device_, commands, targets);
+        targets.setPyramidView(shared::makeOcclusionView(input.view));
+    }
+    writeTimestamp(device_, commands, input.timestamps, kTimestampPyramid);
+    if (in_phases)
+    {
+        const DebugLabel label(device_, commands, "late cull");
+        cull_.record(device_, commands, scene, targets, shared::kPhaseLate);
+    }
+    writeTimestamp(device_, commands, input.timestamps, kTimestampLateCull);
+}
+
+/// In the first subpass.
+void Renderer::drawVisibility(VkCommandBuffer commands, const Scene& scene, const FrameInput& input) const
+{
+    const DebugLabel label(device_, commands, "visibility");
+    visibility_.record(device_, commands, layouts_, scene,
+                       inPhases(input) ? shared::kPhaseLate : shared::kPhaseWhole);
 }
 
 /// The other two subpasses are there to be compatible, and store nothing.
@@ -157,31 +228,24 @@ void Renderer::recordOverdraw(VkCommandBuffer commands, const Scene& scene, cons
         overdraw_->record(device_, commands, layouts_, scene, phase);
 }
 
-/// late  goes on from what recordEarly drew
+/// From the first subpass, whatever it has drawn, to the end of the render pass.
 void Renderer::recordPicture(VkCommandBuffer commands, const Scene& scene, const FrameTargets& targets,
-                             const FrameInput& input, bool late) const
+                             const FrameInput& input) const
 {
-    const bool tiles = shadesTiles(scene, input.shading.area);
-    const UniqueRenderPass& to_picture = late ? passes_.late : passes_.whole;
-    const UniqueRenderPass& to_visibility = late ? passes_.late_visibility : passes_.whole_visibility;
-    beginPass(commands, targets, (tiles ? to_visibility : to_picture).get());
-    visibility_.record(device_, commands, layouts_, scene, late ? shared::kPhaseLate : shared::kPhaseWhole);
-    if (tiles)
-        endAtVisibility(commands);
-    writeTimestamp(device_, commands, input.timestamps, kTimestampVisibility);
-    if (tiles)
-        material_tiles_.record(device_, commands, scene, targets);
-    writeTimestamp(device_, commands, input.timestamps, kTimestampMaterialTiles);
-    if (tiles)
-        beginPass(commands, targets, passes_.picture.get());
     device_.vk.vkCmdNextSubpass(commands, VK_SUBPASS_CONTENTS_INLINE);
-    material_depth_.record(device_, commands, layouts_, scene, targets);
+    {
+        const DebugLabel label(device_, commands, "material depth");
+        material_depth_.record(device_, commands, layouts_, scene, targets);
+    }
     writeTimestamp(device_, commands, input.timestamps, kTimestampMaterialDepth);
     device_.vk.vkCmdNextSubpass(commands, VK_SUBPASS_CONTENTS_INLINE);
-    if (input.shading.shown == shared::kViewOverdraw)
-        recordOverdraw(commands, scene, targets);
-    else
-        shading_.record(device_, commands, layouts_, scene, targets, input.shading);
+    {
+        const DebugLabel label(device_, commands, "shading");
+        if (input.shading.shown == shared::kViewOverdraw)
+            recordOverdraw(commands, scene, targets);
+        else
+            shading_.record(device_, commands, layouts_, scene, targets, input.shading);
+    }
     device_.vk.vkCmdEndRenderPass(commands);
     writeTimestamp(device_, commands, input.timestamps, kTimestampShading);
 }

@@ -5,6 +5,7 @@
 
 #include "runtime/gpu/bin_pass.h"
 #include "runtime/gpu/cull_pass.h"
+#include "runtime/gpu/frame_parts.h"
 #include "runtime/gpu/material_depth_pass.h"
 #include "runtime/gpu/material_tiles_pass.h"
 #include "runtime/gpu/page_request_pass.h"
@@ -66,6 +67,16 @@ public:
     void record(VkCommandBuffer commands, const Scene& scene, FrameTargets& targets,
                 const FrameInput& input) const;
 
+    /// The same in parts, for callers that put something between them: all three in this order, with the same arguments,
+    /// each outside a render pass. imagesOf (frame_parts.h) says how they find and leave the images. With few materials `record`
+    /// draws in one render pass what these draw in two: on a tile-based GPU the visibility buffer leaves the tile once more.
+    void recordCull(VkCommandBuffer commands, const Scene& scene, const FrameTargets& targets,
+                    const FrameInput& input) const;
+    void recordVisibility(VkCommandBuffer commands, const Scene& scene, FrameTargets& targets,
+                          const FrameInput& input) const;
+    void recordMaterials(VkCommandBuffer commands, const Scene& scene, const FrameTargets& targets,
+                         const FrameInput& input) const;
+
     /// The same without drawing: asks for what a frame with this view asks for. For a streamed scene, in place of record.
     /// Clobbers compute state, and leaves the depth pyramid as it is.
     void recordPrefetch(VkCommandBuffer commands, const Scene& scene, const FrameTargets& targets,
@@ -74,11 +85,13 @@ public:
 private:
     Renderer() = default;
     void recordRequests(VkCommandBuffer commands, const Scene& scene) const;
-    void recordEarly(VkCommandBuffer commands, const Scene& scene, const FrameTargets& targets) const;
-    void recordOverdraw(VkCommandBuffer commands, const Scene& scene, const FrameTargets& targets) const;
+    void recordEarly(VkCommandBuffer commands, const Scene& scene, FrameTargets& targets,
+                     const FrameInput& input) const;
+    void drawVisibility(VkCommandBuffer commands, const Scene& scene, const FrameInput& input) const;
     void endAtVisibility(VkCommandBuffer commands) const;
     void recordPicture(VkCommandBuffer commands, const Scene& scene, const FrameTargets& targets,
-                       const FrameInput& input, bool late) const;
+                       const FrameInput& input) const;
+    void recordOverdraw(VkCommandBuffer commands, const Scene& scene, const FrameTargets& targets) const;
     void beginPass(VkCommandBuffer commands, const FrameTargets& targets, VkRenderPass render_pass) const;
 
     Device device_;

@@ -87,6 +87,9 @@ void SceneStream::beginFrame(uint64_t serial, uint64_t completed_serial)
     recorded_ = false;
     serial_ = serial;
     changes_ = pages_.beginFrame(serial, completed_serial);
+    for (const uint32_t page : changes_.failed)
+        tell(device_, pack_.name(), "page " + std::to_string(page),
+             "cannot be read: what it refines stays coarse");
     listen(completed_serial);
 }
 

@@ -11,6 +11,13 @@
 namespace hearth::viewer
 {
 
+namespace
+{
+
+constexpr float kRadiansPerDegree = 3.14159265f / 180.0f;
+
+} // namespace
+
 std::optional<shared::Camera> parseCamera(std::string_view text)
 {
     const auto parts = split(text, ',');
@@ -28,9 +35,24 @@ std::optional<shared::Camera> parseCamera(std::string_view text)
     const float distance = length(target - position);
     if (!(distance > 0) || v[6] < 1 || v[6] > 170)
         return std::nullopt;
-    constexpr float kRadians = 3.14159265f / 180.0f;
-    return shared::Camera{
-        .position = position, .target = target, .y_fov_rad = v[6] * kRadians, .z_near = nearPlane(distance)};
+    return shared::Camera{.position = position,
+                          .target = target,
+                          .y_fov_rad = v[6] * kRadiansPerDegree,
+                          .z_near = nearPlane(distance)};
+}
+
+std::string formatCamera(const shared::Camera& camera)
+{
+    const Float3 p = camera.position, t = camera.target;
+    const float numbers[] = {p.x, p.y, p.z, t.x, t.y, t.z, camera.y_fov_rad / kRadiansPerDegree};
+    std::string text;
+    for (const float number : numbers)
+    {
+        char digits[24];
+        std::snprintf(digits, sizeof(digits), "%s%.9g", text.empty() ? "" : ",", double{number});
+        text += digits;
+    }
+    return text;
 }
 
 Result<std::vector<shared::Camera>> readCameraPath(const std::string& path)

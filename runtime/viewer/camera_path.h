@@ -17,6 +17,9 @@ namespace hearth::viewer
 /// the text is not that.
 std::optional<shared::Camera> parseCamera(std::string_view text);
 
+/// What parseCamera takes, to the last bit of eye and target. Cameras are level there.
+std::string formatCamera(const shared::Camera& camera);
+
 /// One camera a line; empty lines and those that start with # are skipped. errors: input_missing, camera_path.
 Result<std::vector<shared::Camera>> readCameraPath(const std::string& path);
 

@@ -3,11 +3,14 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cstdio>
+#include <cstring>
 #include <dlfcn.h>
 
 #define HEARTH_HOST_INSTANCE_FUNCTIONS(X)                                                                    \
     X(vkCreateDevice)                                                                                        \
     X(vkDestroyInstance)                                                                                     \
+    X(vkEnumerateDeviceExtensionProperties)                                                                  \
     X(vkEnumeratePhysicalDevices)                                                                            \
     X(vkGetDeviceProcAddr)                                                                                   \
     X(vkGetPhysicalDeviceFeatures)                                                                           \
@@ -47,6 +50,8 @@ struct HostTable
     HEARTH_HOST_DEVICE_FUNCTIONS(HEARTH_MEMBER)
 #undef HEARTH_MEMBER
     PFN_vkDestroyDebugUtilsMessengerEXT vkDestroyDebugUtilsMessengerEXT = nullptr; // with validation only
+    PFN_vkDestroySurfaceKHR vkDestroySurfaceKHR = nullptr;                         // with a window only
+    PFN_vkGetPhysicalDeviceSurfaceSupportKHR vkGetPhysicalDeviceSurfaceSupportKHR = nullptr;
 };
 
 namespace
@@ -93,8 +98,8 @@ int rankOf(VkPhysicalDeviceType type)
     }
 }
 
-/// A queue family that draws and computes, or none.
-bool findQueueFamily(const HostTable& vk, VkPhysicalDevice device, uint32_t& family)
+/// A queue family that draws and computes, and presents to the surface where there is one; or none.
+bool findQueueFamily(const HostTable& vk, VkPhysicalDevice device, VkSurfaceKHR surface, uint32_t& family)
 {
     uint32_t count = 0;
     vk.vkGetPhysicalDeviceQueueFamilyProperties(device, &count, nullptr);
@@ -102,9 +107,26 @@ bool findQueueFamily(const HostTable& vk, VkPhysicalDevice device, uint32_t& fam
     vk.vkGetPhysicalDeviceQueueFamilyProperties(device, &count, families.data());
     constexpr VkQueueFlags kNeeded = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT;
     for (family = 0; family < count; ++family)
-        if ((families[family].queueFlags & kNeeded) == kNeeded)
+    {
+        VkBool32 presents = VK_TRUE;
+        if (surface != VK_NULL_HANDLE)
+            vk.vkGetPhysicalDeviceSurfaceSupportKHR(device, family, surface, &presents);
+        if ((families[family].queueFlags & kNeeded) == kNeeded && presents == VK_TRUE)
             return true;
+    }
     return false;
+}
+
+bool hasSwapchains(const HostTable& vk, VkPhysicalDevice device)
+{
+    uint32_t count = 0;
+    vk.vkEnumerateDeviceExtensionProperties(device, nullptr, &count, nullptr);
+    std::vector<VkExtensionProperties> extensions(count);
+    vk.vkEnumerateDeviceExtensionProperties(device, nullptr, &count, extensions.data());
+    return std::any_of(extensions.begin(), extensions.end(),
+                       [](const VkExtensionProperties& extension) {
+                           return std::strcmp(extension.extensionName, VK_KHR_SWAPCHAIN_EXTENSION_NAME) == 0;
+                       });
 }
 
 } // namespace
@@ -122,6 +144,8 @@ VulkanHost::~VulkanHost()
             vk_->vkDestroyCommandPool(device_, command_pool_, nullptr);
         vk_->vkDestroyDevice(device_, nullptr);
     }
+    if (surface_ != VK_NULL_HANDLE)
+        vk_->vkDestroySurfaceKHR(instance_, surface_, nullptr);
     if (messenger_ != VK_NULL_HANDLE)
         vk_->vkDestroyDebugUtilsMessengerEXT(instance_, messenger_, nullptr);
     if (instance_ != VK_NULL_HANDLE)
@@ -134,7 +158,11 @@ Result<std::unique_ptr<VulkanHost>> VulkanHost::create(const HostOptions& option
 {
     std::unique_ptr<VulkanHost> host(new VulkanHost);
     HEARTH_TRY(host->openLoader());
-    HEARTH_TRY(host->createInstance(options.validate));
+    HEARTH_TRY(host->createInstance(options));
+    if (options.window != nullptr)
+    {
+        HEARTH_ASSIGN_OR_RETURN(host->surface_, options.window->create_surface(host->instance_));
+    }
     HEARTH_TRY(host->chooseDevice(options.device_name));
     HEARTH_TRY(host->createDevice());
     return host;
@@ -152,13 +180,13 @@ Status VulkanHost::openLoader()
     return success();
 }
 
-Status VulkanHost::createInstance(bool validate)
+Status VulkanHost::createInstance(const HostOptions& options)
 {
     const auto create_instance =
         reinterpret_cast<PFN_vkCreateInstance>(get_instance_proc_addr_(nullptr, "vkCreateInstance"));
     VkApplicationInfo application{};
     application.sType = VK_STRUCTURE_TYPE_APPLICATION_INFO;
-    application.pApplicationName = "hearth-render";
+    application.pApplicationName = "hearth";
     application.apiVersion = VK_API_VERSION_1_1;
 
     VkDebugUtilsMessengerCreateInfoEXT messenger{};
@@ -177,18 +205,21 @@ Status VulkanHost::createInstance(bool validate)
     features.enabledValidationFeatureCount = 1;
     features.pEnabledValidationFeatures = &synchronization;
 
-    const char* extension = VK_EXT_DEBUG_UTILS_EXTENSION_NAME;
+    std::vector<const char*> extensions;
+    if (options.window != nullptr)
+        extensions = options.window->instance_extensions;
     VkInstanceCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO;
     info.pApplicationInfo = &application;
-    if (validate)
+    if (options.validate)
     {
         info.pNext = &features;
         info.enabledLayerCount = 1;
         info.ppEnabledLayerNames = &kValidationLayer;
-        info.enabledExtensionCount = 1;
-        info.ppEnabledExtensionNames = &extension;
+        extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
     }
+    info.enabledExtensionCount = static_cast<uint32_t>(extensions.size());
+    info.ppEnabledExtensionNames = extensions.data();
     const VkResult result = create_instance(&info, nullptr, &instance_);
     if (result == VK_ERROR_LAYER_NOT_PRESENT)
         return deviceError("the validation layer is not installed (vulkan-validationlayers)");
@@ -197,7 +228,9 @@ Status VulkanHost::createInstance(bool validate)
 
 #define HEARTH_LOAD(name) vk_->name = reinterpret_cast<PFN_##name>(get_instance_proc_addr_(instance_, #name));
     HEARTH_HOST_INSTANCE_FUNCTIONS(HEARTH_LOAD)
-    if (!validate)
+    HEARTH_LOAD(vkDestroySurfaceKHR)
+    HEARTH_LOAD(vkGetPhysicalDeviceSurfaceSupportKHR)
+    if (!options.validate)
         return success();
     HEARTH_LOAD(vkDestroyDebugUtilsMessengerEXT)
 #undef HEARTH_LOAD
@@ -225,7 +258,9 @@ Status VulkanHost::chooseDevice(const std::string& name)
         uint32_t family = 0;
         const bool matches = lowerCase(properties.deviceName).find(lowerCase(name)) != std::string::npos;
         if (!matches || properties.apiVersion < VK_API_VERSION_1_1 ||
-            !findQueueFamily(*vk_, device, family) || rankOf(properties.deviceType) <= best)
+            !findQueueFamily(*vk_, device, surface_, family) ||
+            (surface_ != VK_NULL_HANDLE && !hasSwapchains(*vk_, device)) ||
+            rankOf(properties.deviceType) <= best)
             continue;
         best = rankOf(properties.deviceType);
         physical_device_ = device;
@@ -237,6 +272,7 @@ Status VulkanHost::chooseDevice(const std::string& name)
     if (physical_device_ == VK_NULL_HANDLE)
         return deviceError((name.empty() ? "no device has Vulkan 1.1"
                                          : "no device with Vulkan 1.1 is named \"" + name + "\"") +
+                           (surface_ == VK_NULL_HANDLE ? "" : " and presents to the window") +
                            (seen.empty() ? "" : "; there are: " + seen));
     return success();
 }
@@ -262,6 +298,12 @@ Status VulkanHost::createDevice()
     info.queueCreateInfoCount = 1;
     info.pQueueCreateInfos = &queue;
     info.pEnabledFeatures = &enabled;
+    const char* const swapchains = VK_KHR_SWAPCHAIN_EXTENSION_NAME;
+    if (surface_ != VK_NULL_HANDLE)
+    {
+        info.enabledExtensionCount = 1;
+        info.ppEnabledExtensionNames = &swapchains;
+    }
     HEARTH_TRY_VK(vk_->vkCreateDevice(physical_device_, &info, nullptr, &device_), "create a device");
 #define HEARTH_LOAD(name) vk_->name = reinterpret_cast<PFN_##name>(vk_->vkGetDeviceProcAddr(device_, #name));
     HEARTH_HOST_DEVICE_FUNCTIONS(HEARTH_LOAD)
@@ -282,7 +324,8 @@ gpu::DeviceDescription VulkanHost::description() const
             .instance = instance_,
             .physical_device = physical_device_,
             .device = device_,
-            .sampler_anisotropy = sampler_anisotropy_};
+            .sampler_anisotropy = sampler_anisotropy_,
+            .debug_labels = messenger_ != VK_NULL_HANDLE}; // messages then name the pass
 }
 
 Status VulkanHost::run(const std::function<Status(VkCommandBuffer)>& record)
@@ -362,6 +405,16 @@ Result<std::vector<std::byte>> VulkanHost::read(const gpu::Device& device, const
             return success();
         }));
     return std::vector<std::byte>(copy.mapped, copy.mapped + size);
+}
+
+Status VulkanHost::printMessages() const
+{
+    for (const std::string& message : messages_)
+        std::fprintf(stderr, "validation: %s\n", message.c_str());
+    if (messages_.empty())
+        return success();
+    return Error{Issue::internal, device_name_, "",
+                 "the validation layer has " + std::to_string(messages_.size()) + " messages"};
 }
 
 Result<VkQueryPool> VulkanHost::createTimestamps(uint32_t count)

@@ -1,4 +1,4 @@
-// A Vulkan instance, device and queue without a window: what a game would own and hand to the renderer.
+// A Vulkan instance, device and queue, with a window or without: what a game would own and hand to the renderer.
 // The loader is opened at run time, so that a machine without Vulkan gets a message and not a linker error.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
@@ -15,10 +15,18 @@
 namespace hearth::viewer
 {
 
+/// What whoever owns a window says of it.
+struct HostWindow
+{
+    std::vector<const char*> instance_extensions;
+    std::function<Result<VkSurfaceKHR>(VkInstance)> create_surface; ///< the surface becomes the host's
+};
+
 struct HostOptions
 {
     std::string device_name; ///< part of the device's name, any case; empty: the fastest kind there is
     bool validate = false;   ///< core and synchronization validation, collected in messages()
+    const HostWindow* window = nullptr; ///< where the queue shall present to one: with VK_KHR_swapchain
 };
 
 /// Vulkan entry points that the host needs beside those of the renderer.
@@ -27,7 +35,8 @@ struct HostTable;
 class VulkanHost
 {
 public:
-    /// errors: device, where there is no Vulkan, no such device, or no validation layer.
+    /// errors: device, where there is no Vulkan, no such device, none that presents to the window, or no validation layer;
+    /// those of HostWindow::create_surface.
     static Result<std::unique_ptr<VulkanHost>> create(const HostOptions& options);
     ~VulkanHost();
 
@@ -35,6 +44,9 @@ public:
     const std::string& deviceName() const { return device_name_; }
     /// A software implementation, as lavapipe.
     bool software() const { return software_; }
+    VkQueue queue() const { return queue_; }
+    uint32_t queueFamily() const { return queue_family_; }
+    VkSurfaceKHR surface() const { return surface_; } ///< of the window
 
     /// Let `record` fill a command buffer, submit it and wait until it has run. Stops at the error of `record`.
     Status run(const std::function<Status(VkCommandBuffer)>& record);
@@ -52,12 +64,14 @@ public:
 
     /// What the validation layers said, one message each. Empty is the only good answer.
     const std::vector<std::string>& messages() const { return messages_; }
+    /// Each on stderr. errors: internal, where there are any.
+    Status printMessages() const;
     void clearMessages() { messages_.clear(); }
 
 private:
     VulkanHost();
     Status openLoader();
-    Status createInstance(bool validate);
+    Status createInstance(const HostOptions& options);
     Status chooseDevice(const std::string& name);
     Status createDevice();
 
@@ -66,6 +80,7 @@ private:
     PFN_vkGetInstanceProcAddr get_instance_proc_addr_ = nullptr;
     VkInstance instance_ = VK_NULL_HANDLE;
     VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
+    VkSurfaceKHR surface_ = VK_NULL_HANDLE;
     VkPhysicalDevice physical_device_ = VK_NULL_HANDLE;
     uint32_t queue_family_ = 0;
     VkDevice device_ = VK_NULL_HANDLE;

@@ -55,7 +55,11 @@ const std::vector<Library>& libraries()
         {"xxhash.h", {"formats/"}},
         {"zstd.h", {"formats/", "cook/clusters/"}}, // the cluster cooker compresses pages, in parallel
         {"vulkan/", {"runtime/gpu/", "runtime/c/", "runtime/viewer/"}, true},
-        {"stddef.h", {"runtime/c/"}, true}, // hearth.h is C
+        {"SDL.h", {"runtime/viewer/window/"}},
+        {"SDL_vulkan.h", {"runtime/viewer/window/"}},
+        {"imgui.h", {"runtime/viewer/window/"}},
+        {"backends/", {"runtime/viewer/window/"}}, // Dear ImGui's, for SDL and Vulkan
+        {"stddef.h", {"runtime/c/"}, true},        // hearth.h is C
         {"stdint.h", {"runtime/c/"}, true},
         {"png.h", {"pipelines/import/", "cook/textures/", "runtime/viewer/", "sample_assets/"}},
         {"jpeglib.h", {"pipelines/import/"}},

@@ -72,9 +72,14 @@ T must(Result<T> result)
 
 ProgramEnd runProgram(Program program, const std::vector<std::string>& arguments)
 {
+    return runProgram(pathOf(program), arguments);
+}
+
+ProgramEnd runProgram(const std::string& program, const std::vector<std::string>& arguments)
+{
     const ScratchFolder folder;
     corpus::Command command;
-    command.arguments = {pathOf(program)};
+    command.arguments = {program};
     command.arguments.insert(command.arguments.end(), arguments.begin(), arguments.end());
     command.folder = folder.path("");
     command.stdout_file = folder.path("stdout");

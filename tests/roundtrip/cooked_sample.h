@@ -32,6 +32,8 @@ enum class Program
 };
 
 ProgramEnd runProgram(Program program, const std::vector<std::string>& arguments);
+/// Another one, by its path.
+ProgramEnd runProgram(const std::string& program, const std::vector<std::string>& arguments);
 
 /// A folder that is removed with everything in it when the object goes.
 class ScratchFolder

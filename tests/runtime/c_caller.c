@@ -57,6 +57,7 @@ struct c_caller
     VkCommandBuffer commands;
     unsigned message_count;
     char message[1024]; /* the first */
+    unsigned live_pieces, all_pieces;
 };
 
 /* Memory that the device copies to and the test reads. */
@@ -237,10 +238,8 @@ VkResult c_caller_submit(c_caller* caller)
     return result == VK_SUCCESS ? caller->vkQueueWaitIdle(caller->queue) : result;
 }
 
-static uint32_t memory_type(const c_caller* caller, uint32_t allowed)
+static uint32_t memory_type(const c_caller* caller, uint32_t allowed, VkMemoryPropertyFlags wanted)
 {
-    const VkMemoryPropertyFlags wanted =
-        VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
     VkPhysicalDeviceMemoryProperties memory;
     uint32_t type;
     caller->vkGetPhysicalDeviceMemoryProperties(caller->physical_device, &memory);
@@ -248,6 +247,54 @@ static uint32_t memory_type(const c_caller* caller, uint32_t allowed)
         if ((allowed >> type & 1) != 0 && (memory.memoryTypes[type].propertyFlags & wanted) == wanted)
             break;
     return type;
+}
+
+static const VkMemoryPropertyFlags mappable =
+    VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
+
+static VkResult allocate_piece(void* user, const hearth_memory_request* request, hearth_memory_piece* piece)
+{
+    c_caller* caller = user;
+    const int mapped = request->kind != HEARTH_MEMORY_DEVICE;
+    VkMemoryAllocateInfo allocate = {VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO};
+    VkResult result;
+    allocate.allocationSize = request->needs.size;
+    allocate.memoryTypeIndex = memory_type(caller, request->needs.memoryTypeBits, mapped ? mappable : 0);
+    result = caller->vkAllocateMemory(caller->device, &allocate, NULL, &piece->memory);
+    if (result == VK_SUCCESS && mapped)
+        result = caller->vkMapMemory(caller->device, piece->memory, 0, VK_WHOLE_SIZE, 0, &piece->mapped);
+    piece->allocation = caller;
+    caller->live_pieces += result == VK_SUCCESS ? 1 : 0;
+    caller->all_pieces += result == VK_SUCCESS ? 1 : 0;
+    return result;
+}
+
+static void free_piece(void* user, const hearth_memory_piece* piece)
+{
+    c_caller* caller = user;
+    if (piece->allocation != user)
+        abort();
+    caller->vkFreeMemory(caller->device, piece->memory, NULL);
+    --caller->live_pieces;
+}
+
+hearth_memory_hooks c_caller_memory(c_caller* caller)
+{
+    hearth_memory_hooks hooks;
+    hooks.user = caller;
+    hooks.allocate = allocate_piece;
+    hooks.free = free_piece;
+    return hooks;
+}
+
+unsigned c_caller_live_pieces(const c_caller* caller)
+{
+    return caller->live_pieces;
+}
+
+unsigned c_caller_all_pieces(const c_caller* caller)
+{
+    return caller->all_pieces;
 }
 
 static VkResult create_readback(const c_caller* caller, VkDeviceSize size, readback* made)
@@ -264,7 +311,7 @@ static VkResult create_readback(const c_caller* caller, VkDeviceSize size, readb
         return result;
     caller->vkGetBufferMemoryRequirements(caller->device, made->buffer, &needs);
     allocate.allocationSize = needs.size;
-    allocate.memoryTypeIndex = memory_type(caller, needs.memoryTypeBits);
+    allocate.memoryTypeIndex = memory_type(caller, needs.memoryTypeBits, mappable);
     result = caller->vkAllocateMemory(caller->device, &allocate, NULL, &made->memory);
     if (result == VK_SUCCESS)
         result = caller->vkBindBufferMemory(caller->device, made->buffer, made->memory, 0);
@@ -349,6 +396,20 @@ static hearth_result stream(c_caller* caller, hearth_scene* scene, hearth_target
     return hearth_scene_begin_frame(scene, serial, serial - 1);
 }
 
+static hearth_result record_frame(hearth_scene* scene, hearth_targets* targets, VkCommandBuffer commands,
+                                  const c_picture* picture)
+{
+    hearth_result result;
+    if (!picture->in_parts)
+        return hearth_record_frame(scene, targets, commands, &picture->frame);
+    result = hearth_record_cull(scene, targets, commands, &picture->frame);
+    if (result == HEARTH_OK)
+        result = hearth_record_visibility(scene, targets, commands, &picture->frame);
+    if (result == HEARTH_OK)
+        result = hearth_record_materials(scene, targets, commands, &picture->frame);
+    return result;
+}
+
 /* One frame, copied to the readback: colour, visibility, counters. */
 static hearth_result record(c_caller* caller, hearth_scene* scene, hearth_targets* targets,
                             const c_picture* picture, const readback* memory)
@@ -358,7 +419,7 @@ static hearth_result record(c_caller* caller, hearth_scene* scene, hearth_target
     hearth_result result = hearth_targets_inform(targets, &images);
     const VkCommandBuffer commands = c_caller_begin(caller);
     if (result == HEARTH_OK)
-        result = hearth_record_frame(scene, targets, commands, &picture->frame);
+        result = record_frame(scene, targets, commands, picture);
     if (result == HEARTH_OK)
         result = hearth_record_counters(scene, commands, memory->buffer, 2 * image_bytes);
     if (result == HEARTH_OK)

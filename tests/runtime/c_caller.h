@@ -18,6 +18,11 @@ hearth_renderer_description c_caller_description(const c_caller* caller);
 unsigned c_caller_message_count(const c_caller* caller);
 const char* c_caller_message(const c_caller* caller);
 
+/* Device memory from the caller, each piece by itself, and how many pieces there are and have been. */
+hearth_memory_hooks c_caller_memory(c_caller* caller);
+unsigned c_caller_live_pieces(const c_caller* caller);
+unsigned c_caller_all_pieces(const c_caller* caller);
+
 /* A command buffer to be recorded into; c_caller_submit submits it and waits. */
 VkCommandBuffer c_caller_begin(c_caller* caller);
 VkResult c_caller_submit(c_caller* caller);
@@ -28,6 +33,7 @@ typedef struct c_picture
     hearth_scene_options scene;
     hearth_frame frame; /* its timestamps are set */
     uint32_t width, height;
+    int in_parts; /* record it in three */
 
     uint32_t* color; /* width * height, of the caller; also below */
     uint32_t* visibility;

@@ -73,6 +73,13 @@ void CApiTest::SetUp()
     ASSERT_NE(caller_, nullptr);
     hearth_renderer_description description = c_caller_description(caller_);
     description.features = HEARTH_FEATURE_OVERDRAW;
+    recreateRenderer(description);
+}
+
+void CApiTest::recreateRenderer(const hearth_renderer_description& description)
+{
+    ASSERT_EQ(hearth_renderer_destroy(renderer_), HEARTH_OK);
+    renderer_ = nullptr;
     ASSERT_EQ(hearth_renderer_create(&description, &renderer_, message_, sizeof(message_)), HEARTH_OK)
         << message_;
 }
@@ -98,6 +105,7 @@ c_picture CApiTest::drawInC(const hearth_frame& frame, const hearth_scene_option
     picture.frame = frame;
     picture.width = kWidth;
     picture.height = kHeight;
+    picture.in_parts = in_parts_ ? 1 : 0;
     picture.color = color_.data();
     picture.visibility = visibility_.data();
     EXPECT_EQ(c_caller_draw(caller_, renderer_, pack_, &picture), HEARTH_OK) << hearth_last_error(renderer_);

@@ -47,6 +47,9 @@ protected:
     void SetUp() override;
     void TearDown() override;
 
+    /// A renderer of this description in place of the one before.
+    void recreateRenderer(const hearth_renderer_description& description);
+
     /// What the C program draws; its arrays belong to the test until the next one.
     c_picture drawInC(const hearth_frame& frame,
                       const hearth_scene_options& options = HEARTH_SCENE_OPTIONS_INIT);
@@ -58,6 +61,7 @@ protected:
     TestScene test_;
     std::optional<formats::PackView> view_;
     AlignedBytes bytes_;
+    bool in_parts_ = false;        ///< drawInC records frames in parts
     std::optional<Affine3> moved_; ///< instance 0, in drawInCpp
     hearth_pack* pack_ = nullptr;
     c_caller* caller_ = nullptr;

@@ -137,6 +137,10 @@ TEST_F(CApiTest, nullArgumentsAreRefused)
     EXPECT_EQ(hearth_scene_retry_failed(nullptr), HEARTH_ERROR_USAGE);
     EXPECT_EQ(hearth_record_frame(nullptr, nullptr, nullptr, nullptr), HEARTH_ERROR_USAGE);
     EXPECT_EQ(hearth_record_prefetch(nullptr, nullptr, nullptr, nullptr), HEARTH_ERROR_USAGE);
+    EXPECT_EQ(hearth_record_cull(nullptr, nullptr, nullptr, nullptr), HEARTH_ERROR_USAGE);
+    EXPECT_EQ(hearth_record_visibility(nullptr, nullptr, nullptr, nullptr), HEARTH_ERROR_USAGE);
+    EXPECT_EQ(hearth_record_materials(nullptr, nullptr, nullptr, nullptr), HEARTH_ERROR_USAGE);
+    EXPECT_EQ(hearth_part_inform(HEARTH_PART_CULL, nullptr), HEARTH_ERROR_USAGE);
     EXPECT_EQ(hearth_record_counters(nullptr, nullptr, VK_NULL_HANDLE, 0), HEARTH_ERROR_USAGE);
     EXPECT_STREQ(hearth_last_error(nullptr), "");
     EXPECT_EQ(hearth_pack_close(nullptr), HEARTH_OK);
@@ -158,12 +162,12 @@ TEST_F(CApiTest, otherVersionsAreRefused)
     EXPECT_THAT(message_, HasSubstr("compile with the hearth.h of the library"));
 
     description = c_caller_description(caller_);
-    for (const uint32_t version : {0x00020000u, 0x00010001u, 0u})
+    for (const uint32_t version : {0x00020000u, 0x00010002u, 0u})
     {
         description.api_version = version;
         EXPECT_EQ(hearth_renderer_create(&description, &renderer, message_, sizeof(message_)),
                   HEARTH_ERROR_USAGE);
-        EXPECT_THAT(message_, HasSubstr("the library is 1.0"));
+        EXPECT_THAT(message_, HasSubstr("the library is 1.1"));
     }
     description = c_caller_description(caller_);
     description.features = 1u << 31;

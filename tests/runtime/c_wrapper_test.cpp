@@ -30,7 +30,7 @@ TEST_F(CWrapperTest, messagesAreStrings)
     hearth_renderer_description description = c_caller_description(caller_);
     description.api_version = 0;
     EXPECT_EQ(Renderer::create(description, renderer, &message), HEARTH_ERROR_USAGE);
-    EXPECT_THAT(message, testing::HasSubstr("the library is 1.0"));
+    EXPECT_THAT(message, testing::HasSubstr("the library is 1.1"));
 }
 
 TEST_F(CWrapperTest, handlesMove)
@@ -82,7 +82,11 @@ TEST_F(CWrapperTest, drawsAndDestroysInOrder)
     EXPECT_EQ(information.instance_count, 6u);
     EXPECT_LT(information.box_min[0], information.box_max[0]);
     EXPECT_GT(information.allocated_bytes, 0u);
-    EXPECT_EQ(scene.record(targets, c_caller_begin(caller_), makeFrame()), HEARTH_OK);
+    VkCommandBuffer commands = c_caller_begin(caller_);
+    EXPECT_EQ(scene.record(targets, commands, makeFrame()), HEARTH_OK);
+    EXPECT_EQ(scene.recordCull(targets, commands, makeFrame()), HEARTH_OK);
+    EXPECT_EQ(scene.recordVisibility(targets, commands, makeFrame()), HEARTH_OK);
+    EXPECT_EQ(scene.recordMaterials(targets, commands, makeFrame()), HEARTH_OK);
     EXPECT_EQ(c_caller_submit(caller_), VK_SUCCESS);
 
     scene.reset();

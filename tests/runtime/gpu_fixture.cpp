@@ -141,12 +141,17 @@ Picture GpuTest::draw(const gpu::Scene& scene, gpu::FrameTargets& targets, const
             return success();
         });
     HEARTH_ASSERT(status.ok());
+    return readPicture(scene, targets);
+}
 
+Picture GpuTest::readPicture(const gpu::Scene& scene, const gpu::FrameTargets& targets)
+{
     auto color = host().read(renderer().device(), targets.color(), 4);
     auto visibility = host().read(renderer().device(), targets.visibility(), 4);
     auto list = viewer::readVisibleList(host(), renderer(), scene);
     HEARTH_ASSERT(color.ok() && visibility.ok() && list.ok());
-    return {options.width, options.height, wordsOf(*color), wordsOf(*visibility), std::move(*list)};
+    const auto [width, height] = targets.extent();
+    return {width, height, wordsOf(*color), wordsOf(*visibility), std::move(*list)};
 }
 
 } // namespace hearth::test

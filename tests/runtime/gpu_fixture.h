@@ -63,6 +63,8 @@ protected:
     /// With targets of the size that the options say, which remember the frame before.
     Picture draw(const gpu::Scene& scene, gpu::FrameTargets& targets, const shared::Camera& camera,
                  const DrawOptions& options);
+    /// Of the last frame, which has run.
+    static Picture readPicture(const gpu::Scene& scene, const gpu::FrameTargets& targets);
     static shared::FrameView viewOf(const gpu::Scene& scene, const shared::Camera& camera,
                                     const DrawOptions& options);
     gpu::FrameTargets makeTargets(uint32_t width, uint32_t height);

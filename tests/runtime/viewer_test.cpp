@@ -5,7 +5,7 @@
 #include "runtime/viewer/camera_path.h"
 #include "runtime/viewer/cull_report.h"
 #include "runtime/viewer/file_output.h"
-#include "runtime/viewer/options.h"
+#include "runtime/viewer/render/options.h"
 #include "tests/cook/shapes.h"
 #include "tests/formats/temporary_folder.h"
 #include "tests/runtime/test_scene.h"
@@ -21,13 +21,12 @@ namespace hearth::test
 namespace
 {
 
-using viewer::parseOptions;
 using viewer::PyramidStart;
 using viewer::RenderOptions;
 
 Result<RenderOptions> parse(std::vector<const char*> arguments)
 {
-    return parseOptions(arguments);
+    return viewer::parseRenderOptions(arguments);
 }
 
 void expectUsage(const std::vector<const char*>& arguments, const std::string& mention)
@@ -50,8 +49,8 @@ TEST(RenderOptions, defaultsFitTheScene)
     EXPECT_EQ(options->width, 1280u);
     EXPECT_EQ(options->height, 720u);
     EXPECT_FALSE(options->camera.has_value());
-    EXPECT_EQ(options->error_pixels, 1);
-    EXPECT_EQ(options->cull_flags, shared::kCullEverything);
+    EXPECT_EQ(options->settings.error_pixels, 1);
+    EXPECT_EQ(options->settings.cull_flags, shared::kCullEverything);
     EXPECT_EQ(options->geometry_budget, 0u) << "all is resident";
 }
 
@@ -95,21 +94,21 @@ TEST(RenderOptions, everyOptionIsRead)
     EXPECT_EQ(options->camera->position, (Float3{1, 2, 3}));
     EXPECT_EQ(options->camera->target, (Float3{4, 5, -6.5f}));
     EXPECT_NEAR(options->camera->y_fov_rad, 0.785398f, 1e-5f);
-    EXPECT_EQ(options->error_pixels, 0);
-    EXPECT_EQ(options->view, shared::kViewLod);
+    EXPECT_EQ(options->settings.error_pixels, 0);
+    EXPECT_EQ(options->settings.view, shared::kViewLod);
     EXPECT_EQ(options->samples, 4u);
     EXPECT_EQ(options->device, "llvm");
     EXPECT_EQ(options->stats, "s.json");
     EXPECT_EQ(options->frames, 3u);
     EXPECT_EQ(options->visibility, "v.bin");
-    EXPECT_EQ(options->cull_flags, shared::kCullCone | shared::kCullOcclusion);
+    EXPECT_EQ(options->settings.cull_flags, shared::kCullCone | shared::kCullOcclusion);
     EXPECT_EQ(options->pyramid, PyramidStart::noise);
     EXPECT_EQ(options->noise_seed, 7u);
-    EXPECT_EQ(options->shaded_area, gpu::ShadedArea::tiles);
+    EXPECT_EQ(options->settings.shaded_area, gpu::ShadedArea::tiles);
     EXPECT_EQ(options->geometry_budget, 3u << 20);
-    ASSERT_EQ(options->lod_curve.size(), 2u);
-    EXPECT_EQ(options->lod_curve[1].distance, 50);
-    EXPECT_EQ(options->lod_curve[1].factor, 0.5f);
+    ASSERT_EQ(options->settings.lod_curve.size(), 2u);
+    EXPECT_EQ(options->settings.lod_curve[1].distance, 50);
+    EXPECT_EQ(options->settings.lod_curve[1].factor, 0.5f);
     EXPECT_TRUE(options->validate);
     EXPECT_TRUE(options->verbose);
 }
@@ -185,6 +184,20 @@ TEST(CameraPath, isACameraALine)
     EXPECT_EQ(wrong.error().issue, Issue::camera_path);
     EXPECT_EQ(written("# nothing\n").error().issue, Issue::camera_path);
     EXPECT_EQ(viewer::readCameraPath(file + ".none").error().issue, Issue::input_missing);
+}
+
+TEST(CameraPath, readsWhatItWrites)
+{
+    std::mt19937 random(4);
+    for (int i = 0; i < 100; ++i)
+    {
+        const shared::Camera camera = randomCamera(random, 100);
+        const auto read = viewer::parseCamera(viewer::formatCamera(camera));
+        ASSERT_TRUE(read) << viewer::formatCamera(camera);
+        EXPECT_EQ(read->position, camera.position);
+        EXPECT_EQ(read->target, camera.target);
+        EXPECT_NEAR(read->y_fov_rad, camera.y_fov_rad, 1e-6f);
+    }
 }
 
 TEST(CameraPath, numbersItsFiles)

@@ -3,12 +3,12 @@
 #include "formats/program.h"
 #include "runtime/gpu/cull_statistics_pass.h"
 #include "runtime/pack/pack.h"
-#include "runtime/viewer/camera_fit.h"
 #include "runtime/viewer/camera_path.h"
 #include "runtime/viewer/file_output.h"
 #include "runtime/viewer/frame_report.h"
-#include "runtime/viewer/options.h"
+#include "runtime/viewer/page_reading.h"
 #include "runtime/viewer/pyramid_start.h"
+#include "runtime/viewer/render/options.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -21,11 +21,6 @@ namespace hearth::viewer
 namespace
 {
 
-void print(const Error& error)
-{
-    std::fprintf(stderr, "%s\n", formatMessage(error).c_str());
-}
-
 /// The texels of the finished picture, at the size that was asked for.
 Result<std::vector<std::byte>> readPicture(VulkanHost& host, const gpu::Renderer& renderer,
                                            const gpu::FrameTargets& targets, uint32_t samples)
@@ -34,22 +29,6 @@ Result<std::vector<std::byte>> readPicture(VulkanHost& host, const gpu::Renderer
     if (samples == 1)
         return pixels;
     return downsampleSrgb(pixels, targets.extent().width, targets.extent().height);
-}
-
-Result<shared::Camera> chooseCamera(const RenderOptions& options, const formats::PackView& pack)
-{
-    if (options.camera)
-        return *options.camera;
-    if (!options.scene_camera)
-        return fitCamera(pack, static_cast<float>(options.width) / static_cast<float>(options.height));
-    const std::span<const formats::CameraRecord> cameras = pack.cameras();
-    if (*options.scene_camera >= cameras.size())
-        return Error{Issue::usage, pack.name(), "",
-                     "--scene-camera " + std::to_string(*options.scene_camera) + ": the pack has " +
-                         std::to_string(cameras.size()) + " cameras"};
-    if (cameras[*options.scene_camera].type != static_cast<uint32_t>(formats::CameraType::perspective))
-        return Error{Issue::usage, pack.name(), "", "--scene-camera: only perspective cameras can be drawn"};
-    return sceneCamera(pack, *options.scene_camera);
 }
 
 /// One for each frame.
@@ -61,34 +40,24 @@ Result<std::vector<shared::Camera>> chooseCameras(const RenderOptions& options, 
     return std::vector<shared::Camera>(options.frames, camera);
 }
 
-/// Where the eye is, and what is decided and shown.
-gpu::FrameInput makeFrame(const RenderOptions& options, const shared::Camera& camera,
-                          const formats::PackView& pack, VkExtent2D extent)
+/// The error is meant in pixels of the picture, not of its samples.
+FrameSettings settingsOfSamples(const RenderOptions& options, VkExtent2D extent)
 {
-    // the error is meant in pixels of the picture, not of its samples
-    const float error =
-        options.error_pixels * static_cast<float>(extent.width) / static_cast<float>(options.width);
-    shared::FrameView view =
-        shared::makeFrameView(camera, extent.width, extent.height, error,
-                              static_cast<uint32_t>(pack.instances().size()), options.cull_flags);
-    const Status curve = shared::setLodCurve(view, options.lod_curve);
-    HEARTH_ASSERT(curve.ok()); // the options have been checked
-    return {.view = view,
-            .shading = {.shown = options.view,
-                        .depth_scale = length(camera.target - camera.position),
-                        .area = options.shaded_area}};
+    FrameSettings settings = options.settings;
+    settings.error_pixels *= static_cast<float>(extent.width) / static_cast<float>(options.width);
+    return settings;
 }
 
 void warnAboutLimits(const gpu::Scene& scene, const VisibleList& list, const std::string& name)
 {
     if (list.counters.dropped_clusters > 0)
-        print({Issue::degraded, name, "",
-               std::to_string(list.counters.dropped_clusters) +
-                   " clusters are more than the visible list holds and are not drawn"});
+        printError({Issue::degraded, name, "",
+                    std::to_string(list.counters.dropped_clusters) +
+                        " clusters are more than the visible list holds and are not drawn"});
     if (scene.dropped_lights > 0)
-        print({Issue::degraded, name, "",
-               std::to_string(scene.dropped_lights) + " lights are more than the " +
-                   std::to_string(shared::kMaxLights) + " that are drawn"});
+        printError({Issue::degraded, name, "",
+                    std::to_string(scene.dropped_lights) + " lights are more than the " +
+                        std::to_string(shared::kMaxLights) + " that are drawn"});
 }
 
 /// Draws the frames of one run, and writes what was asked for.
@@ -104,7 +73,8 @@ public:
           renderer_(renderer),
           scene_(scene),
           targets_(targets),
-          timestamps_(timestamps)
+          timestamps_(timestamps),
+          settings_(settingsOfSamples(options, targets.extent()))
     {
     }
 
@@ -113,7 +83,7 @@ public:
     {
         // 256 frames fill the largest pool, 60 raise the error scale to its most: what takes longer does not rest
         constexpr uint64_t kMostFrames = 1000;
-        const shared::FrameView view = makeFrame(options_, camera, pack_, targets_.extent()).view;
+        const shared::FrameView view = frameOf(camera).view;
         const uint64_t first = serial_ + 1;
         while (scene_.stream->settledSerial() < first && serial_ < first + kMostFrames)
         {
@@ -130,7 +100,7 @@ public:
 
     Status draw(const shared::Camera& camera, size_t number)
     {
-        gpu::FrameInput frame = makeFrame(options_, camera, pack_, targets_.extent());
+        gpu::FrameInput frame = frameOf(camera);
         frame.timestamps = timestamps_;
         beginFrame();
         if (options_.pyramid == PyramidStart::none)
@@ -183,7 +153,7 @@ public:
         const FrameReport report{.device = host_.deviceName(),
                                  .width = targets_.extent().width,
                                  .height = targets_.extent().height,
-                                 .error_pixels = options_.error_pixels,
+                                 .error_pixels = options_.settings.error_pixels,
                                  .scene_bytes =
                                      scene_.arena.allocatedBytes() +
                                      (scene_.stream == nullptr ? 0 : scene_.stream->allocatedBytes()),
@@ -197,6 +167,11 @@ public:
     }
 
 private:
+    gpu::FrameInput frameOf(const shared::Camera& camera) const
+    {
+        return makeFrame(settings_, camera, scene_.instance_count, targets_.extent());
+    }
+
     /// Add what the last frame drew, and what it did not, to the statistics.
     Status count(const VisibleList& list)
     {
@@ -214,7 +189,7 @@ private:
         std::memcpy(&statistics, bytes.data(), sizeof(statistics));
         HEARTH_ASSIGN_OR_RETURN(
             const uint64_t shaded_area,
-            readShadedArea(host_, renderer_, scene_, targets_.extent(), options_.shaded_area));
+            readShadedArea(host_, renderer_, scene_, targets_.extent(), options_.settings.shaded_area));
         const std::span slots(list.slots);
         const uint64_t early =
             countTriangles(pack_, slots.first(std::min<size_t>(slots.size(), list.counters.early_clusters)));
@@ -243,23 +218,18 @@ private:
     const gpu::Scene& scene_;
     gpu::FrameTargets& targets_;
     VkQueryPool timestamps_;
+    FrameSettings settings_;
     std::vector<std::vector<double>> times_;
     std::vector<FrameCounts> frames_; ///< of those that were written
     std::vector<StreamCounts> streaming_;
     uint64_t serial_ = 0; ///< of the last frame
 };
 
-/// Reads at once. What cannot be read is told, and drawn coarser.
+/// Reads at once.
 pack::PageReader pageReader(const formats::PackView& pack)
 {
     return [&pack](uint32_t page, std::span<std::byte> destination, pack::ReadDone done)
-    {
-        const Status read = pack.decodePage(page, destination);
-        if (!read.ok())
-            print({Issue::degraded, pack.name(), "page " + std::to_string(page),
-                   "cannot be read, what it refines stays coarse: " + formatMessage(read.error())});
-        done(read.ok());
-    };
+    { done(readPage(pack, page, destination)); };
 }
 
 Status drawPack(const RenderOptions& options, const formats::PackView& pack, VulkanHost& host)
@@ -267,7 +237,7 @@ Status drawPack(const RenderOptions& options, const formats::PackView& pack, Vul
     HEARTH_ASSIGN_OR_RETURN(const std::vector<shared::Camera> cameras, chooseCameras(options, pack));
     HEARTH_ASSIGN_OR_RETURN(const std::unique_ptr<gpu::Renderer> renderer,
                             gpu::Renderer::create(host.description()));
-    if (options.view == shared::kViewOverdraw)
+    if (options.settings.view == shared::kViewOverdraw)
         HEARTH_TRY(renderer->prepareOverdraw());
     std::unique_ptr<gpu::Scene> scene;
     HEARTH_TRY(host.run(
@@ -309,29 +279,24 @@ Status render(const RenderOptions& options)
         std::fprintf(stderr, "drawing with %s%s\n", host->deviceName().c_str(),
                      host->software() ? " (software)" : "");
     const Status drawn = drawPack(options, pack.view(), *host);
-    for (const std::string& message : host->messages())
-        std::fprintf(stderr, "validation: %s\n", message.c_str());
-    HEARTH_TRY(drawn);
-    if (!host->messages().empty())
-        return Error{Issue::internal, options.pack, "",
-                     "the validation layer has " + std::to_string(host->messages().size()) + " messages"};
-    return success();
+    const Status validated = host->printMessages();
+    return drawn.ok() ? validated : drawn;
 }
 
 } // namespace
 
 int runRender(std::span<const char* const> arguments)
 {
-    const Result<RenderOptions> options = parseOptions(arguments);
+    const Result<RenderOptions> options = parseRenderOptions(arguments);
     if (options.ok() && options->help)
     {
-        std::fputs(kRenderHelp, stdout);
+        std::fputs(renderHelp().c_str(), stdout);
         return 0;
     }
     const Status status = options.ok() ? render(*options) : Status(options.error());
     if (status.ok())
         return 0;
-    print(status.error());
+    printError(status.error());
     return exitCode(status.error());
 }
 

@@ -1,0 +1,63 @@
+// The parts of a frame that can be recorded one by one, and what a caller must know to put something between them.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "runtime/gpu/device_table.h"
+
+namespace hearth::gpu
+{
+
+/// In this order. They order their own work: on one queue nothing is needed between them, be they in one command buffer or
+/// in several.
+enum class FramePart
+{
+    cull,       ///< Renderer::recordCull
+    visibility, ///< Renderer::recordVisibility
+    materials,  ///< Renderer::recordMaterials
+};
+
+/// Of an image, as a barrier names it.
+struct ImageState
+{
+    VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;
+    VkPipelineStageFlags stages = 0;
+    VkAccessFlags access = 0;
+};
+
+/// How a part finds and leaves an image of FrameTargets. Stages 0: the part does not touch it.
+struct ImageUse
+{
+    /// The part waits for such uses by itself; others need a barrier of the caller. Layout UNDEFINED: what was there is lost.
+    ImageState before;
+    ImageState after; ///< visible to these accesses; others need a barrier of the caller
+};
+
+struct PartImages
+{
+    ImageUse visibility, color;
+};
+
+/// What a part does with the images.
+constexpr PartImages imagesOf(FramePart part)
+{
+    constexpr VkPipelineStageFlags kReaders =
+        VK_PIPELINE_STAGE_TRANSFER_BIT | VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT;
+    constexpr VkAccessFlags kReads = VK_ACCESS_TRANSFER_READ_BIT | VK_ACCESS_SHADER_READ_BIT;
+    constexpr ImageState kLost{VK_IMAGE_LAYOUT_UNDEFINED, kReaders, kReads};
+    constexpr ImageState kToSample{VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
+                                   VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_READ_BIT};
+    constexpr ImageState kToCopy{VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, VK_PIPELINE_STAGE_TRANSFER_BIT,
+                                 VK_ACCESS_TRANSFER_READ_BIT};
+    switch (part)
+    {
+    case FramePart::cull:
+        break;
+    case FramePart::visibility:
+        return {.visibility = {kLost, kToSample}, .color = {}};
+    case FramePart::materials:
+        return {.visibility = {kToSample, kToCopy}, .color = {kLost, kToCopy}};
+    }
+    return {};
+}
+
+} // namespace hearth::gpu

@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "runtime/viewer/draw_options.h"
+
+#include "runtime/viewer/camera_fit.h"
+#include "runtime/viewer/camera_path.h"
+#include "runtime/viewer/text.h"
+
+#include <algorithm>
+
+namespace hearth::viewer
+{
+
+const char* const kDrawHelp =
+    "      --size WxH          pixels, default 1280x720\n"
+    "      --camera PX,PY,PZ,TX,TY,TZ,FOV\n"
+    "                          eye and target in metres, full vertical angle in degrees\n"
+    "      --scene-camera N    the camera N of the pack, the first is 0\n"
+    "      --fit               frame the whole scene (default)\n"
+    "      --error-pixels E    largest error on the screen, default 1; 0 draws the source triangles\n"
+    "      --lod-curve D:F,... factor F on the error at D metres, linear between; no factor may grow faster "
+    "than\n"
+    "                          the distance. Example: 0:1,50:1,500:0.4\n"
+    "      --view VIEW         final, clusters, lod, triangles, materials, normals, depth, error (yellow: "
+    "as\n"
+    "                          large as allowed), cones (red: none) or overdraw (white: 16)\n"
+    "      --shaded-area AREA  where each material is shaded: picture, tiles (64x64 pixels where it is "
+    "seen), "
+    "or\n"
+    "                          automatic (default), which takes tiles in scenes of many materials; the "
+    "picture\n"
+    "                          stays the same\n"
+    "      --cull TESTS        all (default), none, or some of instances,frustum,cone,occlusion; the "
+    "picture\n"
+    "                          stays the same\n"
+    "      --budget BYTES      stream the geometry through so much memory, K, M or G behind the number for "
+    "KiB, MiB, "
+    "GiB\n"
+    "      --device NAME       part of the name of the graphics device\n"
+    "      --validate          run the Vulkan validation layer; any message is an error\n"
+    "  -v, --verbose           say which device draws\n"
+    "  -h, --help\n";
+
+namespace
+{
+
+/// "a, b, c".
+template <typename T>
+std::string list(std::span<const Named<T>> choices)
+{
+    std::string text;
+    for (const Named<T>& choice : choices)
+        text += (text.empty() ? "" : ", ") + std::string(choice.name);
+    return text;
+}
+
+/// The value of that name, or nullptr.
+template <typename T>
+const T* find(std::span<const Named<T>> choices, std::string_view name)
+{
+    const auto found =
+        std::find_if(choices.begin(), choices.end(), [&](const Named<T>& c) { return c.name == name; });
+    return found == choices.end() ? nullptr : &found->value;
+}
+
+template <typename T>
+Status parseChoice(const std::string& option, std::span<const Named<T>> choices, std::string_view text,
+                   T& value)
+{
+    const T* chosen = find(choices, text);
+    if (chosen == nullptr)
+        return usageError(option + ": " + quoted(text) + " is none of " + list(choices));
+    value = *chosen;
+    return success();
+}
+
+Status parseSize(std::string_view text, DrawOptions& options)
+{
+    constexpr uint32_t kLargest = 16384;
+    const auto parts = split(text, 'x');
+    if (parts.size() == 2)
+    {
+        const auto width = parseNumber<uint32_t>(parts[0]);
+        const auto height = parseNumber<uint32_t>(parts[1]);
+        if (width && height && *width >= 1 && *height >= 1 && *width <= kLargest && *height <= kLargest)
+        {
+            options.width = *width;
+            options.height = *height;
+            return success();
+        }
+    }
+    return usageError("--size: " + quoted(text) + " is not WxH with sides of 1 to 16384");
+}
+
+Status parseCameraOption(std::string_view text, DrawOptions& options)
+{
+    options.camera = parseCamera(text);
+    if (!options.camera)
+        return usageError("--camera: " + quoted(text) +
+                          " is not PX,PY,PZ,TX,TY,TZ,FOV with eye and target apart and 1 to 170 degrees");
+    return success();
+}
+
+Status parseSceneCamera(std::string_view text, DrawOptions& options)
+{
+    options.scene_camera = parseNumber<uint32_t>(text);
+    if (!options.scene_camera)
+        return usageError("--scene-camera: " + quoted(text) + " is not the index of a camera");
+    return success();
+}
+
+Status parseCull(std::string_view text, FrameSettings& settings)
+{
+    settings.cull_flags = text == "all" ? shared::kCullEverything : 0;
+    if (text == "all" || text == "none")
+        return success();
+    for (const std::string_view part : split(text, ','))
+    {
+        const uint32_t* test = find(cullTestNames(), part);
+        if (test == nullptr)
+            return usageError("--cull: " + quoted(part) + " is neither all nor none nor one of " +
+                              list(cullTestNames()));
+        settings.cull_flags |= *test;
+    }
+    return success();
+}
+
+Status parseErrorPixels(std::string_view text, FrameSettings& settings)
+{
+    const auto number = parseNumber<float>(text);
+    if (!number || *number < 0)
+        return usageError("--error-pixels: " + quoted(text) + " is not a number from 0");
+    settings.error_pixels = *number;
+    return success();
+}
+
+Status parseLodCurve(std::string_view text, FrameSettings& settings)
+{
+    settings.lod_curve.clear();
+    for (const std::string_view part : split(text, ','))
+    {
+        const auto knot = split(part, ':');
+        const auto distance = parseNumber<float>(knot.front());
+        const auto factor = parseNumber<float>(knot.back());
+        if (knot.size() != 2 || !distance || !factor)
+            return usageError("--lod-curve: " + quoted(part) + " is not DISTANCE:FACTOR");
+        settings.lod_curve.push_back({*distance, *factor});
+    }
+    shared::FrameView scratch{};
+    if (const Status set = setLodCurve(scratch, settings.lod_curve); !set.ok())
+        return usageError("--lod-curve: " + set.error().detail);
+    return success();
+}
+
+Status parseBudget(std::string_view text, DrawOptions& options)
+{
+    constexpr std::pair<char, uint32_t> kUnits[] = {{'K', 10}, {'M', 20}, {'G', 30}};
+    std::string_view digits = text;
+    uint32_t shift = 0;
+    for (const auto& [unit, bits] : kUnits)
+        if (text.ends_with(unit))
+        {
+            digits.remove_suffix(1);
+            shift = bits;
+        }
+    const auto number = parseNumber<uint64_t>(digits);
+    if (!number || *number == 0 || *number > (uint64_t{1} << 40 >> shift))
+        return usageError("--budget: " + quoted(text) + " is not a number of bytes from 1 to 1024G");
+    options.geometry_budget = *number << shift;
+    return success();
+}
+
+} // namespace
+
+void addDrawOptions(CommandLine& command_line, DrawOptions& options)
+{
+    FrameSettings& settings = options.settings;
+    command_line.addValue("--size", [&](std::string_view text) { return parseSize(text, options); });
+    command_line.addValue("--camera",
+                          [&](std::string_view text) { return parseCameraOption(text, options); });
+    command_line.addValue("--scene-camera",
+                          [&](std::string_view text) { return parseSceneCamera(text, options); });
+    command_line.addValue("--error-pixels",
+                          [&](std::string_view text) { return parseErrorPixels(text, settings); });
+    command_line.addValue("--lod-curve",
+                          [&](std::string_view text) { return parseLodCurve(text, settings); });
+    command_line.addValue("--view", [&](std::string_view text)
+                          { return parseChoice("--view", viewNames(), text, settings.view); });
+    command_line.addValue(
+        "--shaded-area", [&](std::string_view text)
+        { return parseChoice("--shaded-area", shadedAreaNames(), text, settings.shaded_area); });
+    command_line.addValue("--cull", [&](std::string_view text) { return parseCull(text, settings); });
+    command_line.addValue("--budget", [&](std::string_view text) { return parseBudget(text, options); });
+    command_line.addText("--device", options.device);
+    command_line.addSwitch("--validate", options.validate);
+    for (const char* name : {"-v", "--verbose"})
+        command_line.addSwitch(name, options.verbose);
+    for (const char* name : {"-h", "--help"})
+        command_line.addSwitch(name, options.help);
+    command_line.addSwitch("--fit",
+                           [&]
+                           {
+                               options.camera.reset();
+                               options.scene_camera.reset();
+                           });
+}
+
+Status parseFrames(std::string_view text, uint32_t& frames)
+{
+    const auto number = parseNumber<uint32_t>(text);
+    if (!number || *number < 1 || *number > 10000)
+        return usageError("--frames: " + quoted(text) + " is not a number from 1 to 10000");
+    frames = *number;
+    return success();
+}
+
+Result<shared::Camera> chooseCamera(const DrawOptions& options, const formats::PackView& pack)
+{
+    if (options.camera)
+        return *options.camera;
+    if (!options.scene_camera)
+        return fitCamera(pack, static_cast<float>(options.width) / static_cast<float>(options.height));
+    const std::span<const formats::CameraRecord> cameras = pack.cameras();
+    if (*options.scene_camera >= cameras.size())
+        return Error{Issue::usage, pack.name(), "",
+                     "--scene-camera " + std::to_string(*options.scene_camera) + ": the pack has " +
+                         std::to_string(cameras.size()) + " cameras"};
+    if (cameras[*options.scene_camera].type != static_cast<uint32_t>(formats::CameraType::perspective))
+        return Error{Issue::usage, pack.name(), "", "--scene-camera: only perspective cameras can be drawn"};
+    return sceneCamera(pack, *options.scene_camera);
+}
+
+} // namespace hearth::viewer

@@ -1,0 +1,42 @@
+// What every program that draws a pack can be told on its command line.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "formats/pack_view.h"
+#include "runtime/viewer/command_line.h"
+#include "runtime/viewer/frame_settings.h"
+
+#include <optional>
+#include <string>
+
+namespace hearth::viewer
+{
+
+struct DrawOptions
+{
+    bool help = false;
+    std::string pack;
+    uint32_t width = 1280; ///< pixels
+    uint32_t height = 720;
+    std::optional<shared::Camera> camera; ///< none: the scene's camera, or fit the scene
+    std::optional<uint32_t> scene_camera; ///< index of a camera of the pack
+    FrameSettings settings;               ///< checked
+    uint64_t geometry_budget = 0;         ///< bytes; 0: all geometry is resident
+    std::string device;
+    bool validate = false;
+    bool verbose = false;
+};
+
+/// The lines of --help that tell of them.
+extern const char* const kDrawHelp;
+
+/// The options outlive the command line, which writes to them.
+void addDrawOptions(CommandLine& command_line, DrawOptions& options);
+
+/// 1 to 10000 frames. errors: usage, naming the option --frames.
+Status parseFrames(std::string_view text, uint32_t& frames);
+
+/// Where the options put the camera. errors: usage, where the pack has no such camera.
+Result<shared::Camera> chooseCamera(const DrawOptions& options, const formats::PackView& pack);
+
+} // namespace hearth::viewer

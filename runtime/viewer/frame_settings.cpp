@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "runtime/viewer/frame_settings.h"
+
+#include "formats/shared/shading.h"
+
+namespace hearth::viewer
+{
+
+std::span<const Named<uint32_t>> viewNames()
+{
+    static constexpr Named<uint32_t> kViews[] = {
+        {"final", shared::kViewFinal},
+        {"clusters", shared::kViewClusters},
+        {"lod", shared::kViewLod},
+        {"triangles", shared::kViewTriangles},
+        {"materials", shared::kViewMaterials},
+        {"normals", shared::kViewNormals},
+        {"depth", shared::kViewDepth},
+        {"error", shared::kViewError},
+        {"cones", shared::kViewCones},
+        {"overdraw", shared::kViewOverdraw},
+    };
+    return kViews;
+}
+
+std::span<const Named<gpu::ShadedArea>> shadedAreaNames()
+{
+    static constexpr Named<gpu::ShadedArea> kAreas[] = {
+        {"automatic", gpu::ShadedArea::automatic},
+        {"picture", gpu::ShadedArea::wholePicture},
+        {"tiles", gpu::ShadedArea::tiles},
+    };
+    return kAreas;
+}
+
+std::span<const Named<uint32_t>> cullTestNames()
+{
+    static constexpr Named<uint32_t> kTests[] = {{"instances", shared::kCullInstances},
+                                                 {"frustum", shared::kCullFrustum},
+                                                 {"cone", shared::kCullCone},
+                                                 {"occlusion", shared::kCullOcclusion}};
+    return kTests;
+}
+
+gpu::FrameInput makeFrame(const FrameSettings& settings, const shared::Camera& camera,
+                          uint32_t instance_count, VkExtent2D extent)
+{
+    shared::FrameView view = shared::makeFrameView(camera, extent.width, extent.height, settings.error_pixels,
+                                                   instance_count, settings.cull_flags);
+    const Status curve = shared::setLodCurve(view, settings.lod_curve);
+    HEARTH_ASSERT(curve.ok()); // whoever took the settings has checked
+    return {.view = view,
+            .shading = {.shown = settings.view,
+                        .depth_scale = length(camera.target - camera.position),
+                        .area = settings.shaded_area}};
+}
+
+} // namespace hearth::viewer

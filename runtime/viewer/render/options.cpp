@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "runtime/viewer/render/options.h"
+
+#include "runtime/viewer/text.h"
+
+#include <algorithm>
+
+namespace hearth::viewer
+{
+
+namespace
+{
+
+Status parsePyramid(std::string_view text, RenderOptions& options)
+{
+    constexpr std::string_view kNoise = "noise:";
+    if (text == "previous")
+        options.pyramid = PyramidStart::previous;
+    else if (text == "none")
+        options.pyramid = PyramidStart::none;
+    else if (const auto seed = parseNumber<uint32_t>(text.substr(std::min(text.size(), kNoise.size())));
+             text.starts_with(kNoise) && seed)
+    {
+        options.pyramid = PyramidStart::noise;
+        options.noise_seed = *seed;
+    }
+    else
+        return usageError("--hzb: " + quoted(text) + " is none of previous, none, noise:SEED");
+    return success();
+}
+
+Status parseSamples(std::string_view text, RenderOptions& options)
+{
+    if (text != "1" && text != "4")
+        return usageError("--samples: " + quoted(text) + " is neither 1 nor 4");
+    options.samples = text == "4" ? 4 : 1;
+    return success();
+}
+
+} // namespace
+
+std::string renderHelp()
+{
+    return std::string("Usage: hearth-render PACK -o IMAGE.png [options]\n"
+                       "Draw a pack without a window.\n"
+                       "\n"
+                       "  -o, --output FILE       the picture, PNG\n") +
+           kDrawHelp +
+           "\n"
+           "      --camera-path FILE  a picture for each line of FILE, written as for --camera: "
+           "IMAGE-0000.png, ...\n"
+           "      --samples N         1, or 4 for a smoother picture\n"
+           "      --stats FILE        counts and times of the passes as JSON\n"
+           "      --frames N          draw N times; the times are medians\n"
+           "      --dump-visibility FILE\n"
+           "                          what each pixel shows: \"HVIS\", then 32-bit words: width, height, "
+           "slot count;\n"
+           "                          instance and cluster of each slot; for each pixel slot * 128 + "
+           "triangle or -1\n"
+           "      --hzb START         the depths that occlusion culling starts a frame with: previous "
+           "(default), none,\n"
+           "                          or noise:SEED; the picture stays the same\n"
+           "\n"
+           "With --budget a picture waits for all that it wants, those of a camera path do not.\n"
+           "Example: hearth-render rock.hearth -o rock.png --size 1920x1080 --samples 4\n"
+           "Exit codes: 0, 2 usage, 65 malformed pack, 66 missing, 70 no device or a defect, 73 cannot "
+           "write, 74 I/O\n";
+}
+
+Result<RenderOptions> parseRenderOptions(std::span<const char* const> arguments)
+{
+    RenderOptions options;
+    CommandLine command_line;
+    addDrawOptions(command_line, options);
+    for (const char* name : {"-o", "--output"})
+        command_line.addText(name, options.output);
+    command_line.addText("--camera-path", options.camera_path);
+    command_line.addValue("--samples", [&](std::string_view text) { return parseSamples(text, options); });
+    command_line.addText("--stats", options.stats);
+    command_line.addValue("--frames",
+                          [&](std::string_view text) { return parseFrames(text, options.frames); });
+    command_line.addText("--dump-visibility", options.visibility);
+    command_line.addValue("--hzb", [&](std::string_view text) { return parsePyramid(text, options); });
+    HEARTH_TRY(command_line.parse(arguments, options.pack));
+    if (options.help)
+        return options;
+    if (options.pack.empty())
+        return usageError("no pack is named");
+    if (options.output.empty())
+        return usageError("no output is named (-o IMAGE.png)");
+    if (!options.camera_path.empty() && options.frames != 1)
+        return usageError("--frames and --camera-path exclude each other");
+    return options;
+}
+
+} // namespace hearth::viewer

@@ -1,0 +1,36 @@
+// The command line of hearth-render.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "runtime/viewer/draw_options.h"
+
+namespace hearth::viewer
+{
+
+/// What occlusion culling finds of the frame before: the picture is the same, whatever it is.
+enum class PyramidStart
+{
+    previous, ///< what the frame before left, nothing in the first
+    none,     ///< nothing in every frame
+    noise,    ///< random depths in every frame
+};
+
+struct RenderOptions : DrawOptions
+{
+    std::string output;
+    std::string camera_path; ///< a file; empty: one picture
+    uint32_t samples = 1;
+    uint32_t frames = 1;
+    PyramidStart pyramid = PyramidStart::previous;
+    uint32_t noise_seed = 0;
+    std::string stats;
+    std::string visibility;
+};
+
+/// The text of --help.
+std::string renderHelp();
+
+/// errors: usage, naming the argument.
+Result<RenderOptions> parseRenderOptions(std::span<const char* const> arguments);
+
+} // namespace hearth::viewer

@@ -1,0 +1,36 @@
+// A camera that a person flies.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "formats/shared/frame.h"
+
+namespace hearth::viewer
+{
+
+/// Exactly the camera it started as, bit for bit, until it is moved. The target goes with the eye, at its distance.
+class FlyCamera
+{
+public:
+    /// speed  metres a second, > 0
+    FlyCamera(const shared::Camera& start, float speed) : camera_(start), speed_(speed) {}
+
+    const shared::Camera& camera() const { return camera_; }
+    float speed() const { return speed_; }
+
+    /// Turn to the right and upwards, up to the zenith and the nadir; makes the horizon level.
+    void look(float right_rad, float up_rad);
+
+    /// Fly for a while.
+    /// push     to the right, up the world and forwards, -1 to 1 each
+    /// seconds  >= 0
+    void fly(Float3 push, float seconds);
+
+    /// Faster by a fifth a step, or slower.
+    void changeSpeed(float steps);
+
+private:
+    shared::Camera camera_;
+    float speed_;
+};
+
+} // namespace hearth::viewer

@@ -1,0 +1,60 @@
+// What frames cost and drew, read when they have run.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "runtime/viewer/frame_report.h"
+#include "runtime/viewer/window/frame_ring.h"
+#include "runtime/viewer/window/loaded_scene.h"
+
+namespace hearth::viewer
+{
+
+struct FrameFigures
+{
+    std::array<double, gpu::kTimestampCount> milliseconds{}; ///< as FrameReport, medians of the last frames
+    shared::FrameCounters counters{};
+    std::optional<CullReport> culling; ///< where it was counted; no triangles
+};
+
+class FrameMeter
+{
+public:
+    /// The arguments outlive it. errors: device_failed.
+    static Result<std::unique_ptr<FrameMeter>> create(VulkanHost& host, const gpu::Device& device);
+
+    /// For gpu::FrameInput of the frame in this slot.
+    VkQueryPool timestamps(uint32_t slot) const { return slots_[slot].timestamps; }
+
+    /// Behind Renderer::record of the frame in this slot.
+    /// count_culling  also what each test left out, which costs about as much as the culling
+    void record(VkCommandBuffer commands, const LoadedScene& scene, uint32_t slot, bool count_culling);
+
+    /// Of the frame that was in this slot and has run; nothing where there was none. errors: device_failed.
+    Status take(uint32_t slot);
+
+    const FrameFigures& figures() const { return figures_; }
+
+private:
+    struct Slot
+    {
+        VkQueryPool timestamps = VK_NULL_HANDLE;
+        gpu::Buffer counters;   ///< FrameCounters
+        gpu::Buffer statistics; ///< CullStatistics
+        bool recorded = false;
+        bool counted = false;
+    };
+
+    FrameMeter(VulkanHost& host, const gpu::Device& device) : host_(host), device_(device), arena_(device, 0)
+    {
+    }
+
+    VulkanHost& host_;
+    const gpu::Device& device_;
+    gpu::MemoryArena arena_;
+    std::array<Slot, kFramesInFlight> slots_;
+    std::vector<std::vector<double>> times_; ///< of the last frames, a ring
+    size_t frame_count_ = 0;
+    FrameFigures figures_;
+};
+
+} // namespace hearth::viewer

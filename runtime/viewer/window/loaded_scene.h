@@ -1,0 +1,39 @@
+// A pack on the device, and what brings its pages there.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "runtime/gpu/cull_statistics_pass.h"
+#include "runtime/viewer/vulkan_host.h"
+#include "runtime/viewer/window/page_loader.h"
+
+#include <memory>
+#include <optional>
+
+namespace hearth::viewer
+{
+
+class LoadedScene
+{
+public:
+    /// pack             outlives the scene
+    /// geometry_budget  bytes; 0: all geometry is resident
+    /// errors: those of gpu::Renderer::upload.
+    static Result<std::unique_ptr<LoadedScene>> load(VulkanHost& host, gpu::Renderer& renderer,
+                                                     const formats::PackView& pack, uint64_t geometry_budget);
+
+    gpu::Scene& scene() { return *scene_; }
+    const gpu::Scene& scene() const { return *scene_; }
+    const gpu::CullStatisticsPass& statistics() const { return *statistics_; }
+    uint64_t geometryBudget() const { return geometry_budget_; } ///< as it was asked for
+    VkDeviceSize bytes() const;                                  ///< on the device
+
+private:
+    LoadedScene() = default;
+
+    uint64_t geometry_budget_ = 0;
+    std::unique_ptr<gpu::Scene> scene_;
+    std::optional<gpu::CullStatisticsPass> statistics_;
+    std::unique_ptr<PageLoader> loader_; ///< ends before the scene: it writes to the scene's memory
+};
+
+} // namespace hearth::viewer

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "runtime/viewer/window/page_loader.h"
+
+#include <utility>
+
+namespace hearth::viewer
+{
+
+PageLoader::PageLoader(Decode decode) : decode_(std::move(decode)), thread_([this] { work(); }) {}
+
+PageLoader::~PageLoader()
+{
+    {
+        const std::scoped_lock lock(mutex_);
+        ending_ = true;
+    }
+    changed_.notify_one();
+    thread_.join();
+}
+
+pack::PageReader PageLoader::reader()
+{
+    return [this](uint32_t page, std::span<std::byte> destination, pack::ReadDone done)
+    {
+        {
+            const std::scoped_lock lock(mutex_);
+            waiting_.push_back({page, destination, done});
+        }
+        changed_.notify_one();
+    };
+}
+
+void PageLoader::work()
+{
+    for (;;)
+    {
+        std::unique_lock lock(mutex_);
+        changed_.wait(lock, [this] { return ending_ || !waiting_.empty(); });
+        if (ending_)
+            return;
+        const Read read = waiting_.front();
+        waiting_.pop_front();
+        lock.unlock();
+        read.done(decode_(read.page, read.destination));
+    }
+}
+
+} // namespace hearth::viewer

@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "runtime/viewer/window/panel.h"
+
+#include <algorithm>
+#include <imgui.h>
+
+namespace hearth::viewer
+{
+
+namespace
+{
+
+constexpr uint64_t kMib = uint64_t{1} << 20;
+constexpr float kMostError = 64; // pixels: coarser than anybody wants to see
+
+double mib(uint64_t bytes)
+{
+    return static_cast<double>(bytes) / static_cast<double>(kMib);
+}
+
+/// Choose one of several named values.
+template <typename T>
+void chooseNamed(const char* label, std::span<const Named<T>> choices, T& value)
+{
+    const auto current =
+        std::find_if(choices.begin(), choices.end(), [&](const Named<T>& c) { return c.value == value; });
+    if (!ImGui::BeginCombo(label, current == choices.end() ? "" : current->name))
+        return;
+    for (const Named<T>& choice : choices)
+        if (ImGui::Selectable(choice.name, choice.value == value))
+            value = choice.value;
+    ImGui::EndCombo();
+}
+
+void showProblem(const std::string& problem)
+{
+    if (problem.empty())
+        return;
+    ImGui::PushStyleColor(ImGuiCol_Text, {1.0f, 0.2f, 0.1f, 1.0f});
+    ImGui::TextWrapped("%s", problem.c_str());
+    ImGui::PopStyleColor();
+}
+
+void showCount(const char* name, uint64_t count)
+{
+    ImGui::Text("%-16s %12llu", name, static_cast<unsigned long long>(count));
+}
+
+void showTimes(const FrameFigures& figures)
+{
+    constexpr const char* kPasses[gpu::kTimestampCount] = {
+        "frame",      "cull",           "early visibility", "pyramid", "late cull",
+        "visibility", "material tiles", "material depth",   "shading"};
+    static_assert(gpu::kTimestampShading == gpu::kTimestampCount - 1);
+    if (!ImGui::CollapsingHeader("Times on the device"))
+        return;
+    for (size_t pass = 0; pass < figures.milliseconds.size(); ++pass)
+        ImGui::Text("%-16s %9.3f ms", kPasses[pass], figures.milliseconds[pass]);
+}
+
+void chooseCamera(ViewSettings& settings, const PanelFacts& facts)
+{
+    if (!ImGui::BeginCombo("Camera", "go to ..."))
+        return;
+    for (size_t i = 0; i < facts.cameras.size(); ++i)
+        if (ImGui::Selectable(facts.cameras[i].name.c_str()))
+            settings.camera = i;
+    ImGui::EndCombo();
+}
+
+} // namespace
+
+Panel::Panel(const ViewSettings& settings, uint64_t geometry_bytes)
+    : streamed_(settings.geometry_budget > 0), curve_(settings.frame.lod_curve)
+{
+    // slots are larger than their pages: half as much again holds everything
+    const uint64_t largest = std::clamp(geometry_bytes * 3 / 2 / kMib + 1, uint64_t{16}, uint64_t{1} << 20);
+    largest_budget_mib_ = static_cast<int>(largest);
+    const uint64_t budget = settings.geometry_budget / kMib;
+    budget_mib_ =
+        streamed_ ? static_cast<int>(std::clamp(budget, uint64_t{1}, largest)) : largest_budget_mib_;
+}
+
+void Panel::build(ViewSettings& settings, const PanelFacts& facts)
+{
+    ImGui::SetNextWindowPos({10, 10}, ImGuiCond_FirstUseEver);
+    ImGui::SetNextWindowSize({380, 460}, ImGuiCond_FirstUseEver);
+    if (ImGui::Begin("Hearth"))
+    {
+        ImGui::Text("%s, %u x %u", facts.device.c_str(), facts.extent.width, facts.extent.height);
+        ImGui::Text("%.2f ms a picture, %.3g m/s", facts.frame_seconds * 1e3,
+                    static_cast<double>(facts.camera.speed()));
+        if (const uint32_t dropped = facts.scene.scene().dropped_lights; dropped > 0)
+            showProblem(std::to_string(dropped) + " lights are more than can be drawn");
+        chooseCamera(settings, facts);
+        buildPicture(settings.frame);
+        buildCurve(settings.frame);
+        buildStreaming(settings, facts);
+        buildCulling(settings, facts);
+        showTimes(facts.figures);
+    }
+    ImGui::End();
+}
+
+void Panel::buildPicture(FrameSettings& settings)
+{
+    chooseNamed("View", viewNames(), settings.view);
+    ImGui::SliderFloat("Error, pixels", &settings.error_pixels, 0, kMostError, "%.2f",
+                       ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
+    chooseNamed("Shaded area", shadedAreaNames(), settings.shaded_area);
+}
+
+void Panel::buildCurve(FrameSettings& settings)
+{
+    if (!ImGui::CollapsingHeader("Distance curve"))
+        return;
+    ImGui::TextUnformatted("metres, factor on the error");
+    bool changed = false;
+    for (size_t i = 0; i < curve_.size(); ++i)
+    {
+        ImGui::PushID(static_cast<int>(i));
+        ImGui::SetNextItemWidth(120);
+        changed |= ImGui::DragFloat("##distance", &curve_[i].distance, 0.1f, 0, 1e6f, "%.2f m");
+        ImGui::SameLine();
+        ImGui::SetNextItemWidth(120);
+        changed |= ImGui::DragFloat("##factor", &curve_[i].factor, 0.01f, 0, 100, "%.3f");
+        ImGui::SameLine();
+        const bool removed = ImGui::SmallButton("remove");
+        ImGui::PopID();
+        if (removed)
+        {
+            curve_.erase(curve_.begin() + static_cast<ptrdiff_t>(i));
+            changed = true;
+            break; // the rest of the rows stands there again in the next frame
+        }
+    }
+    if (curve_.size() < shared::kMaxLodKnots && ImGui::SmallButton("add a knot"))
+    {
+        const shared::LodKnot last = curve_.empty() ? shared::LodKnot{0, 1} : curve_.back();
+        curve_.push_back({curve_.empty() ? 0 : last.distance * 2 + 1, last.factor});
+        changed = true;
+    }
+    if (changed)
+    {
+        shared::FrameView scratch{};
+        const Status valid = shared::setLodCurve(scratch, curve_);
+        curve_problem_ = valid.ok() ? "" : valid.error().detail;
+        if (valid.ok())
+            settings.lod_curve = curve_;
+    }
+    showProblem(curve_problem_);
+}
+
+void Panel::buildStreaming(ViewSettings& settings, const PanelFacts& facts)
+{
+    if (!ImGui::CollapsingHeader("Memory", ImGuiTreeNodeFlags_DefaultOpen))
+        return;
+    bool changed = ImGui::Checkbox("Stream the geometry", &streamed_);
+    if (streamed_)
+    {
+        ImGui::SliderInt("Budget", &budget_mib_, 1, largest_budget_mib_, "%d MiB",
+                         ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
+        // the scene is loaded anew: once, and not for every pixel that the slider is dragged
+        changed |= ImGui::IsItemDeactivatedAfterEdit();
+    }
+    if (changed)
+        settings.geometry_budget = streamed_ ? static_cast<uint64_t>(budget_mib_) * kMib : 0;
+    showProblem(facts.problem);
+    ImGui::Text("scene %.1f MiB, attachments %.1f MiB", mib(facts.scene.bytes()), mib(facts.target_bytes));
+    const gpu::SceneStream* stream = facts.scene.scene().stream.get();
+    if (stream == nullptr)
+        return;
+    const pack::StreamStatistics& s = stream->statistics();
+    ImGui::Text("resident %.1f MiB in %u pages", mib(s.bytes_resident), s.pages_resident);
+    ImGui::Text("in use %.1f of %.1f MiB, streamed %.1f MiB", mib(s.bytes_in_use), mib(s.budget_bytes),
+                mib(s.bytes_streamed));
+    ImGui::Text("error scale %.2f, %u reads under way, %u failures", static_cast<double>(s.error_scale),
+                stream->pages().readsInFlight(), s.failures);
+}
+
+void Panel::buildCulling(ViewSettings& settings, const PanelFacts& facts)
+{
+    if (!ImGui::CollapsingHeader("Culling", ImGuiTreeNodeFlags_DefaultOpen))
+        return;
+    for (const Named<uint32_t>& test : cullTestNames())
+    {
+        ImGui::CheckboxFlags(test.name, &settings.frame.cull_flags, test.value);
+        ImGui::SameLine();
+    }
+    ImGui::NewLine();
+    const FrameFigures& figures = facts.figures;
+    showCount("clusters drawn", figures.counters.drawn_clusters);
+    showCount("of these early", figures.counters.early_clusters);
+    if (figures.counters.dropped_clusters > 0)
+        showCount("without a slot", figures.counters.dropped_clusters);
+    ImGui::Checkbox("Count what each test leaves out", &settings.count_culling);
+    if (!figures.culling)
+        return;
+    const CullCounts& clusters = figures.culling->clusters;
+    showCount("tested", clusters.tested);
+    showCount("hidden instance", clusters.instance);
+    showCount("not in the cut", clusters.lod);
+    showCount("outside", clusters.frustum);
+    showCount("facing away", clusters.cone);
+    showCount("occluded", clusters.occlusion);
+}
+
+} // namespace hearth::viewer

@@ -1,0 +1,296 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "runtime/viewer/window/viewer.h"
+
+#include "runtime/viewer/camera_fit.h"
+#include "runtime/viewer/camera_path.h"
+#include "runtime/viewer/file_output.h"
+#include "runtime/viewer/window/window_commands.h"
+
+#include <SDL.h>
+#include <algorithm>
+#include <cstdio>
+
+namespace hearth::viewer
+{
+
+namespace
+{
+
+constexpr double kLongestStep = 0.1; // seconds: whoever waited longer does not want to be far away afterwards
+
+/// Metres a second that bring the eye to most of what is there in a few seconds: a quarter of the median distance of the
+/// instances. Their box would count a sky that is one of them.
+float flySpeed(const formats::PackView& pack, Float3 eye)
+{
+    std::vector<float> distances;
+    for (const formats::InstanceRecord& instance : pack.instances())
+    {
+        const formats::MeshRecord& mesh = pack.meshes()[instance.mesh];
+        const Float3 center = (mesh.box_min + mesh.box_max) * 0.5f;
+        distances.push_back(length(transformPoint(instance.world_from_object, center) - eye));
+    }
+    if (distances.empty())
+        return 1;
+    const auto median = distances.begin() + static_cast<ptrdiff_t>(distances.size() / 2);
+    std::nth_element(distances.begin(), median, distances.end());
+    return std::max(*median / 4, 1e-4f);
+}
+
+std::vector<NamedCamera> camerasOf(const formats::PackView& pack, const shared::Camera& start, float aspect)
+{
+    std::vector<NamedCamera> cameras{{"start", start}, {"whole scene", fitCamera(pack, aspect)}};
+    for (uint32_t i = 0; i < pack.cameras().size(); ++i)
+        if (pack.cameras()[i].type == static_cast<uint32_t>(formats::CameraType::perspective))
+            cameras.push_back({"scene camera " + std::to_string(i), sceneCamera(pack, i)});
+    return cameras;
+}
+
+uint64_t geometryBytes(const formats::PackView& pack)
+{
+    uint64_t bytes = 0;
+    for (const formats::PageRecord& page : pack.pages())
+        bytes += page.size;
+    return bytes;
+}
+
+} // namespace
+
+Viewer::Viewer(const DrawOptions& options, const formats::PackView& pack, const shared::Camera& start)
+    : pack_(pack),
+      settings_{.frame = options.settings, .geometry_budget = options.geometry_budget},
+      panel_(settings_, geometryBytes(pack)),
+      camera_(start, flySpeed(pack, start.position)),
+      cameras_(camerasOf(pack, start, static_cast<float>(options.width) / static_cast<float>(options.height)))
+{
+}
+
+Result<std::unique_ptr<Viewer>> Viewer::create(const DrawOptions& options, const formats::PackView& pack)
+{
+    HEARTH_ASSIGN_OR_RETURN(const shared::Camera start, chooseCamera(options, pack));
+    std::unique_ptr<Viewer> viewer(new Viewer(options, pack, start));
+    HEARTH_TRY(viewer->open(options));
+    return viewer;
+}
+
+Status Viewer::open(const DrawOptions& options)
+{
+    HEARTH_ASSIGN_OR_RETURN(window_,
+                            SdlWindow::create("Hearth: " + pack_.name(), options.width, options.height));
+    const HostWindow host_window = window_->hostWindow();
+    HEARTH_ASSIGN_OR_RETURN(
+        host_, VulkanHost::create(
+                   {.device_name = options.device, .validate = options.validate, .window = &host_window}));
+    HEARTH_ASSIGN_OR_RETURN(renderer_, gpu::Renderer::create(host_->description()));
+    HEARTH_TRY(renderer_->prepareOverdraw());
+    HEARTH_ASSIGN_OR_RETURN(vk_, loadWindowTable(host_->description()));
+    const gpu::Device& device = renderer_->device();
+    HEARTH_ASSIGN_OR_RETURN(swapchain_, Swapchain::create(*host_, device, vk_));
+    HEARTH_ASSIGN_OR_RETURN(frames_, FrameRing::create(*host_, device, vk_));
+    HEARTH_ASSIGN_OR_RETURN(meter_, FrameMeter::create(*host_, device));
+    HEARTH_ASSIGN_OR_RETURN(imgui_, ImguiLayer::create(*window_, *host_, device, *swapchain_));
+    HEARTH_ASSIGN_OR_RETURN(scene_, LoadedScene::load(*host_, *renderer_, pack_, settings_.geometry_budget));
+    return success();
+}
+
+Viewer::~Viewer()
+{
+    if (frames_ != nullptr)
+        (void)frames_->waitForAll(); // a lost device has nothing under way
+}
+
+Result<bool> Viewer::step(double seconds)
+{
+    frame_seconds_ = seconds;
+    handleEvents();
+    controls_.fly(camera_, static_cast<float>(std::clamp(seconds, 0.0, kLongestStep)));
+    HEARTH_TRY(followSettings());
+    if (resized_ && !minimized_)
+        HEARTH_TRY(resize());
+    if (minimized_ || !targets_)
+    {
+        constexpr int kPatienceMs = 50;
+        SDL_WaitEventTimeout(nullptr, kPatienceMs);
+        return false;
+    }
+    return drawFrame(settings_.panel, nullptr);
+}
+
+void Viewer::handleEvents()
+{
+    SDL_Event event;
+    while (SDL_PollEvent(&event) != 0)
+        handle(event);
+}
+
+void Viewer::handle(const SDL_Event& event)
+{
+    imgui_->handle(event);
+    const FlyControls::Kept kept = settings_.panel ? imgui_->kept() : FlyControls::Kept{};
+    controls_.handle(event, kept, camera_);
+    switch (event.type)
+    {
+    case SDL_QUIT:
+        open_ = false;
+        break;
+    case SDL_KEYDOWN:
+        if (!kept.keys && event.key.repeat == 0)
+            pressed(event.key.keysym.sym);
+        break;
+    case SDL_WINDOWEVENT:
+        if (event.window.event == SDL_WINDOWEVENT_MINIMIZED)
+            minimized_ = true;
+        if (event.window.event == SDL_WINDOWEVENT_RESTORED)
+            minimized_ = false;
+        if (event.window.event == SDL_WINDOWEVENT_SIZE_CHANGED)
+            resized_ = true;
+        break;
+    default:
+        break;
+    }
+}
+
+/// The keys of README.md that do not fly.
+void Viewer::pressed(int32_t key)
+{
+    if (key == SDLK_ESCAPE)
+        open_ = false;
+    else if (key == SDLK_TAB)
+        settings_.panel = !settings_.panel;
+    else if (key == SDLK_r)
+        settings_.camera = 0;
+    else if (key == SDLK_c)
+    {
+        std::printf("--camera %s\n", formatCamera(camera_.camera()).c_str());
+        std::fflush(stdout);
+    }
+    else if (key >= SDLK_0 && key <= SDLK_9)
+    {
+        const auto view = static_cast<size_t>(key == SDLK_0 ? 9 : key - SDLK_1);
+        if (view < viewNames().size())
+            settings_.frame.view = viewNames()[view].value;
+    }
+}
+
+/// What the settings ask for and a frame cannot do.
+Status Viewer::followSettings()
+{
+    if (settings_.camera)
+        camera_ = FlyCamera(cameras_[*settings_.camera].camera, camera_.speed());
+    settings_.camera.reset();
+    if (settings_.geometry_budget == scene_->geometryBudget())
+        return success();
+    // the scene that is there stays until the new one is
+    Result<std::unique_ptr<LoadedScene>> scene =
+        LoadedScene::load(*host_, *renderer_, pack_, settings_.geometry_budget);
+    problem_ = scene.ok() ? "" : formatMessage(scene.error());
+    if (!scene.ok())
+    {
+        settings_.geometry_budget = scene_->geometryBudget();
+        return success();
+    }
+    HEARTH_TRY(frames_->waitForAll());
+    scene_ = std::move(scene).value();
+    return success();
+}
+
+Status Viewer::resize()
+{
+    HEARTH_TRY(frames_->waitForAll());
+    HEARTH_TRY(swapchain_->resize(window_->extent()));
+    resized_ = false;
+    const VkExtent2D extent = swapchain_->extent();
+    targets_.reset();
+    if (extent.width == 0)
+        return success();
+    HEARTH_ASSIGN_OR_RETURN(targets_, renderer_->createTargets(extent));
+    return success();
+}
+
+void Viewer::buildPanel()
+{
+    imgui_->beginFrame();
+    panel_.build(settings_, {.device = host_->deviceName(),
+                             .extent = swapchain_->extent(),
+                             .frame_seconds = frame_seconds_,
+                             .figures = meter_->figures(),
+                             .scene = *scene_,
+                             .target_bytes = targets_->allocatedBytes(),
+                             .camera = camera_,
+                             .cameras = cameras_,
+                             .problem = problem_});
+    imgui_->endFrame();
+}
+
+Result<bool> Viewer::drawFrame(bool panel, const gpu::Buffer* screenshot)
+{
+    if (!targets_)
+        return false;
+    HEARTH_TRY(frames_->wait());
+    HEARTH_TRY(meter_->take(frames_->slot()));
+    HEARTH_ASSIGN_OR_RETURN(const std::optional<uint32_t> image, swapchain_->acquire(frames_->available()));
+    if (!image)
+    {
+        resized_ = true;
+        return false;
+    }
+    if (panel)
+        buildPanel();
+    HEARTH_ASSIGN_OR_RETURN(const VkCommandBuffer commands, frames_->begin());
+    recordFrame(commands, *image, panel, screenshot);
+    HEARTH_TRY(frames_->submit(swapchain_->drawn(*image)));
+    HEARTH_ASSIGN_OR_RETURN(const bool fits, swapchain_->present(*image));
+    resized_ = resized_ || !fits;
+    return true;
+}
+
+void Viewer::recordFrame(VkCommandBuffer commands, uint32_t image, bool panel, const gpu::Buffer* screenshot)
+{
+    gpu::Scene& scene = scene_->scene();
+    if (scene.stream != nullptr)
+        scene.stream->beginFrame(frames_->serial() + 1, frames_->completedSerial());
+    gpu::FrameInput frame =
+        makeFrame(settings_.frame, camera_.camera(), scene.instance_count, targets_->extent());
+    frame.timestamps = meter_->timestamps(frames_->slot());
+    renderer_->record(commands, scene, *targets_, frame);
+    meter_->record(commands, *scene_, frames_->slot(), settings_.count_culling);
+
+    const gpu::Device& device = renderer_->device();
+    const VkImage window = swapchain_->image(image);
+    recordPicture(device, vk_, commands, *targets_, window);
+    if (panel)
+        imgui_->record(commands, *swapchain_, image);
+    else
+        recordWithoutOverlay(device, commands, window);
+    if (screenshot != nullptr)
+        recordReadback(device, vk_, commands, window, swapchain_->extent(), *screenshot);
+    recordPresentable(device, commands, window);
+}
+
+Result<bool> Viewer::saveScreenshot(const std::string& file)
+{
+    const VkExtent2D extent = swapchain_->extent();
+    const size_t size = size_t{extent.width} * extent.height * 4;
+    gpu::MemoryArena arena(renderer_->device(), 0);
+    HEARTH_ASSIGN_OR_RETURN(
+        const gpu::Buffer buffer,
+        arena.createBuffer(size, VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::MemoryKind::readback));
+    HEARTH_ASSIGN_OR_RETURN(const bool drawn, drawFrame(false, &buffer));
+    HEARTH_TRY(frames_->waitForAll());
+    if (!drawn)
+        return false;
+    std::vector<std::byte> pixels(buffer.mapped, buffer.mapped + size);
+    if (swapchain_->format() == VK_FORMAT_B8G8R8A8_SRGB)
+        for (size_t i = 0; i < size; i += 4)
+            std::swap(pixels[i], pixels[i + 2]);
+    HEARTH_ASSIGN_OR_RETURN(const std::vector<std::byte> png, encodePng(pixels, extent.width, extent.height));
+    HEARTH_TRY(writeFile(file, png));
+    return true;
+}
+
+bool Viewer::settledSince(uint64_t serial) const
+{
+    const gpu::SceneStream* stream = scene_->scene().stream.get();
+    return stream == nullptr || stream->settledSerial() >= serial;
+}
+
+} // namespace hearth::viewer

@@ -1,0 +1,82 @@
+// hearth-view without its command line: a window on a pack. README.md has the keys.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "runtime/viewer/draw_options.h"
+#include "runtime/viewer/window/imgui_layer.h"
+#include "runtime/viewer/window/panel.h"
+
+namespace hearth::viewer
+{
+
+/// One at a time in a process. The window, the panel and the files are its own; events come from SDL's queue.
+class Viewer
+{
+public:
+    /// pack  outlives the viewer
+    /// errors: device; those of chooseCamera and gpu::Renderer::upload.
+    static Result<std::unique_ptr<Viewer>> create(const DrawOptions& options, const formats::PackView& pack);
+    /// Waits for the frames.
+    ~Viewer();
+
+    /// Until somebody closes it.
+    bool isOpen() const { return open_; }
+
+    /// Take the events that have come, fly for so many seconds (at most a tenth), and show a picture. False where the window
+    /// shows none now: it is minimized, or has just changed.
+    /// errors: device_failed.
+    Result<bool> step(double seconds);
+
+    /// Take no events, draw what the window shows without the panel, and write it as PNG. False where the window shows nothing
+    /// now. errors: cannot_write, device_failed.
+    Result<bool> saveScreenshot(const std::string& file);
+
+    /// Whether a frame from this serial on had all the geometry that it wanted, and could get.
+    bool settledSince(uint64_t serial) const;
+    uint64_t serial() const { return frames_->serial(); } ///< of the last frame
+
+    ViewSettings& settings() { return settings_; }
+    const FlyCamera& camera() const { return camera_; }
+    const FrameFigures& figures() const { return meter_->figures(); }
+    const LoadedScene& scene() const { return *scene_; }
+    VkExtent2D extent() const { return swapchain_->extent(); }
+    VulkanHost& host() { return *host_; }
+
+private:
+    Viewer(const DrawOptions& options, const formats::PackView& pack, const shared::Camera& start);
+    Status open(const DrawOptions& options);
+    void handleEvents();
+    void handle(const SDL_Event& event);
+    void pressed(int32_t key);
+    Status followSettings();
+    Status resize();
+    Result<bool> drawFrame(bool panel, const gpu::Buffer* screenshot);
+    void buildPanel();
+    void recordFrame(VkCommandBuffer commands, uint32_t image, bool panel, const gpu::Buffer* screenshot);
+
+    const formats::PackView& pack_;
+    ViewSettings settings_;
+    Panel panel_;
+    FlyControls controls_;
+    FlyCamera camera_;
+    std::vector<NamedCamera> cameras_; ///< where it can go; the first is where it started
+    std::string problem_;              ///< with the budget
+    bool open_ = true;
+    bool minimized_ = false;
+    bool resized_ = true;
+    double frame_seconds_ = 0;
+
+    // each needs those before it
+    std::unique_ptr<SdlWindow> window_;
+    std::unique_ptr<VulkanHost> host_;
+    std::unique_ptr<gpu::Renderer> renderer_;
+    WindowTable vk_;
+    std::unique_ptr<Swapchain> swapchain_;
+    std::unique_ptr<FrameRing> frames_;
+    std::unique_ptr<FrameMeter> meter_;
+    std::unique_ptr<ImguiLayer> imgui_;
+    std::unique_ptr<LoadedScene> scene_;
+    std::optional<gpu::FrameTargets> targets_; ///< none: the window has no area
+};
+
+} // namespace hearth::viewer

@@ -1,0 +1,42 @@
+// The command line of hearth-view; what it shares with hearth-render is tested there.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "runtime/viewer/window/options.h"
+
+#include <gtest/gtest.h>
+
+namespace hearth::test
+{
+
+TEST(ViewOptions, areThoseOfADrawingAndItsOwn)
+{
+    const char* const arguments[] = {"a.hearth",     "--size",   "64x32",     "--view",
+                                     "lod",          "--budget", "2M",        "--frames=7",
+                                     "--screenshot", "a.png",    "--validate"};
+    const auto options = viewer::parseViewOptions(arguments);
+    ASSERT_TRUE(options.ok()) << formatMessage(options.error());
+    EXPECT_EQ(options->pack, "a.hearth");
+    EXPECT_EQ(options->width, 64u);
+    EXPECT_EQ(options->settings.view, shared::kViewLod);
+    EXPECT_EQ(options->geometry_budget, 2u << 20);
+    EXPECT_EQ(options->frames, 7u);
+    EXPECT_EQ(options->screenshot, "a.png");
+    EXPECT_TRUE(options->validate);
+}
+
+TEST(ViewOptions, mistakesAreNamed)
+{
+    const auto expectUsage = [](std::vector<const char*> arguments, const std::string& mention)
+    {
+        const auto options = viewer::parseViewOptions(arguments);
+        ASSERT_FALSE(options.ok()) << mention;
+        EXPECT_EQ(exitCode(options.error()), 2);
+        EXPECT_NE(formatMessage(options.error()).find(mention), std::string::npos)
+            << formatMessage(options.error());
+    };
+    expectUsage({}, "no pack");
+    expectUsage({"a.hearth", "-o", "a.png"}, "-o");
+    expectUsage({"a.hearth", "--frames", "0"}, "--frames");
+    expectUsage({"a.hearth", "--screenshot", "a.png"}, "--frames");
+}
+
+} // namespace hearth::test

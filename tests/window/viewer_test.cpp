@@ -1,0 +1,208 @@
+// A window that is flown through by events: what a person would do, with the validation layer listening.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "formats/shared/shading.h"
+#include "runtime/viewer/window/viewer.h"
+#include "tests/roundtrip/cooked_sample.h"
+
+#include <SDL.h>
+#include <gtest/gtest.h>
+
+namespace hearth::test
+{
+
+namespace
+{
+
+constexpr double kStep = 1.0 / 60;
+
+class WindowTest : public testing::Test
+{
+protected:
+    void SetUp() override
+    {
+        viewer::DrawOptions options;
+        options.width = 320;
+        options.height = 240;
+        options.validate = true;
+        Result<std::unique_ptr<viewer::Viewer>> viewer = viewer::Viewer::create(options, sample_.pack());
+        ASSERT_TRUE(viewer.ok()) << formatMessage(viewer.error());
+        viewer_ = std::move(viewer).value();
+        settings().panel = false; // where the mouse happens to be does not matter then
+        play();
+    }
+
+    void TearDown() override
+    {
+        ASSERT_NE(viewer_, nullptr);
+        EXPECT_EQ(viewer_->host().messages(), std::vector<std::string>());
+    }
+
+    /// So many steps; how many of them have shown a picture.
+    uint32_t play(uint32_t steps = 3)
+    {
+        uint32_t shown = 0;
+        for (uint32_t i = 0; i < steps; ++i)
+        {
+            const Result<bool> drawn = viewer_->step(kStep);
+            EXPECT_TRUE(drawn.ok()) << formatMessage(drawn.error());
+            shown += drawn.ok() && *drawn ? 1u : 0u;
+        }
+        return shown;
+    }
+
+    /// Press a key and let it go after so many steps.
+    void hold(SDL_Scancode code, uint32_t steps)
+    {
+        for (const uint32_t type : {SDL_KEYDOWN, SDL_KEYUP})
+        {
+            SDL_Event event{};
+            event.type = type;
+            event.key.keysym.scancode = code;
+            event.key.keysym.sym = SDL_GetKeyFromScancode(code);
+            SDL_PushEvent(&event);
+            play(type == SDL_KEYDOWN ? steps : 1);
+        }
+    }
+
+    void tellWindow(uint8_t what)
+    {
+        SDL_Event event{};
+        event.type = SDL_WINDOWEVENT;
+        event.window.event = what;
+        SDL_PushEvent(&event);
+    }
+
+    viewer::ViewSettings& settings() { return viewer_->settings(); }
+    const shared::Camera& camera() const { return viewer_->camera().camera(); }
+
+    const roundtrip::CookedSample& sample_ = roundtrip::cookedSample({"rock", 150000});
+    std::unique_ptr<viewer::Viewer> viewer_;
+};
+
+} // namespace
+
+TEST_F(WindowTest, isFlownByKeysAndMouse)
+{
+    const shared::Camera start = camera();
+    hold(SDL_SCANCODE_W, 10);
+    const float flown = length(camera().position - start.position);
+    EXPECT_NEAR(flown, viewer_->camera().speed() * 10 / 60, 0.01f * flown);
+    const Float3 forward = start.target - start.position;
+    EXPECT_GT(dot(camera().position - start.position, forward), 0);
+
+    const float speed = viewer_->camera().speed();
+    for (const uint32_t type : {SDL_MOUSEWHEEL, SDL_MOUSEBUTTONDOWN, SDL_MOUSEMOTION, SDL_MOUSEBUTTONUP})
+    {
+        SDL_Event event{};
+        event.type = type;
+        if (type == SDL_MOUSEWHEEL)
+            event.wheel.y = 2;
+        else if (type == SDL_MOUSEMOTION)
+            event.motion.xrel = 40;
+        else
+            event.button.button = SDL_BUTTON_RIGHT;
+        SDL_PushEvent(&event);
+        play(1);
+    }
+    EXPECT_GT(viewer_->camera().speed(), 1.3f * speed);
+    EXPECT_LT(dot(normalizeOr(camera().target - camera().position, {}), normalizeOr(forward, {})), 0.999f);
+
+    hold(SDL_SCANCODE_R, 1);
+    EXPECT_EQ(camera().position, start.position);
+    EXPECT_EQ(camera().target, start.target);
+}
+
+TEST_F(WindowTest, showsEveryView)
+{
+    for (const viewer::Named<uint32_t>& view : viewer::viewNames())
+    {
+        settings().frame.view = view.value;
+        EXPECT_EQ(play(2), 2u) << view.name;
+    }
+    hold(SDL_SCANCODE_2, 1);
+    EXPECT_EQ(settings().frame.view, shared::kViewClusters);
+    hold(SDL_SCANCODE_0, 1);
+    EXPECT_EQ(settings().frame.view, shared::kViewOverdraw);
+}
+
+TEST_F(WindowTest, drawsItsPanel)
+{
+    hold(SDL_SCANCODE_TAB, 1);
+    EXPECT_TRUE(settings().panel);
+    EXPECT_EQ(play(5), 5u);
+    hold(SDL_SCANCODE_TAB, 1);
+    EXPECT_FALSE(settings().panel);
+}
+
+TEST_F(WindowTest, followsItsSize)
+{
+    SDL_Window* window = SDL_GetWindowFromID(1);
+    ASSERT_NE(window, nullptr);
+    for (const auto& [width, height] : {std::pair{411, 307}, {200, 500}, {320, 240}})
+    {
+        SDL_SetWindowSize(window, width, height);
+        for (int i = 0; i < 100 && viewer_->extent().width != static_cast<uint32_t>(width); ++i)
+            play(1);
+        EXPECT_EQ(viewer_->extent().width, static_cast<uint32_t>(width));
+        EXPECT_EQ(viewer_->extent().height, static_cast<uint32_t>(height));
+        EXPECT_EQ(play(4), 4u);
+    }
+}
+
+TEST_F(WindowTest, restsWhileItIsMinimized)
+{
+    tellWindow(SDL_WINDOWEVENT_MINIMIZED);
+    EXPECT_EQ(play(3), 0u);
+    tellWindow(SDL_WINDOWEVENT_RESTORED);
+    EXPECT_GE(play(3), 2u); // SDL may hand out the event a step later
+}
+
+TEST_F(WindowTest, takesAnotherBudgetAndKeepsTheSceneWhereThereIsNone)
+{
+    EXPECT_EQ(viewer_->scene().scene().stream, nullptr);
+    settings().geometry_budget = 8u << 20;
+    play();
+    const gpu::SceneStream* stream = viewer_->scene().scene().stream.get();
+    ASSERT_NE(stream, nullptr);
+    EXPECT_LE(stream->statistics().budget_bytes, 8u << 20);
+    const uint64_t first = viewer_->serial() + 1;
+    for (int i = 0; i < 1000 && !viewer_->settledSince(first); ++i)
+        play(1);
+    EXPECT_TRUE(viewer_->settledSince(first));
+    EXPECT_GT(stream->statistics().pages_resident, 1u);
+
+    settings().geometry_budget = 16; // less than what always stays
+    play();
+    EXPECT_EQ(settings().geometry_budget, 8u << 20);
+    EXPECT_EQ(viewer_->scene().scene().stream.get(), stream);
+    settings().geometry_budget = 0;
+    play();
+    EXPECT_EQ(viewer_->scene().scene().stream, nullptr);
+}
+
+TEST_F(WindowTest, countsWhatTheTestsLeaveOut)
+{
+    settings().count_culling = true;
+    play(5);
+    const viewer::FrameFigures& figures = viewer_->figures();
+    EXPECT_GT(figures.counters.drawn_clusters, 0u);
+    EXPECT_GT(figures.milliseconds[0], 0);
+    ASSERT_TRUE(figures.culling);
+    EXPECT_EQ(figures.culling->clusters.tested, sample_.pack().clusters().size());
+    EXPECT_EQ(figures.culling->clusters.drawn, figures.counters.drawn_clusters);
+    settings().count_culling = false;
+    play(5);
+    EXPECT_FALSE(viewer_->figures().culling);
+}
+
+TEST_F(WindowTest, isClosed)
+{
+    EXPECT_TRUE(viewer_->isOpen());
+    SDL_Event event{};
+    event.type = SDL_QUIT;
+    SDL_PushEvent(&event);
+    play(1);
+    EXPECT_FALSE(viewer_->isOpen());
+}
+
+} // namespace hearth::test
