@@ -39,7 +39,7 @@ struct Light
     Float3 direction; ///< unit, the way the light shines
     float range;      ///< metres; 0: unlimited
     Float3 intensity; ///< linear colour times candela or lux, after exposure
-    float reserved;
+    uint shadow_row;  ///< of its projection in the ShadowBlock, or kNoShadow (shadow.h)
     float cone_scale; ///< spot: saturate(dot(direction, from light) * cone_scale + cone_offset)^2
     float cone_offset;
     float reserved1;
