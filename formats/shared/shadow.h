@@ -63,6 +63,10 @@ struct ShadowBlock
 /// Cosine of the angle from which on offsets grow no more, 89.5 degrees: what is lit there is too dark to be seen.
 HEARTH_CONSTANT float kGrazingCosine = 0.0087f;
 
+/// Texels by which a rasteriser may move a vertex, to 1/16 at the coarsest that Vulkan allows, and rasterStep before it:
+/// so much farther than its pixel's centre a surface is met.
+HEARTH_CONSTANT float kRasterMargin = 0.0625f;
+
 /// What a light makes of a point.
 struct ShadowPoint
 {
@@ -145,7 +149,7 @@ HEARTH_FUNCTION float rasterStep(float texel)
 }
 
 /// Clip-space position of a vertex of a caster. It is deeper than the vertex by what its surface rises within the filter:
-/// a tap lies at most kernel + 1/2 texels beside the point that is looked up.
+/// a tap lies at most kernel + 1/2 texels beside the point that is looked up, and what rasterisers round by.
 HEARTH_FUNCTION Float4 shadowCasterClip(HEARTH_IN(ShadowLight) light, HEARTH_IN(ShadowMap) map, Float3 point,
                                         Float3 normal)
 {
@@ -153,7 +157,7 @@ HEARTH_FUNCTION Float4 shadowCasterClip(HEARTH_IN(ShadowLight) light, HEARTH_IN(
     float w = shadowW(light, z);
     HEARTH_PRECISE float x = dot3(light.right, point) * map.scale_x;
     HEARTH_PRECISE float y = dot3(light.down, point) * map.scale_y;
-    HEARTH_PRECISE float offset = shadowSlope(light, map, point, normal) * (map.kernel + 0.5f);
+    HEARTH_PRECISE float offset = shadowSlope(light, map, point, normal) * (map.kernel + 0.5f + kRasterMargin);
     HEARTH_PRECISE float depth = ((z * light.depth_scale + light.depth_offset) - offset * w) - light.rounding;
     if (light.perspective == 0.0f)
     {
@@ -166,7 +170,9 @@ HEARTH_FUNCTION Float4 shadowCasterClip(HEARTH_IN(ShadowLight) light, HEARTH_IN(
     HEARTH_PRECISE float ndc_of_texel = 2.0f / map.size;
     HEARTH_PRECISE float clip_x = (x + map.offset_x * w) * ndc_of_texel - w;
     HEARTH_PRECISE float clip_y = (y + map.offset_y * w) * ndc_of_texel - w;
-    return Float4(clip_x, clip_y, max(depth, 0.0f), w);
+    // what the offset brings behind the end of the scene is clipped, and has nothing behind it: held back there, a vertex
+    // would lift all of its triangle
+    return Float4(clip_x, clip_y, depth, w);
 }
 
 /// How far a surface may lie off the true one at a distance from the eye, metres, where errors count `error_bias` times less.

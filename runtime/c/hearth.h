@@ -310,15 +310,16 @@ enum
 enum
 {
     HEARTH_TIMESTAMP_BEGIN = 0,
-    HEARTH_TIMESTAMP_CULL = 1,
-    HEARTH_TIMESTAMP_EARLY_VISIBILITY = 2, /* it and the two after it: no time without occlusion culling */
-    HEARTH_TIMESTAMP_PYRAMID = 3,
-    HEARTH_TIMESTAMP_LATE_CULL = 4,
-    HEARTH_TIMESTAMP_VISIBILITY = 5,
-    HEARTH_TIMESTAMP_MATERIAL_TILES = 6,
-    HEARTH_TIMESTAMP_MATERIAL_DEPTH = 7,
-    HEARTH_TIMESTAMP_SHADING = 8,
-    HEARTH_TIMESTAMP_COUNT = 9
+    HEARTH_TIMESTAMP_SHADOWS = 1, /* no time without shadow maps to draw */
+    HEARTH_TIMESTAMP_CULL = 2,
+    HEARTH_TIMESTAMP_EARLY_VISIBILITY = 3, /* it and the two after it: no time without occlusion culling */
+    HEARTH_TIMESTAMP_PYRAMID = 4,
+    HEARTH_TIMESTAMP_LATE_CULL = 5,
+    HEARTH_TIMESTAMP_VISIBILITY = 6,
+    HEARTH_TIMESTAMP_MATERIAL_TILES = 7,
+    HEARTH_TIMESTAMP_MATERIAL_DEPTH = 8,
+    HEARTH_TIMESTAMP_SHADING = 9,
+    HEARTH_TIMESTAMP_COUNT = 10
 };
 
 /* A perspective camera. The far plane is infinite, depth = z_near / distance along the view. */

@@ -42,6 +42,7 @@ constexpr bool equal(int c, gpu::FrameTimestamp timestamp)
     return c == static_cast<int>(timestamp);
 }
 static_assert(equal(HEARTH_TIMESTAMP_BEGIN, gpu::kTimestampBegin));
+static_assert(equal(HEARTH_TIMESTAMP_SHADOWS, gpu::kTimestampShadows));
 static_assert(equal(HEARTH_TIMESTAMP_CULL, gpu::kTimestampCull));
 static_assert(equal(HEARTH_TIMESTAMP_EARLY_VISIBILITY, gpu::kTimestampEarlyVisibility));
 static_assert(equal(HEARTH_TIMESTAMP_PYRAMID, gpu::kTimestampPyramid));

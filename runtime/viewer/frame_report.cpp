@@ -144,6 +144,7 @@ std::string formatReport(const FrameReport& report, const formats::PackView& pac
         add("streaming", formatStreaming(report.streaming));
     add("milliseconds",
         "{\"frame\":" + number(report.milliseconds[0]) +
+            ",\"shadows\":" + number(report.milliseconds[gpu::kTimestampShadows]) +
             ",\"cull\":" + number(report.milliseconds[gpu::kTimestampCull]) +
             ",\"early_visibility\":" + number(report.milliseconds[gpu::kTimestampEarlyVisibility]) +
             ",\"pyramid\":" + number(report.milliseconds[gpu::kTimestampPyramid]) +
