@@ -56,7 +56,7 @@ Result<BinPass> BinPass::createCasters(const Device& device, const DrawLayouts& 
                                      .depth_write = true,
                                      .color = false};
     BinPass pass;
-    pass.all_faces_ = true;
+    pass.casters_ = true;
     HEARTH_TRY(
         pass.createPipelines(device, opaque, {shaders::caster_masked_vert, shaders::caster_masked_frag}));
     return pass;
@@ -67,7 +67,7 @@ Status BinPass::createPipelines(const Device& device, GraphicsDescription opaque
     for (const size_t slices : {size_t{0}, size_t{1}})
         for (const Facing facing : {Facing::culled, Facing::mirrored, Facing::doubleSided})
         {
-            if (all_faces_ && facing != Facing::doubleSided)
+            if (casters_ && facing != Facing::doubleSided)
                 continue;
             const uint32_t used_slices = slices == 0 ? 1 : shared::kPoolSlices;
             opaque.constants = {&used_slices, 1};
@@ -98,8 +98,10 @@ void BinPass::record(const Device& device, VkCommandBuffer commands, const DrawL
     for (uint32_t i = 0; i < bin_count; ++i)
     {
         const SceneBin& bin = scene.bins[i];
+        if (casters_ && bin.unlit)
+            continue;
         const Pipelines& pipelines = (bin.alpha_tested ? alpha_tested_ : opaque_)[slices];
-        const Facing facing = all_faces_ ? Facing::doubleSided : bin.facing;
+        const Facing facing = casters_ ? Facing::doubleSided : bin.facing;
         device.vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS,
                                     pipelines[static_cast<size_t>(facing)].get());
         if (bin.alpha_tested)

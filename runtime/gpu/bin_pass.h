@@ -35,7 +35,7 @@ private:
     };
     Status createPipelines(const Device& device, GraphicsDescription opaque, const Stages& alpha_tested);
 
-    bool all_faces_ = false; ///< every bin is drawn as Facing::doubleSided
+    bool casters_ = false; ///< unlit bins are not drawn, all others as Facing::doubleSided
     // [0] for scenes whose geometry lies in one slice of the pool, [1] for all others
     Pipelines opaque_[2];
     Pipelines alpha_tested_[2];

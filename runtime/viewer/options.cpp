@@ -34,7 +34,17 @@ const char* const kRenderHelp =
     "                          the distance. Example: 0:1,50:1,500:0.4\n"
     "      --view VIEW         final, clusters, lod, triangles, materials, normals, depth, error (yellow: "
     "as\n"
-    "                          large as allowed), cones (red: none) or overdraw (white: 16)\n"
+    "                          large as allowed), cones (red: none), overdraw (white: 16) or shadow-maps "
+    "(grey:\n"
+    "                          none)\n"
+    "      --shadows SETTINGS  off (default), on, or some of maps=N (16 at most), texels=N (1024), kernel=N "
+    "(1:\n"
+    "                          3x3), bias=B (2: how much coarser than the picture), splits=N (4), near=M, "
+    "far=M\n"
+    "                          (metres, where the splits begin and end; as the scene does). Example: "
+    "texels=2048,bias=4\n"
+    "      --shadow-sphere X,Y,Z,RADIUS[,LIGHT]\n"
+    "                          finer shadows there, of all lights or of one; may be given several times\n"
     "      --shaded-area AREA  where each material is shaded: picture, tiles (64x64 pixels where it is "
     "seen), "
     "or\n"
@@ -132,6 +142,7 @@ Status parseView(std::string_view text, RenderOptions& options)
         {"error", shared::kViewError},
         {"cones", shared::kViewCones},
         {"overdraw", shared::kViewOverdraw},
+        {"shadow-maps", shared::kViewShadowMaps},
     };
     for (const auto& [name, view] : kViews)
         if (text == name)
@@ -141,7 +152,7 @@ Status parseView(std::string_view text, RenderOptions& options)
         }
     return usage("--view: " + quoted(text) +
                  " is none of final, clusters, lod, triangles, materials, normals, depth, "
-                 "error, cones, overdraw");
+                 "error, cones, overdraw, shadow-maps");
 }
 
 Status parseShadedArea(std::string_view text, RenderOptions& options)
@@ -261,6 +272,12 @@ Status parseFrames(std::string_view text, RenderOptions& options)
     return success();
 }
 
+template <Status (*kParse)(std::string_view, ShadowSettings&)>
+Status parseForShadows(std::string_view text, RenderOptions& options)
+{
+    return kParse(text, options.shadows);
+}
+
 template <std::string RenderOptions::*kMember>
 Status parseText(std::string_view text, RenderOptions& options)
 {
@@ -284,6 +301,8 @@ constexpr ValueOption kValueOptions[] = {
     {"--error-pixels", parseErrorPixels},
     {"--lod-curve", parseLodCurve},
     {"--view", parseView},
+    {"--shadows", parseForShadows<parseShadows>},
+    {"--shadow-sphere", parseForShadows<parseShadowSphere>},
     {"--shaded-area", parseShadedArea},
     {"--samples", parseSamples},
     {"--device", parseText<&RenderOptions::device>},
@@ -357,6 +376,8 @@ Result<RenderOptions> parseOptions(std::span<const char* const> arguments)
         return usage("no output is named (-o IMAGE.png)");
     if (!options.camera_path.empty() && options.frames != 1)
         return usage("--frames and --camera-path exclude each other");
+    if (options.view == shared::kViewShadowMaps && options.shadows.options.max_maps == 0)
+        return usage("--view shadow-maps needs --shadows");
     return options;
 }
 

@@ -6,6 +6,7 @@
 #include "formats/shared/frame.h"
 #include "formats/shared/lod_curve.h"
 #include "runtime/gpu/shading_pass.h"
+#include "runtime/viewer/shadow_options.h"
 
 #include <optional>
 #include <span>
@@ -36,6 +37,7 @@ struct RenderOptions
     float error_pixels = 1;
     std::vector<shared::LodKnot> lod_curve; ///< checked
     uint32_t view = 0;                      ///< shared::kView*
+    ShadowSettings shadows;                 ///< none unless asked for
     gpu::ShadedArea shaded_area = gpu::ShadedArea::automatic;
     uint32_t samples = 1;
     uint32_t frames = 1;

@@ -291,6 +291,23 @@ TEST_F(ShadowPictureTest, holesOfAMaskCastNone)
     EXPECT_LT(drawUnder(0.6f), drawUnder(0.4f) - 40);
 }
 
+TEST_F(ShadowPictureTest, unlitSurfacesCastNone)
+{
+    const auto drawUnder = [&](uint32_t flags)
+    {
+        TestScene test;
+        MaterialRecord sky = plainMaterial();
+        sky.flags = kMaterialDoubleSided | flags;
+        test.addInstance(test.addMesh(withMaterial(makeQuad(8, 8), test.addMaterial(plainMaterial()))),
+                         lying({0, 0, 0}));
+        test.addInstance(test.addMesh(withMaterial(makeQuad(8, 8), test.addMaterial(sky))), lying({0, 4, 0}));
+        test.addLight(sun({0, -1, 0}));
+        const PackView pack = test.build();
+        return channel(drawShadowed(pack, kFour, kSource).at(kSize / 2, kSize / 2), 0);
+    };
+    EXPECT_LT(drawUnder(0), drawUnder(kMaterialUnlit) - 40);
+}
+
 TEST_F(ShadowPictureTest, whatIsBeyondTheCapacityIsCounted)
 {
     TestScene test;
