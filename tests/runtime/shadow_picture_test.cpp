@@ -4,7 +4,7 @@
 #include "tests/cook/shapes.h"
 #include "tests/reference/reference_renderer.h"
 #include "tests/runtime/gpu_fixture.h"
-#include "tests/runtime/test_scene.h"
+#include "tests/runtime/lit_scene.h"
 
 #include "runtime/gpu/scene_shadows.h"
 
@@ -22,57 +22,6 @@ using namespace formats;
 
 constexpr uint32_t kSize = 192;
 constexpr double kDegree = std::numbers::pi / 180;
-
-/// Axes with -z along a direction.
-Affine3 shining(Float3 position, Float3 direction)
-{
-    const Float3 z = -normalizeOr(direction, {});
-    const Float3 x = normalizeOr(cross(std::abs(z.y) < 0.9f ? Float3{0, 1, 0} : Float3{1, 0, 0}, z), {});
-    const Float3 y = cross(z, x);
-    Affine3 t = translated(position);
-    const Float3 columns[] = {x, y, z};
-    for (size_t c = 0; c < 3; ++c)
-    {
-        t.m[0][c] = columns[c].x;
-        t.m[1][c] = columns[c].y;
-        t.m[2][c] = columns[c].z;
-    }
-    return t;
-}
-
-LightRecord light(LightType type, Float3 position, Float3 direction, float intensity)
-{
-    LightRecord record{};
-    record.type = static_cast<uint32_t>(type);
-    record.world_from_light = shining(position, direction);
-    record.color = {1, 1, 1};
-    record.intensity = intensity;
-    record.inner_cone_rad = 0.5f;
-    record.outer_cone_rad = 0.7f;
-    return record;
-}
-
-LightRecord sun(Float3 direction)
-{
-    return light(LightType::directional, {}, direction, 2);
-}
-
-/// Turns the quad's +z up.
-Affine3 lying(Float3 offset)
-{
-    Affine3 t = translated(offset);
-    t.m[1][1] = t.m[2][2] = 0;
-    t.m[1][2] = 1;
-    t.m[2][1] = -1;
-    return t;
-}
-
-Affine3 scaled(float factor, Float3 offset)
-{
-    Affine3 t = translated(offset);
-    t.m[0][0] = t.m[1][1] = t.m[2][2] = factor;
-    return t;
-}
 
 /// A floor of 8 m with rocks of about a metre on it and above it.
 formats::PackView buildRocks(TestScene& test, uint32_t detail, const LightRecord& record)
