@@ -200,6 +200,7 @@ TEST_F(ShadowCacheTest, keptMapsAreFreshOnesWhilePagesComeAndGo)
         maps += statisticsOf(*kept).maps;
         drawn += statisticsOf(*kept).drawn_maps;
     }
+    EXPECT_GT(changed, 15u);
     EXPECT_LT(drawn, maps * 3 / 4);
     EXPECT_GT(drawn, 10u);
 }

@@ -193,6 +193,44 @@ TEST_F(ShadowPictureTest, coarserCastersShadowNothingThatIsLit)
     }
 }
 
+/// Where a sphere goes while the cut stays, its map moves by whole texels and shows the same: shadows do not shimmer.
+TEST_F(ShadowPictureTest, aMapThatMovesShowsTheSame)
+{
+    TestScene test;
+    const PackView pack = buildRocks(test, 20, sun({0.3f, -1, -0.4f}));
+    const auto scene = upload(pack, {.shadows = {.max_maps = 1, .texels = 128, .splits = 0}});
+    std::mt19937 random(3);
+    shared::ShadowMap first{};
+    std::vector<float> expected;
+    size_t compared = 0;
+    for (int i = 0; i < 12; ++i)
+    {
+        const auto along = [&] { return uniform(random, -0.7f, 0.7f); };
+        const gpu::ShadowSphere sphere{.center = {along(), along(), along()}, .radius = 2};
+        DrawOptions options{.width = 16, .height = 16, .error_pixels = 0};
+        options.shadow_spheres = {&sphere, 1};
+        draw(*scene, roomCamera(), options);
+        const shared::ShadowMap map = scene->shadows->plan().block.maps[0];
+        const auto depths = host().readDepth(renderer().device(), scene->shadows->image(), 0);
+        ASSERT_TRUE(depths.ok());
+        if (i == 0)
+        {
+            first = map;
+            expected = *depths;
+        }
+        EXPECT_EQ(map.scale_x, first.scale_x);
+        const int dx = static_cast<int>(map.offset_x - first.offset_x);
+        const int dy = static_cast<int>(map.offset_y - first.offset_y);
+        EXPECT_EQ(static_cast<float>(dx), map.offset_x - first.offset_x);
+        for (int y = std::max(0, dy); y < std::min(128, 128 + dy); ++y)
+            for (int x = std::max(0, dx); x < std::min(128, 128 + dx); ++x, ++compared)
+                ASSERT_NEAR((*depths)[static_cast<size_t>(y * 128 + x)],
+                            expected[static_cast<size_t>((y - dy) * 128 + x - dx)], shared::kDepthMargin)
+                    << x << " " << y << " moved by " << dx << " " << dy;
+    }
+    EXPECT_GT(compared, 100000u);
+}
+
 /// A plane that nothing shadows looks as without shadows.
 TEST_F(ShadowPictureTest, aPlaneIsFreeOfAcneAtAllAngles)
 {
