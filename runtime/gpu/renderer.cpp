@@ -131,9 +131,9 @@ void Renderer::recordShadows(VkCommandBuffer commands, const Scene& scene, const
 {
     const std::span<const ShadowCache::StaleMap> stale = scene.shadows->planFrame(view, spheres);
     shadows_->recordBlock(device_, commands, scene);
-    for (const auto& [map, casters] : stale)
+    for (const ShadowCache::StaleMap& map : stale)
     {
-        cull_.recordView(device_, commands, scene, targets, casters);
+        cull_.recordView(device_, commands, scene, targets, map.casters);
         cull_.record(device_, commands, scene, targets, shared::kPhaseWhole);
         shadows_->recordMap(device_, commands, layouts_, scene, map);
     }

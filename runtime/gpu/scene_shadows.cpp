@@ -28,10 +28,10 @@ Result<UniqueSampler> createCompareSampler(const Device& device)
 
 Status checkLimits(const Device& device, const ShadowOptions& options)
 {
+    const uint32_t layers = options.moving_layers ? 2 * options.max_maps : options.max_maps;
     if (options.texels > device.limits.maxImageDimension2D ||
         options.texels > device.limits.maxFramebufferWidth ||
-        options.texels > device.limits.maxFramebufferHeight ||
-        options.max_maps > device.limits.maxImageArrayLayers)
+        options.texels > device.limits.maxFramebufferHeight || layers > device.limits.maxImageArrayLayers)
         return Error{Issue::device_limit, "", "",
                      "the device cannot render " + std::to_string(options.max_maps) + " shadow maps of " +
                          std::to_string(options.texels) + " texels each way"};
@@ -62,9 +62,9 @@ Result<std::unique_ptr<SceneShadows>> SceneShadows::create(const Device& device,
     s.lights_without_row_ = countLights(lighting, formats::LightType::directional) +
                             countLights(lighting, formats::LightType::spot) -
                             static_cast<uint32_t>(s.lights_.size());
-    HEARTH_TRY(s.createImage(device));
-    s.layers_.resize(options.max_maps);
-    for (uint32_t layer = 0; layer < options.max_maps; ++layer)
+    HEARTH_TRY(s.createImage());
+    s.layers_.resize(s.layerCount());
+    for (uint32_t layer = 0; layer < s.layerCount(); ++layer)
         HEARTH_TRY(s.createLayer(device, render_pass, s.layers_[layer], layer));
     HEARTH_ASSIGN_OR_RETURN(s.sampler_, createCompareSampler(device));
     HEARTH_ASSIGN_OR_RETURN(
@@ -72,22 +72,23 @@ Result<std::unique_ptr<SceneShadows>> SceneShadows::create(const Device& device,
                                         VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
                                         MemoryKind::device));
     HEARTH_ASSIGN_OR_RETURN(
-        s.casters_, s.arena_.createBuffer(options.max_maps * sizeof(shared::FrameCounters),
+        s.casters_, s.arena_.createBuffer(s.layerCount() * sizeof(shared::FrameCounters),
                                           VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
                                           MemoryKind::device));
     return shadows;
 }
 
-Status SceneShadows::createImage(const Device&)
+Status SceneShadows::createImage()
 {
     // tests and tools copy it out
     constexpr VkImageUsageFlags kUsage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT |
-                                         VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
+                                         VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT |
+                                         VK_IMAGE_USAGE_TRANSFER_DST_BIT;
     HEARTH_ASSIGN_OR_RETURN(image_, arena_.createImage({.format = kShadowFormat,
                                                         .extent = {options_.texels, options_.texels},
                                                         .usage = kUsage,
                                                         .aspect = VK_IMAGE_ASPECT_DEPTH_BIT,
-                                                        .array_layers = options_.max_maps}));
+                                                        .array_layers = layerCount()}));
     return success();
 }
 
@@ -132,9 +133,10 @@ std::span<const ShadowCache::StaleMap> SceneShadows::planFrame(const shared::Fra
     plan_ = planShadows(lights_, options_, view, spheres);
     const std::span<const ShadowCache::StaleMap> stale = cache_.plan(plan_, view);
     statistics_ = {.maps = plan_.map_count,
-                   .drawn_maps = static_cast<uint32_t>(stale.size()),
                    .dropped_maps = plan_.dropped_maps,
                    .unshadowed_lights = lights_without_row_};
+    for (const ShadowCache::StaleMap& map : stale)
+        ++(map.over ? statistics_.moved_maps : statistics_.drawn_maps);
     for (uint32_t row = 0; row < lights_.size(); ++row)
         statistics_.unshadowed_lights += plan_.block.lights[row].map_count == 0 ? 1 : 0;
     return stale;

@@ -14,6 +14,7 @@ struct ShadowStatistics
 {
     uint32_t maps = 0;              ///< in use
     uint32_t drawn_maps = 0;        ///< of these, drawn by the frame; the others were kept
+    uint32_t moved_maps = 0;        ///< of these, in which the frame drew what moves
     uint32_t dropped_maps = 0;      ///< for which there was no layer
     uint32_t unshadowed_lights = 0; ///< suns and spots without a map: beyond the capacity
 };
@@ -58,10 +59,11 @@ private:
         UniqueFramebuffer framebuffer;
     };
     SceneShadows(const Device& device, const formats::PackView& pack, const ShadowOptions& options)
-        : options_(options), cache_(pack, options.max_maps), arena_(device, 0)
+        : options_(options), cache_(pack, options), arena_(device, 0)
     {
     }
-    Status createImage(const Device& device);
+    Status createImage();
+    uint32_t layerCount() const { return options_.moving_layers ? 2 * options_.max_maps : options_.max_maps; }
     Status createLayer(const Device& device, VkRenderPass render_pass, Layer& layer, uint32_t number) const;
 
     ShadowOptions options_;

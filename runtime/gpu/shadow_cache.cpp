@@ -106,11 +106,13 @@ bool sameBits(const T& a, const T& b)
 
 } // namespace
 
-ShadowCache::ShadowCache(const formats::PackView& pack, uint32_t layer_count)
+ShadowCache::ShadowCache(const formats::PackView& pack, const ShadowOptions& options)
     : pack_(pack),
       reach_of_mesh_(makeReaches(pack)),
       changed_of_mesh_(pack.meshes().size(), kUnchanged),
-      layers_(layer_count)
+      moves_(pack.instances().size(), 0),
+      moving_layers_(options.moving_layers),
+      layers_(options.max_maps)
 {
     for (const formats::InstanceRecord& instance : pack.instances())
     {
@@ -118,18 +120,25 @@ ShadowCache::ShadowCache(const formats::PackView& pack, uint32_t layer_count)
         scale_of_instance_.push_back(instance.scale_max);
         box_of_instance_.push_back(worldBox(reach_of_mesh_[instance.mesh], instance.world_from_object));
     }
-    stale_.reserve(layer_count);
+    movers_.reserve(pack.instances().size());
+    stale_.reserve(2 * size_t{options.max_maps});
 }
 
 void ShadowCache::move(std::span<const InstanceMove> moves)
 {
     for (const InstanceMove& move : moves)
     {
-        Box3& box = box_of_instance_[move.instance];
-        touch(box);
-        box = worldBox(reach_of_mesh_[mesh_of_instance_[move.instance]], transformOf(move.record));
-        touch(box);
-        scale_of_instance_[move.instance] = move.record.scale_max;
+        const uint32_t instance = move.instance;
+        Box3& box = box_of_instance_[instance];
+        touch(box, moves_[instance] != 0);
+        if (moving_layers_ && moves_[instance] == 0)
+        {
+            moves_[instance] = 1;
+            movers_.push_back(instance);
+        }
+        box = worldBox(reach_of_mesh_[mesh_of_instance_[instance]], transformOf(move.record));
+        touch(box, moves_[instance] != 0);
+        scale_of_instance_[instance] = move.record.scale_max;
     }
 }
 
@@ -145,44 +154,75 @@ void ShadowCache::publish(std::span<const pack::ResidentGroups::Change> groups)
     }
     for (size_t instance = 0; instance < box_of_instance_.size(); ++instance)
         if (const float changed = changed_of_mesh_[mesh_of_instance_[instance]]; changed != kUnchanged)
-            touchFiner(box_of_instance_[instance], changed * scale_of_instance_[instance]);
+            touchFiner(instance, changed);
     std::fill(changed_of_mesh_.begin(), changed_of_mesh_.end(), kUnchanged);
 }
 
-void ShadowCache::touch(const Box3& box)
+/// What is in the box changes, among the instances that move or among the others.
+void ShadowCache::touch(const Box3& box, bool moves)
 {
     for (Layer& layer : layers_)
-        if (layer.drawn && touches(layer.casters, box))
-            layer.drawn = false;
+        if (bool& drawn = moves ? layer.moving_drawn : layer.drawn; drawn && touches(layer.casters, box))
+            drawn = false;
 }
 
-void ShadowCache::touchFiner(const Box3& box, float error_world)
+void ShadowCache::touchFiner(size_t instance, float error_object)
 {
+    const Box3& box = box_of_instance_[instance];
+    const float error_world = error_object * scale_of_instance_[instance];
     for (Layer& layer : layers_)
-        if (layer.drawn && mayExceed(layer.casters, box, error_world) && touches(layer.casters, box))
-            layer.drawn = false;
+        if (bool& drawn = moves_[instance] != 0 ? layer.moving_drawn : layer.drawn;
+            drawn && mayExceed(layer.casters, box, error_world) && touches(layer.casters, box))
+            drawn = false;
 }
 
-std::span<const ShadowCache::StaleMap> ShadowCache::plan(const ShadowPlan& plan,
-                                                         const shared::FrameView& view)
+bool ShadowCache::isMoverIn(const shared::FrameView& casters) const
+{
+    return std::any_of(movers_.begin(), movers_.end(),
+                       [&](uint32_t mover) { return touches(casters, box_of_instance_[mover]); });
+}
+
+std::span<const ShadowCache::StaleMap> ShadowCache::plan(ShadowPlan& plan, const shared::FrameView& view)
 {
     stale_.clear();
     for (uint32_t i = 0; i < plan.map_count; ++i)
     {
-        const shared::ShadowMap& map = plan.block.maps[i];
+        const shared::ShadowMap map = plan.block.maps[i];
         const uint32_t row = plan.row_of[i];
         const shared::ShadowLight light = projectionOf(plan.block.lights[row]);
         shared::FrameView seen = view;
         seen.eye = shared::eyeCell(view, plan.finest_m[row], plan.block.error_bias).eye;
-        const shared::FrameView casters = shared::makeCasterView(seen, light, map, plan.block.error_bias);
+        shared::FrameView casters = shared::makeCasterView(seen, light, map, plan.block.error_bias);
+        if (moving_layers_)
+            casters.flags |= shared::kCullMoving;
         Layer& layer = layers_[map.layer];
-        if (layer.drawn && sameBits(layer.light, light) && sameBits(layer.map, map) &&
-            sameBits(layer.casters, decisionsOf(casters)))
-            continue;
-        layer = {true, light, map, decisionsOf(casters)};
-        stale_.push_back({i, casters});
+        if (!layer.drawn || !sameBits(layer.light, light) || !sameBits(layer.map, map) ||
+            !sameBits(layer.casters, decisionsOf(casters)))
+        {
+            layer = {.drawn = true, .light = light, .map = map, .casters = decisionsOf(casters)};
+            stale_.push_back({.map = i, .layer = map.layer, .over = {}, .casters = casters});
+        }
+        planMoving(i, casters, layer, plan);
     }
     return stale_;
+}
+
+/// casters  of the map's casters that rest
+void ShadowCache::planMoving(uint32_t map, const shared::FrameView& casters, Layer& layer, ShadowPlan& plan)
+{
+    if (!isMoverIn(casters))
+    {
+        layer.moving_drawn = false;
+        return;
+    }
+    const uint32_t resting = plan.block.maps[map].layer;
+    const uint32_t moving = resting + static_cast<uint32_t>(layers_.size());
+    plan.block.maps[map].layer = moving;
+    if (layer.moving_drawn)
+        return;
+    layer.moving_drawn = true;
+    stale_.push_back({.map = map, .layer = moving, .over = resting, .casters = casters});
+    stale_.back().casters.flags ^= shared::kCullMoving | shared::kCullResting;
 }
 
 void ShadowCache::forget()

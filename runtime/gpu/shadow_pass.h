@@ -24,13 +24,14 @@ public:
     /// What shaders know of the frame's maps. Outside a render pass, before they are drawn.
     void recordBlock(const Device& device, VkCommandBuffer commands, const Scene& scene) const;
 
-    /// A map of the plan, after the culling pass has found its casters. Outside a render pass; what it writes is visible to
-    /// fragment shaders and transfers that follow. Clobbers the graphics state.
+    /// A layer, after the culling pass has found its casters. Outside a render pass; what it writes is visible to fragment
+    /// shaders and transfers that follow. Clobbers the graphics state.
     void recordMap(const Device& device, VkCommandBuffer commands, const DrawLayouts& layouts,
-                   const Scene& scene, uint32_t map) const;
+                   const Scene& scene, const ShadowCache::StaleMap& map) const;
 
 private:
-    UniqueRenderPass render_pass_;
+    UniqueRenderPass from_nothing_;
+    UniqueRenderPass over_copy_;
     BinPass casters_;
 };
 

@@ -13,7 +13,7 @@ namespace hearth::gpu
 /// Suns and spots cast shadows, point lights do not.
 struct ShadowOptions
 {
-    /// Layers of the maps' image, up to shared::kMaxShadowMaps. 0: no shadows, for which nothing is made and recorded.
+    /// Maps of a frame at most, up to shared::kMaxShadowMaps: layers of their image. 0: no shadows, for which nothing is made and recorded.
     uint32_t max_maps = 0;
     uint32_t texels =
         1024; ///< of a layer each way: 4 bytes each. A power of two up to 8192, >= 4 * (kernel + 1)
@@ -23,6 +23,10 @@ struct ShadowOptions
     /// Maps of each sun that follow the view, beside the spheres of FrameInput; at most kMaxSplits.
     uint32_t splits = 4;
     shared::SplitRange split_range{};
+
+    /// Casters that have moved since they were loaded are drawn over a copy of those that rest, in as many layers more: else
+    /// one that moves has its maps drawn as a whole.
+    bool moving_layers = true;
 
     float spot_near = 0.05f; ///< metres, above 0: what is nearer to a spot light casts no shadow
 };

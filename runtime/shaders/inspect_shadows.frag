@@ -1,4 +1,4 @@
-// Shows which shadow map is looked up for a pixel: of the first light that has one there, a colour for each layer, dark in
+// Shows which shadow map is looked up for a pixel: of the first light that has one there, a colour for each map, dark in
 // its shadow. Grey: none. One triangle for all materials.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #version 450
@@ -17,11 +17,11 @@ layout(early_fragment_tests) in;
 layout(location = 0) out vec4 out_color;
 
 // Eight that differ much, then as many darker ones.
-vec3 colorOfLayer(uint layer)
+vec3 colorOfMap(uint map)
 {
-    float hue = float(layer & 7u) / 8.0;
+    float hue = float(map & 7u) / 8.0;
     vec3 color = clamp(abs(fract(hue + vec3(0.0, 2.0 / 3.0, 1.0 / 3.0)) * 6.0 - 3.0) - 1.0, 0.0, 1.0);
-    return color / (1.0 + float(layer >> 3u));
+    return color / (1.0 + float(map >> 3u));
 }
 
 void main()
@@ -34,7 +34,7 @@ void main()
     {
         Lookup at = lookUp(row, s.position, normal);
         if (at.map != kNoShadow)
-            color = colorOfLayer(shadows.maps[at.map].layer) * (0.2 + 0.8 * litTexels(at));
+            color = colorOfMap(at.map) * (0.2 + 0.8 * litTexels(at));
     }
     // dimmed by the angle to the eye, so that the shape can be seen
     float facing = 0.35 + 0.65 * abs(dot(normal, normalizeOr(s.position, vec3(0.0))));

@@ -128,6 +128,7 @@ gpu::ShadowOptions fitShadows(const ShadowSettings& settings, const formats::Pac
                               std::span<const shared::Camera> cameras)
 {
     gpu::ShadowOptions options = settings.options;
+    options.moving_layers = false;
     const Box3 bounds = gpu::sceneBounds(pack);
     if (bounds.empty())
         return options;

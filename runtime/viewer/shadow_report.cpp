@@ -33,11 +33,11 @@ Result<ShadowCounts> countShadows(VulkanHost& host, const gpu::Renderer& rendere
     HEARTH_ASSIGN_OR_RETURN(const std::vector<std::byte> bytes,
                             host.read(renderer.device(), shadows.casters()));
     ShadowCounts counts{.maps = shadows.statistics(), .map_bytes = shadows.allocatedBytes()};
-    std::vector<shared::FrameCounters> layers(counts.maps.maps); // those in use are the first ones
-    if (!layers.empty())
-        std::memcpy(layers.data(), bytes.data(), layers.size() * sizeof(shared::FrameCounters));
-    for (const shared::FrameCounters& layer : layers)
+    // nothing moves here, so that no map has a second layer
+    for (const shared::ShadowMap& map : std::span(shadows.plan().block.maps).first(counts.maps.maps))
     {
+        shared::FrameCounters layer;
+        std::memcpy(&layer, bytes.data() + map.layer * sizeof(layer), sizeof(layer));
         counts.caster_clusters += layer.drawn_clusters;
         counts.dropped_clusters += layer.dropped_clusters;
     }

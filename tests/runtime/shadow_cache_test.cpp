@@ -41,9 +41,13 @@ PackView buildScene(TestScene& test, uint32_t detail)
     return test.build();
 }
 
-gpu::ShadowOptions smallMaps()
+gpu::ShadowOptions smallMaps(bool moving_layers)
 {
-    return {.max_maps = 8, .texels = 64, .splits = 2, .split_range = {.near = 1, .far = 20}};
+    return {.max_maps = 8,
+            .texels = 64,
+            .splits = 2,
+            .split_range = {.near = 1, .far = 20},
+            .moving_layers = moving_layers};
 }
 
 constexpr gpu::ShadowSphere kSphere{.center = {-3, 0.5f, 1}, .radius = 1.5f};
@@ -66,8 +70,9 @@ protected:
         return scene.shadows->statistics();
     }
 
-    std::vector<float> mapOf(const gpu::Scene& scene, uint32_t layer)
+    std::vector<float> mapOf(const gpu::Scene& scene, uint32_t map)
     {
+        const uint32_t layer = scene.shadows->plan().block.maps[map].layer;
         auto depths = host().readDepth(renderer().device(), scene.shadows->image(), layer);
         HEARTH_ASSERT(depths.ok());
         return std::move(*depths);
@@ -80,12 +85,12 @@ protected:
         ASSERT_EQ(kept_picture.color, fresh_picture.color) << "frame " << frame;
         ASSERT_EQ(statisticsOf(kept).maps, statisticsOf(fresh).maps);
         ASSERT_EQ(statisticsOf(fresh).drawn_maps, statisticsOf(fresh).maps);
-        for (uint32_t layer = 0; layer < statisticsOf(kept).maps; ++layer)
-            ASSERT_EQ(mapOf(kept, layer), mapOf(fresh, layer)) << "frame " << frame << ", layer " << layer;
+        for (uint32_t map = 0; map < statisticsOf(kept).maps; ++map)
+            ASSERT_EQ(mapOf(kept, map), mapOf(fresh, map)) << "frame " << frame << ", map " << map;
     }
 };
 
-/// A view that walks, rests, and jumps, and spheres that come and go.
+/// A view that walks, rests, and jumps, spheres that come and go, and rocks that move.
 class Walk
 {
 public:
@@ -103,9 +108,19 @@ public:
             spheres_.empty() ? spheres_.push_back(kSphere) : spheres_.clear();
     }
 
+    std::vector<gpu::InstanceMove> moves(const gpu::Scene& scene)
+    {
+        std::vector<gpu::InstanceMove> moves;
+        if (random_() % 3 == 0)
+        {
+            const auto rock = static_cast<uint32_t>(1 + random_() % kRocks);
+            moves.push_back(*gpu::moveInstance(scene, rock, placeOf(random_)));
+        }
+        return moves;
+    }
+
     const shared::Camera& camera() const { return camera_; }
     std::span<const gpu::ShadowSphere> spheres() const { return spheres_; }
-    std::mt19937& random() { return random_; }
 
 private:
     std::mt19937 random_;
@@ -115,42 +130,43 @@ private:
 
 } // namespace
 
+/// Whether moving casters have layers of their own or not; those drawn anew have none.
 TEST_F(ShadowCacheTest, keptMapsAreFreshOnesWhileThingsMove)
 {
-    TestScene test;
-    const PackView pack = buildScene(test, 20);
-    const auto kept = upload(pack, {.shadows = smallMaps()});
-    const auto fresh = upload(pack, {.shadows = smallMaps()});
-    Walk walk(1);
-    uint32_t maps = 0, drawn = 0;
-    for (int frame = 0; frame < 60; ++frame)
+    for (const bool moving_layers : {false, true})
     {
-        walk.step();
-        std::vector<gpu::InstanceMove> moves;
-        if (walk.random()() % 3 == 0)
+        TestScene test;
+        const PackView pack = buildScene(test, 20);
+        const auto kept = upload(pack, {.shadows = smallMaps(moving_layers)});
+        const auto fresh = upload(pack, {.shadows = smallMaps(false)});
+        Walk walk(1);
+        uint32_t maps = 0, drawn = 0, moved = 0;
+        for (int frame = 0; frame < 50; ++frame)
         {
-            const auto rock = static_cast<uint32_t>(1 + walk.random()() % kRocks);
-            moves.push_back(*gpu::moveInstance(*kept, rock, placeOf(walk.random())));
+            walk.step();
+            const std::vector<gpu::InstanceMove> moves = walk.moves(*kept);
+            DrawOptions options = kDrawn;
+            options.moves = moves;
+            options.shadow_spheres = walk.spheres();
+            fresh->shadows->forget();
+            const Picture kept_picture = draw(*kept, walk.camera(), options);
+            const Picture fresh_picture = draw(*fresh, walk.camera(), options);
+            ASSERT_NO_FATAL_FAILURE(expectSame(*kept, kept_picture, *fresh, fresh_picture, frame));
+            maps += statisticsOf(*kept).maps;
+            drawn += statisticsOf(*kept).drawn_maps;
+            moved += statisticsOf(*kept).moved_maps;
         }
-        DrawOptions options = kDrawn;
-        options.moves = moves;
-        options.shadow_spheres = walk.spheres();
-        fresh->shadows->forget();
-        const Picture kept_picture = draw(*kept, walk.camera(), options);
-        const Picture fresh_picture = draw(*fresh, walk.camera(), options);
-        ASSERT_NO_FATAL_FAILURE(expectSame(*kept, kept_picture, *fresh, fresh_picture, frame));
-        maps += statisticsOf(*kept).maps;
-        drawn += statisticsOf(*kept).drawn_maps;
+        EXPECT_LT(drawn, maps * 3 / 4);
+        EXPECT_GT(drawn, 50u);
+        EXPECT_EQ(moved > 50, moving_layers);
     }
-    EXPECT_LT(drawn, maps * 3 / 4);
-    EXPECT_GT(drawn, 60u);
 }
 
 TEST_F(ShadowCacheTest, keptMapsAreFreshOnesWhilePagesComeAndGo)
 {
     TestScene test;
     const PackView pack = buildScene(test, 48);
-    const auto streamed = [&]
+    const auto streamed = [&](bool moving_layers)
     {
         gpu::SceneOptions options;
         options.geometry_budget = 2400 << 10;
@@ -158,12 +174,12 @@ TEST_F(ShadowCacheTest, keptMapsAreFreshOnesWhilePagesComeAndGo)
         options.stream.frames_in_flight = 1;
         options.stream.read = [&pack](uint32_t page, std::span<std::byte> destination, pack::ReadDone done)
         { done(pack.decodePage(page, destination).ok()); };
-        options.shadows = smallMaps();
+        options.shadows = smallMaps(moving_layers);
         options.shadows.error_bias = 1; // every page that the picture wants is one of the maps' casters
         return upload(pack, options);
     };
-    const auto kept = streamed();
-    const auto fresh = streamed();
+    const auto kept = streamed(true);
+    const auto fresh = streamed(false);
     gpu::FrameTargets targets = makeTargets(kDrawn.width, kDrawn.height);
     Walk walk(2);
     DrawOptions fine = kDrawn;
@@ -171,26 +187,29 @@ TEST_F(ShadowCacheTest, keptMapsAreFreshOnesWhilePagesComeAndGo)
     uint32_t maps = 0, drawn = 0, changed = 0;
     for (uint64_t frame = 1; frame <= 60; ++frame)
     {
-        if (frame % 8 == 0)
-            walk.step();
         for (const gpu::Scene* scene : {kept.get(), fresh.get()})
             scene->stream->beginFrame(frame, frame - 1);
         changed += kept->stream->changedGroups().empty() ? 0u : 1u;
         if (frame % 3 == 0) // the pages of these frames arrive while nothing is drawn
         {
-            const auto view = viewOf(*kept, walk.camera(), fine);
-            ASSERT_TRUE(host()
-                            .run(
-                                [&](VkCommandBuffer commands)
-                                {
-                                    renderer().recordPrefetch(commands, *kept, targets, view);
-                                    renderer().recordPrefetch(commands, *fresh, targets, view);
-                                    return success();
-                                })
-                            .ok());
+            const shared::FrameView view = viewOf(*kept, walk.camera(), fine);
+            const auto prefetch = [&](VkCommandBuffer commands)
+            {
+                renderer().recordPrefetch(commands, *kept, targets, view);
+                renderer().recordPrefetch(commands, *fresh, targets, view);
+                return success();
+            };
+            ASSERT_TRUE(host().run(prefetch).ok());
             continue;
         }
         DrawOptions options = fine;
+        std::vector<gpu::InstanceMove> moves;
+        if (frame % 8 == 0)
+        {
+            walk.step();
+            moves = walk.moves(*kept);
+        }
+        options.moves = moves;
         options.shadow_spheres = walk.spheres();
         fresh->shadows->forget();
         const Picture kept_picture = draw(*kept, walk.camera(), options);
@@ -207,33 +226,41 @@ TEST_F(ShadowCacheTest, keptMapsAreFreshOnesWhilePagesComeAndGo)
 
 TEST_F(ShadowCacheTest, mapsAreDrawnWhereSomethingChanges)
 {
-    TestScene test;
-    const PackView pack = buildScene(test, 20);
-    const auto scene = upload(pack, {.shadows = smallMaps()});
-    shared::Camera camera{.position = {0.1f, 2.1f, 6.1f}, .target = {0.1f, 0.1f, 0.1f}, .z_near = 0.05f};
-    const auto drawnBy = [&](std::span<const gpu::InstanceMove> moves)
+    for (const bool moving_layers : {false, true})
     {
-        DrawOptions options = kDrawn;
-        options.moves = moves;
-        draw(*scene, camera, options);
-        return statisticsOf(*scene).drawn_maps;
-    };
-    EXPECT_EQ(drawnBy({}), 4u); // two splits of the sun, a cone for each spot
-    EXPECT_EQ(drawnBy({}), 0u);
-    // below the first spot and beside the second one
-    const gpu::InstanceMove near_first[] = {*gpu::moveInstance(*scene, 1, scaled(0.3f, {-3.5f, 0.5f, 1}))};
-    drawnBy(near_first);
-    const gpu::InstanceMove a_little[] = {*gpu::moveInstance(*scene, 1, scaled(0.3f, {-3.6f, 0.5f, 1}))};
-    EXPECT_EQ(drawnBy(a_little), 3u);
-    // the eye's step stays in its cell: the splits follow it, the spots' maps are kept
-    camera.position.x += 0.02f;
-    camera.target.x += 0.02f;
-    EXPECT_LE(drawnBy({}), 2u);
-    // another threshold is another cut
-    DrawOptions finer = kDrawn;
-    finer.error_pixels = 0.5f;
-    draw(*scene, camera, finer);
-    EXPECT_EQ(statisticsOf(*scene).drawn_maps, 4u);
+        TestScene test;
+        const PackView pack = buildScene(test, 20);
+        const auto scene = upload(pack, {.shadows = smallMaps(moving_layers)});
+        shared::Camera camera{.position = {0.1f, 2.1f, 6.1f}, .target = {0.1f, 0.1f, 0.1f}, .z_near = 0.05f};
+        const auto drawnBy = [&](DrawOptions options)
+        {
+            draw(*scene, camera, options);
+            return statisticsOf(*scene);
+        };
+        const auto drawnByMove = [&](Float3 place)
+        {
+            const gpu::InstanceMove move = *gpu::moveInstance(*scene, 1, scaled(0.3f, place));
+            DrawOptions options = kDrawn;
+            options.moves = {&move, 1};
+            return drawnBy(options);
+        };
+        EXPECT_EQ(drawnBy(kDrawn).drawn_maps, 4u); // two splits of the sun, a cone for each spot
+        EXPECT_EQ(drawnBy(kDrawn).drawn_maps, 0u);
+        // below the first spot and beside the second one
+        drawnByMove({-3.5f, 0.5f, 1});
+        const gpu::ShadowStatistics moved = drawnByMove({-3.6f, 0.5f, 1});
+        EXPECT_EQ(moved.drawn_maps, moving_layers ? 0u : 3u);
+        EXPECT_EQ(moved.moved_maps, moving_layers ? 3u : 0u);
+        EXPECT_EQ(drawnBy(kDrawn).drawn_maps + drawnBy(kDrawn).moved_maps, 0u);
+        // the eye's step stays in its cell: the splits follow it, the spots' maps are kept
+        camera.position.x += 0.02f;
+        camera.target.x += 0.02f;
+        EXPECT_LE(drawnBy(kDrawn).drawn_maps, 2u);
+        // another threshold is another cut
+        DrawOptions finer = kDrawn;
+        finer.error_pixels = 0.5f;
+        EXPECT_EQ(drawnBy(finer).drawn_maps, 4u);
+    }
 }
 
 } // namespace hearth::test
