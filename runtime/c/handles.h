@@ -38,6 +38,7 @@ struct hearth_scene
     bool to_be_recorded = false;
 
     std::vector<hearth::gpu::InstanceMove> moves; ///< of the frame that is recorded; kept for its memory
+    std::vector<hearth::gpu::ShadowSphere> shadow_spheres; ///< the same
 };
 
 struct hearth_targets

@@ -28,6 +28,7 @@ static_assert(HEARTH_SHOW_MATERIALS == shared::kViewMaterials);
 static_assert(HEARTH_SHOW_ERROR == shared::kViewError);
 static_assert(HEARTH_SHOW_CONES == shared::kViewCones);
 static_assert(HEARTH_SHOW_OVERDRAW == shared::kViewOverdraw);
+static_assert(HEARTH_SHOW_SHADOW_MAPS == shared::kViewShadowMaps);
 
 constexpr bool equal(int c, gpu::ShadedArea area)
 {

@@ -59,6 +59,7 @@ protected:
     std::optional<formats::PackView> view_;
     AlignedBytes bytes_;
     std::optional<Affine3> moved_; ///< instance 0, in drawInCpp
+    gpu::ShadowOptions shadows_;   ///< in drawInCpp
     hearth_pack* pack_ = nullptr;
     c_caller* caller_ = nullptr;
     hearth_renderer* renderer_ = nullptr;
