@@ -157,7 +157,8 @@ HEARTH_FUNCTION Float4 shadowCasterClip(HEARTH_IN(ShadowLight) light, HEARTH_IN(
     float w = shadowW(light, z);
     HEARTH_PRECISE float x = dot3(light.right, point) * map.scale_x;
     HEARTH_PRECISE float y = dot3(light.down, point) * map.scale_y;
-    HEARTH_PRECISE float offset = shadowSlope(light, map, point, normal) * (map.kernel + 0.5f + kRasterMargin);
+    HEARTH_PRECISE float offset =
+        shadowSlope(light, map, point, normal) * (map.kernel + 0.5f + kRasterMargin);
     HEARTH_PRECISE float depth = ((z * light.depth_scale + light.depth_offset) - offset * w) - light.rounding;
     if (light.perspective == 0.0f)
     {

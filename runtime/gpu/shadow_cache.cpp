@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
 namespace hearth::gpu
 {
@@ -98,10 +97,13 @@ shared::FrameView decisionsOf(shared::FrameView casters)
     return casters;
 }
 
+/// Of records without padding: what is the same to the bit decides the same.
 template <typename T>
 bool sameBits(const T& a, const T& b)
 {
-    return std::memcmp(&a, &b, sizeof(T)) == 0;
+    const auto first = std::as_bytes(std::span(&a, 1));
+    const auto second = std::as_bytes(std::span(&b, 1));
+    return std::equal(first.begin(), first.end(), second.begin());
 }
 
 } // namespace

@@ -232,7 +232,7 @@ TEST_F(ShadowCacheTest, mapsAreDrawnWhereSomethingChanges)
         const PackView pack = buildScene(test, 20);
         const auto scene = upload(pack, {.shadows = smallMaps(moving_layers)});
         shared::Camera camera{.position = {0.1f, 2.1f, 6.1f}, .target = {0.1f, 0.1f, 0.1f}, .z_near = 0.05f};
-        const auto drawnBy = [&](DrawOptions options)
+        const auto drawnBy = [&](const DrawOptions& options)
         {
             draw(*scene, camera, options);
             return statisticsOf(*scene);

@@ -49,7 +49,7 @@ protected:
                          const shared::Camera& camera = roomCamera())
     {
         const auto scene = upload(pack, {.shadows = shadows});
-        const Picture picture = draw(*scene, camera, options);
+        Picture picture = draw(*scene, camera, options);
         statistics_ = scene->shadows->statistics();
         return picture;
     }
