@@ -160,7 +160,7 @@ private:
         for (const SceneLight& light : lighting_.lights)
         {
             const Incident incident = light.at(point.position);
-            if (options_.shadows &&
+            if (options_.shadows && light.type != LightType::point &&
                 scene_.occluded({start, incident.to_light, 0, std::min(incident.distance, 1e30)}))
                 continue;
             radiance += incident.irradiance * reflected(coating, view, incident.to_light);
