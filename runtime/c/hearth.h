@@ -391,7 +391,7 @@ typedef struct hearth_move
 
 #define HEARTH_ALL_LIGHTS 0xFFFFFFFFu
 
-/* Where shadows are finer: a map of its own. */
+/* Where shadows are finer, beside the spheres of the pack: a map of its own. */
 typedef struct hearth_shadow_sphere
 {
     float center[3]; /* world */

@@ -39,7 +39,8 @@ struct FrameInput
     shared::FrameView view; ///< from shared::makeFrameView, with the size of the targets
     ShadingView shading;
     std::span<const InstanceMove> moves{}; ///< from this frame on; read while recording
-    /// Of a scene with shadows, where they are finer: all of this frame, read while recording.
+    /// Of a scene with shadows, where they are finer, beside the spheres of its pack: all of this frame, read while
+    /// recording.
     std::span<const ShadowSphere> shadow_spheres{};
     VkQueryPool timestamps = VK_NULL_HANDLE; ///< kTimestampCount queries, reset by the frame; or none
 };

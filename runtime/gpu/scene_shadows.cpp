@@ -62,6 +62,8 @@ Result<std::unique_ptr<SceneShadows>> SceneShadows::create(const Device& device,
     s.lights_without_row_ = countLights(lighting, formats::LightType::directional) +
                             countLights(lighting, formats::LightType::spot) -
                             static_cast<uint32_t>(s.lights_.size());
+    s.spheres_ = shadowSpheresOf(pack);
+    s.pack_sphere_count_ = s.spheres_.size();
     HEARTH_TRY(s.createImage());
     s.layers_.resize(s.layerCount());
     for (uint32_t layer = 0; layer < s.layerCount(); ++layer)
@@ -130,7 +132,9 @@ void SceneShadows::track(std::span<const InstanceMove> moves,
 std::span<const ShadowCache::StaleMap> SceneShadows::planFrame(const shared::FrameView& view,
                                                                std::span<const ShadowSphere> spheres)
 {
-    plan_ = planShadows(lights_, options_, view, spheres);
+    spheres_.resize(pack_sphere_count_);
+    spheres_.insert(spheres_.end(), spheres.begin(), spheres.end());
+    plan_ = planShadows(lights_, options_, view, spheres_);
     const std::span<const ShadowCache::StaleMap> stale = cache_.plan(plan_, view);
     statistics_ = {.maps = plan_.map_count,
                    .dropped_maps = plan_.dropped_maps,

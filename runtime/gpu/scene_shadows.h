@@ -34,6 +34,8 @@ public:
     void track(std::span<const InstanceMove> moves, std::span<const pack::ResidentGroups::Change> groups);
 
     /// Decide the maps of a frame; returns those that it must draw.
+    ///
+    /// spheres  beside those of the pack
     std::span<const ShadowCache::StaleMap> planFrame(const shared::FrameView& view,
                                                      std::span<const ShadowSphere> spheres);
 
@@ -68,6 +70,8 @@ private:
 
     ShadowOptions options_;
     std::vector<CastingLight> lights_;
+    size_t pack_sphere_count_ = 0;
+    std::vector<ShadowSphere> spheres_; ///< of the pack, then of the frame
     uint32_t lights_without_row_ = 0;
     ShadowCache cache_;
     ShadowPlan plan_;

@@ -2,7 +2,6 @@
 #include "runtime/gpu/shadow_plan.h"
 
 #include "formats/assert.h"
-#include "formats/scene.h"
 #include "formats/shared/shadow_cull.h"
 
 #include <algorithm>
@@ -109,6 +108,18 @@ void planSpot(const CastingLight& light, const ShadowOptions& options, std::span
 }
 
 } // namespace
+
+std::vector<ShadowSphere> shadowSpheresOf(const formats::PackView& pack)
+{
+    static_assert(formats::kNone == ShadowSphere::kAllLights);
+    std::vector<ShadowSphere> spheres;
+    for (const formats::ShadowSphereRecord& record : pack.shadowSpheres())
+        spheres.push_back({.center = record.center,
+                           .radius = record.radius,
+                           .light = record.light,
+                           .texels = record.texels});
+    return spheres;
+}
 
 void assignShadowRows(shared::Lighting& lighting)
 {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
+#include "formats/pack_view.h"
 #include "formats/shared/shading.h"
 #include "formats/shared/shadow_fit.h"
 
@@ -20,7 +21,7 @@ struct ShadowOptions
     uint32_t kernel = 1;  ///< texels that the filter reads on each side: 1 is 3 x 3
     float error_bias = 2; ///< BiasLODError, >= 1: by how many times a shadow may be coarser than the picture
 
-    /// Maps of each sun that follow the view, beside the spheres of FrameInput; at most kMaxSplits.
+    /// Maps of each sun that follow the view, beside the spheres of the pack and of FrameInput; at most kMaxSplits.
     uint32_t splits = 4;
     shared::SplitRange split_range{};
 
@@ -52,6 +53,9 @@ struct CastingLight
     shared::ShadowLight projection{};
     float cone_tangent = 0; ///< of a spot; 0: a sun
 };
+
+/// Those that artists placed in the scene.
+std::vector<ShadowSphere> shadowSpheresOf(const formats::PackView& pack);
 
 /// Give the lights that cast shadows their rows: the suns, then the spots, as many as there are.
 void assignShadowRows(shared::Lighting& lighting);

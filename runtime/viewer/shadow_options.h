@@ -22,7 +22,7 @@ struct ShadowSettings
 /// "off", "on", or settings of shadows that are on: "texels=2048,bias=4". errors: usage.
 Status parseShadows(std::string_view text, ShadowSettings& settings);
 
-/// One more sphere: "X,Y,Z,RADIUS", and where it is not for all lights, ",LIGHT". errors: usage.
+/// One more sphere beside those of the pack: "X,Y,Z,RADIUS", and where it is not for all lights, ",LIGHT". errors: usage.
 Status parseShadowSphere(std::string_view text, ShadowSettings& settings);
 
 /// The options for these cameras, at least one, where the scene does not move. Of a camera in the scene the splits begin at a

@@ -174,6 +174,28 @@ TEST_F(ShadowPictureTest, spheresMakeThemFinerWhereTheyAre)
     }
 }
 
+TEST_F(ShadowPictureTest, spheresOfThePackAreThoseOfEveryFrame)
+{
+    TestScene test;
+    const gpu::ShadowSphere sphere{.center = {0, 0.5f, 0}, .radius = 2, .light = 0, .texels = 128};
+    const gpu::ShadowOptions shadows{.max_maps = 2, .texels = 256, .splits = 1};
+    DrawOptions options = kSource;
+    options.shadow_spheres = {&sphere, 1};
+    const PackView plain = buildRocks(test, 12, sun({0.3f, -1, -0.4f}));
+    const Picture given = drawShadowed(plain, shadows, options);
+    const Picture without = drawShadowed(plain, shadows, kSource);
+    test.model().shadow_spheres.push_back({.node = 0,
+                                           .light = sphere.light,
+                                           .center = sphere.center,
+                                           .radius = sphere.radius,
+                                           .texels = sphere.texels,
+                                           .reserved = 0});
+    const Picture placed = drawShadowed(test.build(), shadows, kSource);
+    EXPECT_EQ(statistics_.maps, 2u);
+    EXPECT_EQ(placed.color, given.color);
+    EXPECT_NE(placed.color, without.color);
+}
+
 /// The casters' levels are coarser than those of the picture, and neither shadows the other.
 TEST_F(ShadowPictureTest, coarserCastersShadowNothingThatIsLit)
 {

@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/gpu/shadow_plan.h"
 
-#include "formats/scene.h"
-
 #include <algorithm>
 #include <gtest/gtest.h>
 
