@@ -230,6 +230,13 @@ HEARTH_FUNCTION bool coneFacesAway(HEARTH_IN(InstanceState) state, HEARTH_IN(Clu
     return dot3(to_apex, ray) >= needed;
 }
 
+/// Whether a view of casters is not meant for an instance.
+HEARTH_FUNCTION bool instanceLeftOut(HEARTH_IN(FrameView) view, HEARTH_IN(Instance) instance)
+{
+    uint left_out = (instance.flags & kInstanceMoves) != 0u ? kCullMoving : kCullResting;
+    return (view.flags & left_out) != 0u;
+}
+
 /// The instance pass: where the eye is in object space, and whether anything of the mesh can be seen.
 HEARTH_FUNCTION InstanceState decideInstance(HEARTH_IN(FrameView) view, HEARTH_IN(Instance) instance,
                                              HEARTH_IN(InstanceInverse) inverse, HEARTH_IN(MeshBounds) bounds)
@@ -250,6 +257,8 @@ HEARTH_FUNCTION InstanceState decideInstance(HEARTH_IN(FrameView) view, HEARTH_I
     state.visible = kInstanceVisible;
     if ((view.flags & kCullInstances) != 0u &&
         boxOutsideFrustum(view, instance, bounds.box_min, bounds.box_max))
+        state.visible = kInstanceHidden;
+    if (instanceLeftOut(view, instance))
         state.visible = kInstanceHidden;
     // an empty mesh has an empty box
     if (bounds.box_min.x > bounds.box_max.x)

@@ -217,6 +217,12 @@ HEARTH_CONSTANT uint kCullFrustum = 2;
 HEARTH_CONSTANT uint kCullCone = 4;
 HEARTH_CONSTANT uint kCullOcclusion = 8;
 HEARTH_CONSTANT uint kCullEverything = 15;
+/// Views of casters only: leave out instances that have moved since they were loaded, or those that have not.
+HEARTH_CONSTANT uint kCullMoving = 16;
+HEARTH_CONSTANT uint kCullResting = 32;
+
+/// Of Instance::flags, beside formats::InstanceFlags: the instance has moved since it was loaded.
+HEARTH_CONSTANT uint kInstanceMoves = 0x80000000u;
 
 /// What culling a frame without the occlusion test is one of; with it, two follow each other.
 HEARTH_CONSTANT uint kPhaseWhole = 0;

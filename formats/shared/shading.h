@@ -39,7 +39,7 @@ struct Light
     Float3 direction; ///< unit, the way the light shines
     float range;      ///< metres; 0: unlimited
     Float3 intensity; ///< linear colour times candela or lux, after exposure
-    float reserved;
+    uint shadow_row;  ///< of its projection in the ShadowBlock, or kNoShadow (shadow.h)
     float cone_scale; ///< spot: saturate(dot(direction, from light) * cone_scale + cone_offset)^2
     float cone_offset;
     float reserved1;
@@ -82,6 +82,7 @@ HEARTH_CONSTANT uint kViewMaterials = 6;
 HEARTH_CONSTANT uint kViewError = 7;
 HEARTH_CONSTANT uint kViewCones = 8;
 HEARTH_CONSTANT uint kViewOverdraw = 9;
+HEARTH_CONSTANT uint kViewShadowMaps = 10;
 
 /// What one fragment adds to the overdraw view, linear: brown at first; red is full at 4, green at 8, all at 16.
 HEARTH_CONSTANT Float3 kOverdrawStep = Float3(0.25f, 0.125f, 0.0625f);

@@ -25,7 +25,8 @@ struct ShadowLight
     float rounding;     ///< by how much casters are deeper because depths are rounded
     uint first_map;
     uint map_count; ///< sorted by falling density
-    uint reserved;
+    float
+        eye_shift; ///< how far the eye that its casters' cuts are seen from may lie off the view's, metres (eyeCell)
 };
 
 /// One map of a light: texel = coordinate * scale + offset.
@@ -41,8 +42,30 @@ struct ShadowMap
     uint layer;
 };
 
+/// Lights that cast shadows, and their maps: bounds of the uniform block, whose 3.3 KiB every device can bind.
+HEARTH_CONSTANT uint kMaxShadowLights = 16;
+HEARTH_CONSTANT uint kMaxShadowMaps = 64;
+
+/// `Light::shadow_row` of lights that cast none.
+HEARTH_CONSTANT uint kNoShadow = 0xFFFFFFFFu;
+
+/// All that a frame knows of its shadows (std140).
+struct ShadowBlock
+{
+    ShadowLight lights[kMaxShadowLights]; ///< by Light::shadow_row
+    ShadowMap maps[kMaxShadowMaps];
+    float error_bias; ///< as makeCasterView
+    float layer_size; ///< texels of a layer each way; a map fills its first ones
+    uint reserved0;
+    uint reserved1;
+};
+
 /// Cosine of the angle from which on offsets grow no more, 89.5 degrees: what is lit there is too dark to be seen.
 HEARTH_CONSTANT float kGrazingCosine = 0.0087f;
+
+/// Texels by which a rasteriser may move a vertex, to 1/16 at the coarsest that Vulkan allows, and rasterStep before it:
+/// so much farther than its pixel's centre a surface is met.
+HEARTH_CONSTANT float kRasterMargin = 0.0625f;
 
 /// What a light makes of a point.
 struct ShadowPoint
@@ -126,7 +149,7 @@ HEARTH_FUNCTION float rasterStep(float texel)
 }
 
 /// Clip-space position of a vertex of a caster. It is deeper than the vertex by what its surface rises within the filter:
-/// a tap lies at most kernel + 1/2 texels beside the point that is looked up.
+/// a tap lies at most kernel + 1/2 texels beside the point that is looked up, and what rasterisers round by.
 HEARTH_FUNCTION Float4 shadowCasterClip(HEARTH_IN(ShadowLight) light, HEARTH_IN(ShadowMap) map, Float3 point,
                                         Float3 normal)
 {
@@ -134,7 +157,8 @@ HEARTH_FUNCTION Float4 shadowCasterClip(HEARTH_IN(ShadowLight) light, HEARTH_IN(
     float w = shadowW(light, z);
     HEARTH_PRECISE float x = dot3(light.right, point) * map.scale_x;
     HEARTH_PRECISE float y = dot3(light.down, point) * map.scale_y;
-    HEARTH_PRECISE float offset = shadowSlope(light, map, point, normal) * (map.kernel + 0.5f);
+    HEARTH_PRECISE float offset =
+        shadowSlope(light, map, point, normal) * (map.kernel + 0.5f + kRasterMargin);
     HEARTH_PRECISE float depth = ((z * light.depth_scale + light.depth_offset) - offset * w) - light.rounding;
     if (light.perspective == 0.0f)
     {
@@ -147,19 +171,31 @@ HEARTH_FUNCTION Float4 shadowCasterClip(HEARTH_IN(ShadowLight) light, HEARTH_IN(
     HEARTH_PRECISE float ndc_of_texel = 2.0f / map.size;
     HEARTH_PRECISE float clip_x = (x + map.offset_x * w) * ndc_of_texel - w;
     HEARTH_PRECISE float clip_y = (y + map.offset_y * w) * ndc_of_texel - w;
-    return Float4(clip_x, clip_y, max(depth, 0.0f), w);
+    // what the offset brings behind the end of the scene is clipped, and has nothing behind it: held back there, a vertex
+    // would lift all of its triangle
+    return Float4(clip_x, clip_y, depth, w);
+}
+
+/// How far a surface may lie off the true one at a distance from the eye, metres, where errors count `error_bias` times less.
+HEARTH_FUNCTION float cutError(HEARTH_IN(FrameView) view, float distance, float error_bias)
+{
+    HEARTH_PRECISE float pixels = max(view.threshold, 0.0f) * error_bias;
+    HEARTH_PRECISE float error =
+        pixels * max(distance, view.z_near) / (view.lod_scale * lodFactor(view, distance));
+    return error;
 }
 
 /// How far a point that is seen is moved along its normal before it is looked up, metres: the surface in the picture may
 /// lie off the true one by what the threshold allows there, that of the casters by `error_bias` times as much
-/// (makeCasterView). Else the coarser one would shadow the finer one.
+/// (makeCasterView), seen from an eye that may stand `eye_shift` metres farther away. Else the coarser one would shadow the
+/// finer one.
 ///
 /// distance   from the eye to the point
-HEARTH_FUNCTION float shadowCutOffset(HEARTH_IN(FrameView) view, float distance, float error_bias)
+HEARTH_FUNCTION float shadowCutOffset(HEARTH_IN(FrameView) view, float distance, float error_bias,
+                                      float eye_shift)
 {
-    HEARTH_PRECISE float pixels = max(view.threshold, 0.0f) * (1.0f + error_bias);
     HEARTH_PRECISE float offset =
-        pixels * max(distance, view.z_near) / (view.lod_scale * lodFactor(view, distance));
+        cutError(view, distance, 1.0f) + cutError(view, distance + eye_shift, error_bias);
     return offset;
 }
 
@@ -169,6 +205,7 @@ HEARTH_SHARED_END
 // sizes as std430 and std140 lay them out
 static_assert(sizeof(hearth::shared::ShadowLight) == 80);
 static_assert(sizeof(hearth::shared::ShadowMap) == 32);
+static_assert(sizeof(hearth::shared::ShadowBlock) == 16 * 80 + 64 * 32 + 16);
 #endif
 
 #endif

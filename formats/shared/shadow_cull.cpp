@@ -4,6 +4,9 @@
 #include "formats/assert.h"
 #include "formats/double3.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace hearth::shared
 {
 
@@ -46,6 +49,21 @@ FrameView makeCasterView(const FrameView& view, const ShadowLight& light, const 
     casters.threshold = view.threshold * error_bias;
     casters.flags = view.flags & (kCullInstances | kCullFrustum);
     return casters;
+}
+
+EyeCell eyeCell(const FrameView& view, float texel_m, float error_bias)
+{
+    HEARTH_ASSERT(texel_m > 0 && error_bias >= 1);
+    // beyond a kilometre cells gain nothing, below a millimetre neither
+    constexpr float kSmallestExponent = -10;
+    constexpr float kLargestExponent = 10;
+    constexpr float kHalfDiagonal = 0.8660255f; // of a cube of side 1
+    const float error_a_metre = std::max(view.threshold, 0.0f) * error_bias / view.lod_scale;
+    const float allowed_shift = 0.5f * texel_m / std::max(error_a_metre, 1e-12f);
+    const float exponent = std::floor(std::log2(allowed_shift / kHalfDiagonal));
+    const float side = std::exp2(std::clamp(exponent, kSmallestExponent, kLargestExponent));
+    const auto middle = [&](float along) { return (std::floor(along / side) + 0.5f) * side; };
+    return {{middle(view.eye.x), middle(view.eye.y), middle(view.eye.z)}, side * kHalfDiagonal};
 }
 
 } // namespace hearth::shared

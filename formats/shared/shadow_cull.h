@@ -18,4 +18,19 @@ namespace hearth::shared
 FrameView makeCasterView(const FrameView& view, const ShadowLight& light, const ShadowMap& map,
                          float error_bias);
 
+/// Where the eye of the casters' views stands in place of the picture's: in the middle of a cell of a grid, so that maps can
+/// be kept while the eye moves within it.
+struct EyeCell
+{
+    Float3 eye;      ///< world
+    float shift = 0; ///< farthest that the cell's middle is from anything in it, metres
+};
+
+/// The largest cells, with a power of two as their side, that make the casters' error grow by no more than half a texel: what
+/// is drawn coarser for it is not seen in the map.
+///
+/// texel_m         metres that the finest texel covers; above 0
+/// error_bias      as makeCasterView
+EyeCell eyeCell(const FrameView& view, float texel_m, float error_bias);
+
 } // namespace hearth::shared

@@ -214,14 +214,15 @@ const ShadowMap* mapHolding(const ShadowLight& light, std::span<const ShadowMap>
     return found == maps.end() ? nullptr : &*found;
 }
 
-void splitSpheres(const Camera& camera, float aspect, const SplitRange& range, std::span<Sphere> spheres)
+void splitSpheres(const FrameView& view, const SplitRange& range, std::span<Sphere> spheres)
 {
     HEARTH_ASSERT(range.near > 0 && range.far > range.near && range.blend >= 0 && range.blend <= 1);
-    const double up_tangent = std::tan(0.5 * double{camera.y_fov_rad});
-    const double side_tangent = up_tangent * double{aspect};
+    // from the size and not from the clip rows, whose lengths are rounded otherwise with every direction
+    const double up_tangent = 0.5 * double{view.height} / double{view.lod_scale};
+    const double side_tangent = 0.5 * double{view.width} / double{view.lod_scale};
     const double corner_tangent2 = up_tangent * up_tangent + side_tangent * side_tangent;
-    const Double3 eye = widen(camera.position);
-    const Double3 forward = widen(normalizeOr(camera.target - camera.position, {0, 0, -1}));
+    const Double3 eye = widen(view.eye);
+    const Double3 forward = widen(row3(view.clip_w));
     const double near = double{range.near};
     const double far = double{range.far};
     const double blend = double{range.blend};

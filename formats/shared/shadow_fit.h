@@ -71,8 +71,8 @@ struct SplitRange
 /// depend on the lens alone, neither on place nor direction. F. Zhang et al., "Parallel-split shadow maps for
 /// large-scale virtual environments", 2006.
 ///
-/// aspect     width over height
+/// view       its eye, direction and lens are looked at
 /// spheres    filled; as many slices
-void splitSpheres(const Camera& camera, float aspect, const SplitRange& range, std::span<Sphere> spheres);
+void splitSpheres(const FrameView& view, const SplitRange& range, std::span<Sphere> spheres);
 
 } // namespace hearth::shared

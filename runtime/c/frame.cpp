@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "runtime/c/handles.h"
+#include "runtime/c/shadows.h"
 
 #include "formats/shared/lod_curve.h"
 #include "runtime/gpu/pipelines.h"
@@ -45,14 +45,16 @@ Status check(const hearth_renderer& renderer, const hearth_frame& frame)
         return usage("depth_scale is not above 0");
     if ((frame.cull_flags & ~uint32_t{HEARTH_CULL_EVERYTHING}) != 0)
         return usage("cull_flags has bits that this version does not know");
-    if (frame.shown > HEARTH_SHOW_OVERDRAW || frame.shaded_area > HEARTH_SHADE_TILES || frame.reserved != 0)
-        return usage("shown, shaded_area or reserved has a value that this version does not know");
+    if (frame.shown > HEARTH_SHOW_SHADOW_MAPS || frame.shaded_area > HEARTH_SHADE_TILES)
+        return usage("shown or shaded_area has a value that this version does not know");
     if (frame.shown == HEARTH_SHOW_OVERDRAW && !renderer.shows_overdraw)
         return usage("HEARTH_SHOW_OVERDRAW needs a renderer with HEARTH_FEATURE_OVERDRAW");
     if (frame.lod_knot_count > 0 && frame.lod_knots == nullptr)
         return usage("lod_knots is NULL");
     if (frame.move_count > 0 && frame.moves == nullptr)
         return usage("moves is NULL");
+    if (frame.shadow_sphere_count > 0 && frame.shadow_spheres == nullptr)
+        return usage("shadow_spheres is NULL");
     return success();
 }
 
@@ -65,7 +67,10 @@ Status checkCall(const hearth_scene& scene, const hearth_targets* targets, VkCom
     if (targets->renderer != scene.renderer)
         return usage("scene and targets are of different renderers");
     HEARTH_TRY(checkStruct("frame", frame));
-    return check(*scene.renderer, *frame);
+    HEARTH_TRY(check(*scene.renderer, *frame));
+    if (frame->shown == HEARTH_SHOW_SHADOW_MAPS && scene.scene->shadows == nullptr)
+        return usage("HEARTH_SHOW_SHADOW_MAPS needs a scene with shadows");
+    return success();
 }
 
 /// That a frame of the scene may begin.
@@ -117,7 +122,7 @@ Status makeMoves(hearth_scene& scene, const hearth_frame& frame)
     return success();
 }
 
-/// The moves are those of the frame's first part.
+/// The moves and the shadow spheres are those of the frame's first part.
 Result<gpu::FrameInput> makeInput(const hearth_scene& scene, const gpu::FrameTargets& targets,
                                   const hearth_frame& frame)
 {
@@ -127,6 +132,7 @@ Result<gpu::FrameInput> makeInput(const hearth_scene& scene, const gpu::FrameTar
                                        .depth_scale = frame.depth_scale,
                                        .area = static_cast<gpu::ShadedArea>(frame.shaded_area)},
                            .moves = scene.moves,
+                           .shadow_spheres = scene.shadow_spheres,
                            .timestamps = frame.timestamps};
 }
 
@@ -138,6 +144,7 @@ Status beginFrame(hearth_scene& scene, const hearth_targets* targets, VkCommandB
     HEARTH_TRY(checkCall(scene, targets, commands, frame));
     HEARTH_TRY(checkBegun(scene));
     HEARTH_TRY(makeMoves(scene, *frame));
+    HEARTH_TRY(makeShadowSpheres(scene, *frame));
     HEARTH_ASSIGN_OR_RETURN(const gpu::FrameInput input, makeInput(scene, targets->targets, *frame));
     scene.to_be_recorded = false;
     record(*scene.renderer->renderer, input);

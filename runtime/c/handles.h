@@ -43,6 +43,7 @@ struct hearth_scene
     const hearth_targets* parts_targets = nullptr;
 
     std::vector<hearth::gpu::InstanceMove> moves; ///< of the frame that is recorded; kept for its memory
+    std::vector<hearth::gpu::ShadowSphere> shadow_spheres; ///< the same
 };
 
 struct hearth_targets

@@ -177,6 +177,25 @@ typedef void (*hearth_read_page)(void* user, uint32_t page, void* destination, s
 /* The read has ended; `ok` is 0 where it failed. The destination is not touched afterwards. From any thread. */
 HEARTH_API void hearth_read_done(hearth_read read, int ok);
 
+/* Shadow maps of suns and spots. See README.md of runtime/gpu, "Shadows". */
+typedef struct hearth_shadow_options
+{
+    uint32_t max_maps; /* of a frame, up to 64. 0: no shadows, and the rest is not looked at */
+    uint32_t texels;   /* of a map each way, 4 bytes each: a power of two from 4 * (kernel + 1) to 8192 */
+    uint32_t kernel;   /* texels that the filter reads on each side, up to 3: 1 is 3 x 3 */
+    uint32_t splits;   /* maps of each sun that follow the view, up to 8 */
+    uint32_t moving_layers;      /* 1: what has moved is drawn over what rests, in as many maps more; or 0 */
+    float error_bias;            /* by how many times a shadow may be coarser than the picture, 1 or more */
+    float split_near, split_far; /* metres from the eye, where the splits begin and end; 0 < near < far */
+    float split_blend;           /* 0: splits of equal length, 1: each so many times the one before */
+    float spot_near;             /* metres, above 0: what is nearer to a spot light casts no shadow */
+} hearth_shadow_options;
+
+#define HEARTH_SHADOW_OPTIONS_INIT                                                                           \
+    {                                                                                                        \
+        0, 1024, 1, 4, 1, 2, 0.1f, 100, 0.8f, 0.05f                                                          \
+    }
+
 typedef struct hearth_scene_options
 {
     uint32_t struct_size;
@@ -191,11 +210,12 @@ typedef struct hearth_scene_options
         max_loads; /* reads at once, 1 to 1024; up to 128 KiB of staging memory each, beside the budget */
     uint32_t
         frames_in_flight; /* that are recorded while earlier ones run, 1 to 16; more are not listened to */
+    hearth_shadow_options shadows;
 } hearth_scene_options;
 
 #define HEARTH_SCENE_OPTIONS_INIT                                                                            \
     {                                                                                                        \
-        sizeof(hearth_scene_options), 4194304, 0, NULL, NULL, 32, 3                                          \
+        sizeof(hearth_scene_options), 4194304, 0, NULL, NULL, 32, 3, HEARTH_SHADOW_OPTIONS_INIT              \
     }
 
 /* Records the copies of a scene. Where it fails, `commands` is to be thrown away. The pack outlives the scene.
@@ -263,6 +283,27 @@ HEARTH_API hearth_result hearth_scene_stream(const hearth_scene* scene, hearth_s
 
 /* Pages that failed may be tried again. errors: USAGE, also where the scene has no budget. */
 HEARTH_API hearth_result hearth_scene_retry_failed(hearth_scene* scene);
+
+/* ---- Shadows ---- */
+
+/* Of the last frame that was recorded. */
+typedef struct hearth_shadow_counters
+{
+    uint32_t struct_size;
+    uint32_t maps;              /* in use */
+    uint32_t drawn_maps;        /* of these, drawn by the frame; the others were kept */
+    uint32_t moved_maps;        /* of these, in which the frame drew what moves */
+    uint32_t dropped_maps;      /* beyond max_maps */
+    uint32_t unshadowed_lights; /* suns and spots without a map */
+} hearth_shadow_counters;
+
+#define HEARTH_SHADOW_COUNTERS_INIT                                                                          \
+    {                                                                                                        \
+        sizeof(hearth_shadow_counters), 0, 0, 0, 0, 0                                                        \
+    }
+
+/* errors: USAGE, also where the scene has no shadows. */
+HEARTH_API hearth_result hearth_scene_shadows(const hearth_scene* scene, hearth_shadow_counters* counters);
 
 /* ---- Targets: the images of a frame. Each camera has its own: they remember what it saw. ---- */
 
@@ -338,7 +379,8 @@ enum
     HEARTH_SHOW_MATERIALS = 6,
     HEARTH_SHOW_ERROR = 7,
     HEARTH_SHOW_CONES = 8,
-    HEARTH_SHOW_OVERDRAW = 9 /* needs HEARTH_FEATURE_OVERDRAW */
+    HEARTH_SHOW_OVERDRAW = 9,    /* needs HEARTH_FEATURE_OVERDRAW */
+    HEARTH_SHOW_SHADOW_MAPS = 10 /* which is looked up; needs a scene with shadows */
 };
 
 /* Where each material is shaded; the picture is the same. */
@@ -353,15 +395,16 @@ enum
 enum
 {
     HEARTH_TIMESTAMP_BEGIN = 0,
-    HEARTH_TIMESTAMP_CULL = 1,
-    HEARTH_TIMESTAMP_EARLY_VISIBILITY = 2, /* it and the two after it: no time without occlusion culling */
-    HEARTH_TIMESTAMP_PYRAMID = 3,
-    HEARTH_TIMESTAMP_LATE_CULL = 4,
-    HEARTH_TIMESTAMP_VISIBILITY = 5,
-    HEARTH_TIMESTAMP_MATERIAL_TILES = 6,
-    HEARTH_TIMESTAMP_MATERIAL_DEPTH = 7,
-    HEARTH_TIMESTAMP_SHADING = 8,
-    HEARTH_TIMESTAMP_COUNT = 9
+    HEARTH_TIMESTAMP_SHADOWS = 1, /* no time without shadow maps to draw */
+    HEARTH_TIMESTAMP_CULL = 2,
+    HEARTH_TIMESTAMP_EARLY_VISIBILITY = 3, /* it and the two after it: no time without occlusion culling */
+    HEARTH_TIMESTAMP_PYRAMID = 4,
+    HEARTH_TIMESTAMP_LATE_CULL = 5,
+    HEARTH_TIMESTAMP_VISIBILITY = 6,
+    HEARTH_TIMESTAMP_MATERIAL_TILES = 7,
+    HEARTH_TIMESTAMP_MATERIAL_DEPTH = 8,
+    HEARTH_TIMESTAMP_SHADING = 9,
+    HEARTH_TIMESTAMP_COUNT = 10
 };
 
 /* A perspective camera. The far plane is infinite, depth = z_near / distance along the view. */
@@ -389,6 +432,18 @@ typedef struct hearth_move
     float world_from_object[3][4]; /* rows; finite; mirrors where the transform that was loaded did */
 } hearth_move;
 
+#define HEARTH_ALL_LIGHTS 0xFFFFFFFFu
+
+/* Where shadows are finer, beside the spheres of the pack: a map of its own. */
+typedef struct hearth_shadow_sphere
+{
+    float center[3]; /* world */
+    float radius;    /* metres, above 0 */
+    uint32_t light;  /* of the pack, or HEARTH_ALL_LIGHTS */
+    uint32_t
+        texels; /* of its map each way, rounded down to a power of two; 0: hearth_shadow_options.texels, the most */
+} hearth_shadow_sphere;
+
 typedef struct hearth_frame
 {
     uint32_t struct_size;
@@ -398,18 +453,19 @@ typedef struct hearth_frame
     const hearth_lod_knot* lod_knots; /* read while recording */
     uint32_t lod_knot_count;          /* 0 to 8; 0: errors count alike everywhere */
     uint32_t move_count;
-    const hearth_move* moves; /* read while recording; an instance at most once */
-    uint32_t shown;           /* HEARTH_SHOW_* */
-    float depth_scale;        /* metres that HEARTH_SHOW_DEPTH shows as middle grey, above 0 */
-    uint32_t shaded_area;     /* HEARTH_SHADE_* */
-    uint32_t reserved;        /* 0 */
+    const hearth_move* moves;     /* read while recording; an instance at most once */
+    uint32_t shown;               /* HEARTH_SHOW_* */
+    float depth_scale;            /* metres that HEARTH_SHOW_DEPTH shows as middle grey, above 0 */
+    uint32_t shaded_area;         /* HEARTH_SHADE_* */
+    uint32_t shadow_sphere_count; /* of a scene with shadows; else they are not looked at */
+    const hearth_shadow_sphere* shadow_spheres; /* all of this frame; read while recording */
     VkQueryPool timestamps; /* of HEARTH_TIMESTAMP_COUNT timestamps, reset by the frame; or VK_NULL_HANDLE */
 } hearth_frame;
 
 #define HEARTH_FRAME_INIT                                                                                    \
     {                                                                                                        \
         sizeof(hearth_frame), HEARTH_CULL_EVERYTHING, {{0, 0, 0}, {0, 0, -1}, {0, 1, 0}, 0.8f, 0.01f}, 1,    \
-            NULL, 0, 0, NULL, HEARTH_SHOW_FINAL, 1, HEARTH_SHADE_AUTOMATIC, 0, VK_NULL_HANDLE                \
+            NULL, 0, 0, NULL, HEARTH_SHOW_FINAL, 1, HEARTH_SHADE_AUTOMATIC, 0, NULL, VK_NULL_HANDLE          \
     }
 
 /* Records culling and drawing, outside a render pass. Clobbers compute and graphics state. Frames of a scene, and frames

@@ -164,6 +164,10 @@ public:
     {
         return hearth_scene_stream(get(), &counters);
     }
+    [[nodiscard]] hearth_result shadows(hearth_shadow_counters& counters) const
+    {
+        return hearth_scene_shadows(get(), &counters);
+    }
     [[nodiscard]] hearth_result retryFailed() { return hearth_scene_retry_failed(get()); }
     [[nodiscard]] hearth_result record(Targets& targets, VkCommandBuffer commands, const hearth_frame& frame)
     {

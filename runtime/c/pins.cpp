@@ -28,6 +28,7 @@ static_assert(HEARTH_SHOW_MATERIALS == shared::kViewMaterials);
 static_assert(HEARTH_SHOW_ERROR == shared::kViewError);
 static_assert(HEARTH_SHOW_CONES == shared::kViewCones);
 static_assert(HEARTH_SHOW_OVERDRAW == shared::kViewOverdraw);
+static_assert(HEARTH_SHOW_SHADOW_MAPS == shared::kViewShadowMaps);
 
 constexpr bool equal(int c, gpu::ShadedArea area)
 {
@@ -42,6 +43,7 @@ constexpr bool equal(int c, gpu::FrameTimestamp timestamp)
     return c == static_cast<int>(timestamp);
 }
 static_assert(equal(HEARTH_TIMESTAMP_BEGIN, gpu::kTimestampBegin));
+static_assert(equal(HEARTH_TIMESTAMP_SHADOWS, gpu::kTimestampShadows));
 static_assert(equal(HEARTH_TIMESTAMP_CULL, gpu::kTimestampCull));
 static_assert(equal(HEARTH_TIMESTAMP_EARLY_VISIBILITY, gpu::kTimestampEarlyVisibility));
 static_assert(equal(HEARTH_TIMESTAMP_PYRAMID, gpu::kTimestampPyramid));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "runtime/c/handles.h"
+#include "runtime/c/shadows.h"
+#include "runtime/gpu/scene_shadows.h"
 
 #include <array>
 #include <bit>
@@ -47,7 +48,7 @@ Status check(const hearth_scene_options* options)
     return success();
 }
 
-gpu::SceneOptions toOptions(const hearth_scene_options& options)
+Result<gpu::SceneOptions> toOptions(const hearth_scene_options& options)
 {
     gpu::SceneOptions result{.max_visible_clusters = options.max_visible_clusters,
                              .geometry_budget = options.geometry_budget};
@@ -57,6 +58,7 @@ gpu::SceneOptions toOptions(const hearth_scene_options& options)
                          { read(user, page, destination.data(), destination.size(), toC(done)); },
                          .max_loads = options.max_loads,
                          .frames_in_flight = options.frames_in_flight};
+    HEARTH_ASSIGN_OR_RETURN(result.shadows, shadowOptions(options.shadows));
     return result;
 }
 
@@ -83,7 +85,8 @@ Status checkSerials(const hearth_scene& scene, uint64_t serial, uint64_t complet
 
 uint64_t allocatedBytes(const gpu::Scene& scene)
 {
-    return scene.arena.allocatedBytes() + (scene.stream == nullptr ? 0 : scene.stream->allocatedBytes());
+    return scene.arena.allocatedBytes() + (scene.stream == nullptr ? 0 : scene.stream->allocatedBytes()) +
+           (scene.shadows == nullptr ? 0 : scene.shadows->allocatedBytes());
 }
 
 } // namespace
@@ -104,12 +107,12 @@ hearth_result hearth_scene_upload(hearth_renderer* renderer, hearth_pack* pack, 
                     if (pack == nullptr || commands == VK_NULL_HANDLE || scene == nullptr)
                         return usage("pack, commands or scene is NULL");
                     HEARTH_TRY(check(options));
+                    HEARTH_ASSIGN_OR_RETURN(const gpu::SceneOptions scene_options, toOptions(*options));
                     auto made = std::make_unique<hearth_scene>();
                     made->renderer = renderer;
                     made->pack = pack;
                     HEARTH_ASSIGN_OR_RETURN(
-                        made->scene,
-                        renderer->renderer->upload(pack->pack.view(), commands, toOptions(*options)));
+                        made->scene, renderer->renderer->upload(pack->pack.view(), commands, scene_options));
                     ++renderer->child_count;
                     ++pack->scene_count;
                     *scene = made.release();

@@ -10,27 +10,25 @@ namespace hearth::gpu
 Result<BinPass> BinPass::createVisibility(const Device& device, const DrawLayouts& layouts,
                                           VkRenderPass render_pass)
 {
+    const GraphicsDescription opaque{
+        .vertex = shaders::visibility_vert,
+        .fragment = shaders::visibility_frag,
+        .layout = layouts.visibility.get(),
+        .render_pass = render_pass,
+        .subpass = kSubpassVisibility,
+        .depth_compare = VK_COMPARE_OP_GREATER, // reversed: 1 at the near plane, 0 infinitely far away
+        .depth_write = true,
+        .color = true};
     BinPass pass;
-    HEARTH_TRY(pass.createPipelines(
-        device,
-        {.vertex = shaders::visibility_vert,
-         .fragment = shaders::visibility_frag,
-         .layout = layouts.visibility.get(),
-         .render_pass = render_pass,
-         .subpass = kSubpassVisibility,
-         .depth_compare = VK_COMPARE_OP_GREATER, // reversed: 1 at the near plane, 0 infinitely far away
-         .depth_write = true,
-         .color = true},
-        shaders::visibility_masked_frag));
+    HEARTH_TRY(pass.createPipelines(device, opaque,
+                                    {shaders::visibility_masked_vert, shaders::visibility_masked_frag}));
     return pass;
 }
 
 Result<BinPass> BinPass::createOverdraw(const Device& device, const DrawLayouts& layouts,
                                         VkRenderPass render_pass)
 {
-    BinPass pass;
-    HEARTH_TRY(pass.createPipelines(device,
-                                    {.vertex = shaders::visibility_vert,
+    const GraphicsDescription opaque{.vertex = shaders::visibility_vert,
                                      .fragment = shaders::overdraw_frag,
                                      .layout = layouts.visibility.get(),
                                      .render_pass = render_pass,
@@ -38,36 +36,57 @@ Result<BinPass> BinPass::createOverdraw(const Device& device, const DrawLayouts&
                                      .depth_compare = VK_COMPARE_OP_ALWAYS,
                                      .depth_write = false,
                                      .color = true,
-                                     .add = true},
-                                    shaders::overdraw_masked_frag));
+                                     .add = true};
+    BinPass pass;
+    HEARTH_TRY(pass.createPipelines(device, opaque,
+                                    {shaders::visibility_masked_vert, shaders::overdraw_masked_frag}));
     return pass;
 }
 
-Status BinPass::createPipelines(const Device& device, GraphicsDescription opaque,
-                                std::span<const uint32_t> alpha_tested_fragment)
+/// What faces away from the light casts as well: a surface without thickness has no other side that would.
+Result<BinPass> BinPass::createCasters(const Device& device, const DrawLayouts& layouts,
+                                       VkRenderPass render_pass)
+{
+    const GraphicsDescription opaque{.vertex = shaders::caster_vert,
+                                     .fragment = shaders::caster_frag,
+                                     .layout = layouts.visibility.get(),
+                                     .render_pass = render_pass,
+                                     .subpass = 0,
+                                     .depth_compare = VK_COMPARE_OP_GREATER, // reversed, as in the picture
+                                     .depth_write = true,
+                                     .color = false};
+    BinPass pass;
+    pass.casters_ = true;
+    HEARTH_TRY(
+        pass.createPipelines(device, opaque, {shaders::caster_masked_vert, shaders::caster_masked_frag}));
+    return pass;
+}
+
+Status BinPass::createPipelines(const Device& device, GraphicsDescription opaque, const Stages& alpha_tested)
 {
     for (const size_t slices : {size_t{0}, size_t{1}})
         for (const Facing facing : {Facing::culled, Facing::mirrored, Facing::doubleSided})
         {
+            if (casters_ && facing != Facing::doubleSided)
+                continue;
             const uint32_t used_slices = slices == 0 ? 1 : shared::kPoolSlices;
             opaque.constants = {&used_slices, 1};
             opaque.cull =
                 VkCullModeFlags(facing == Facing::doubleSided ? VK_CULL_MODE_NONE : VK_CULL_MODE_BACK_BIT);
             opaque.front_face =
                 facing == Facing::mirrored ? VK_FRONT_FACE_CLOCKWISE : VK_FRONT_FACE_COUNTER_CLOCKWISE;
-            GraphicsDescription alpha_tested = opaque;
-            alpha_tested.vertex = shaders::visibility_masked_vert;
-            alpha_tested.fragment = alpha_tested_fragment;
+            GraphicsDescription tested = opaque;
+            tested.vertex = alpha_tested.vertex;
+            tested.fragment = alpha_tested.fragment;
             const auto index = static_cast<size_t>(facing);
             HEARTH_ASSIGN_OR_RETURN(opaque_[slices][index], createGraphicsPipeline(device, opaque));
-            HEARTH_ASSIGN_OR_RETURN(alpha_tested_[slices][index],
-                                    createGraphicsPipeline(device, alpha_tested));
+            HEARTH_ASSIGN_OR_RETURN(alpha_tested_[slices][index], createGraphicsPipeline(device, tested));
         }
     return success();
 }
 
 void BinPass::record(const Device& device, VkCommandBuffer commands, const DrawLayouts& layouts,
-                     const Scene& scene, uint32_t phase) const
+                     const Scene& scene, uint32_t phase, DrawPush push) const
 {
     const VkPipelineLayout layout = layouts.visibility.get();
     device.vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout, 0, 1,
@@ -79,13 +98,16 @@ void BinPass::record(const Device& device, VkCommandBuffer commands, const DrawL
     for (uint32_t i = 0; i < bin_count; ++i)
     {
         const SceneBin& bin = scene.bins[i];
+        if (casters_ && bin.unlit)
+            continue;
         const Pipelines& pipelines = (bin.alpha_tested ? alpha_tested_ : opaque_)[slices];
+        const Facing facing = casters_ ? Facing::doubleSided : bin.facing;
         device.vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS,
-                                    pipelines[static_cast<size_t>(bin.facing)].get());
+                                    pipelines[static_cast<size_t>(facing)].get());
         if (bin.alpha_tested)
             device.vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout, 1, 1,
                                               &scene.materials[bin.material_row].set, 0, nullptr);
-        const DrawPush push{.bin = phase == shared::kPhaseLate ? bin_count + i : i};
+        push.bin = phase == shared::kPhaseLate ? bin_count + i : i;
         device.vk.vkCmdPushConstants(commands, layout, kDrawPushStages, 0, sizeof(push), &push);
         device.vk.vkCmdDrawIndirect(commands, scene.buffers.bin_draws.handle.get(),
                                     push.bin * sizeof(shared::BinDraw), 1, sizeof(shared::BinDraw));

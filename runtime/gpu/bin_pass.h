@@ -1,5 +1,6 @@
-// Draws the visible clusters, one indirect draw a bin: into the visibility buffer in the first subpass of the frame; or,
-// for the overdraw view, once more in the last one, where every fragment adds to the picture.
+// Draws the visible clusters, one indirect draw a bin: into the visibility buffer in the first subpass of the frame; for
+// the overdraw view, once more in the last one, where every fragment adds to the picture; or, where they are the casters
+// of a shadow map, into that.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -16,17 +17,25 @@ public:
     static Result<BinPass> createOverdraw(const Device& device, const DrawLayouts& layouts,
                                           VkRenderPass render_pass);
 
+    static Result<BinPass> createCasters(const Device& device, const DrawLayouts& layouts,
+                                         VkRenderPass render_pass);
+
     /// Inside the subpass, with viewport and scissor set. Clobbers the graphics state.
     /// phase  whose clusters are drawn
+    /// push   the bin is set for each draw
     void record(const Device& device, VkCommandBuffer commands, const DrawLayouts& layouts,
-                const Scene& scene, uint32_t phase) const;
+                const Scene& scene, uint32_t phase, DrawPush push = {}) const;
 
 private:
     /// For each Facing.
     using Pipelines = UniquePipeline[3];
-    Status createPipelines(const Device& device, GraphicsDescription opaque,
-                           std::span<const uint32_t> alpha_tested_fragment);
+    struct Stages
+    {
+        std::span<const uint32_t> vertex, fragment;
+    };
+    Status createPipelines(const Device& device, GraphicsDescription opaque, const Stages& alpha_tested);
 
+    bool casters_ = false; ///< unlit bins are not drawn, all others as Facing::doubleSided
     // [0] for scenes whose geometry lies in one slice of the pool, [1] for all others
     Pipelines opaque_[2];
     Pipelines alpha_tested_[2];

@@ -25,6 +25,10 @@ public:
                          const FrameTargets& targets, const shared::FrameView& view,
                          std::span<const InstanceMove> moves) const;
 
+    /// The same frame from elsewhere: other constants, and cleared counters. After recordConstants.
+    void recordView(const Device& device, VkCommandBuffer commands, const Scene& scene,
+                    const FrameTargets& targets, const shared::FrameView& view) const;
+
     /// kPhaseWhole; or kPhaseEarly, and when its clusters are drawn and the pyramid is made, kPhaseLate, which adds
     /// draws and adds to the list. Outside a render pass; what it writes is visible to indirect draws, vertex and
     /// fragment shaders, and transfers that follow. Clobbers the compute state.

@@ -25,6 +25,7 @@
     X(vkCmdClearAttachments)                                                                                 \
     X(vkCmdCopyBuffer)                                                                                       \
     X(vkCmdCopyBufferToImage)                                                                                \
+    X(vkCmdCopyImage)                                                                                        \
     X(vkCmdDispatch)                                                                                         \
     X(vkCmdDraw)                                                                                             \
     X(vkCmdDrawIndirect)                                                                                     \

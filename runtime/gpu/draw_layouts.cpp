@@ -12,6 +12,8 @@ Result<DrawLayouts> DrawLayouts::create(const Device& device)
     std::vector<SetBinding> scene(kSceneBindingCount, {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, kBoth});
     scene[kSceneFrame] = {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, kBoth};
     scene[kSceneLighting].stages = VK_SHADER_STAGE_FRAGMENT_BIT;
+    scene[kSceneShadows].type = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
+    scene[kSceneShadowMaps] = {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_SHADER_STAGE_FRAGMENT_BIT};
 
     std::vector<SetBinding> material(
         1 + shared::kTextureCount, {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_SHADER_STAGE_FRAGMENT_BIT});

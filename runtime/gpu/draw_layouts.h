@@ -18,7 +18,9 @@ enum SceneBinding : uint32_t
     kSceneDraws = 3,
     kScenePool = 4, ///< and the three after it
     kSceneLighting = 8,
-    kSceneBindingCount = 9,
+    kSceneShadows = 9, ///< of scenes with shadows, as the next one
+    kSceneShadowMaps = 10,
+    kSceneBindingCount = 11,
 };
 
 /// Bindings of set 2 of the picture's pipelines.
@@ -54,16 +56,18 @@ enum OcclusionBinding : uint32_t
     kOcclusionDepth = 2,
 };
 
-/// Push constants of all drawing pipelines; the visibility pass reads only the bin.
+/// Push constants of all drawing pipelines; the visibility pass reads only the bin, and so do casters but for the last two.
 struct DrawPush
 {
     union
     {
-        float depth;  ///< picture: material number / 65535
-        uint32_t bin; ///< visibility pass
+        float depth = 0; ///< picture: material number / 65535
+        uint32_t bin;    ///< visibility pass
     };
     uint32_t shown_view = 0;
     float depth_scale = 1;
+    uint32_t light_row = 0; ///< casters: of the ShadowBlock
+    uint32_t map_index = 0;
 };
 
 inline constexpr VkShaderStageFlags kDrawPushStages =

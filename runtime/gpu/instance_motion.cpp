@@ -39,6 +39,7 @@ Result<InstanceMove> moveInstance(const Scene& scene, uint32_t instance, const A
         return fail("its new transform mirrors, the one that was loaded did not, or the other way round");
     record.world_from_object = world_from_object;
     record.scale_max = scaleBound(world_from_object);
+    record.flags |= shared::kInstanceMoves;
     InstanceMove move{.instance = instance, .record = {}, .inverse = shared::makeInstanceInverse(record)};
     static_assert(sizeof(move.record) == sizeof(record));
     std::memcpy(static_cast<void*>(&move.record), &record, sizeof(record));

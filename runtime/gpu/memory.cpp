@@ -137,7 +137,7 @@ Result<Image> MemoryArena::createImage(const ImageDescription& description)
     info.format = description.format;
     info.extent = {description.extent.width, description.extent.height, 1};
     info.mipLevels = description.mip_count;
-    info.arrayLayers = 1;
+    info.arrayLayers = std::max(description.array_layers, 1u);
     info.samples = VK_SAMPLE_COUNT_1_BIT;
     info.tiling = VK_IMAGE_TILING_OPTIMAL;
     info.usage = description.usage;
@@ -161,9 +161,9 @@ Result<Image> MemoryArena::createImage(const ImageDescription& description)
     VkImageViewCreateInfo view_info{};
     view_info.sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO;
     view_info.image = handle;
-    view_info.viewType = VK_IMAGE_VIEW_TYPE_2D;
+    view_info.viewType = description.array_layers > 0 ? VK_IMAGE_VIEW_TYPE_2D_ARRAY : VK_IMAGE_VIEW_TYPE_2D;
     view_info.format = description.format;
-    view_info.subresourceRange = {description.aspect, 0, description.mip_count, 0, 1};
+    view_info.subresourceRange = {description.aspect, 0, description.mip_count, 0, info.arrayLayers};
     VkImageView view;
     HEARTH_TRY_VK(device_->vk.vkCreateImageView(device_->handle, &view_info, device_->allocator, &view),
                   "create an image view");

@@ -34,6 +34,7 @@ struct ImageDescription
     uint32_t mip_count = 1;
     VkImageUsageFlags usage;
     VkImageAspectFlags aspect = VK_IMAGE_ASPECT_COLOR_BIT;
+    uint32_t array_layers = 0; ///< 0: an image that is no array
 };
 
 /// A piece from MemoryHooks, given back when it goes.
@@ -84,7 +85,7 @@ public:
 
     /// A buffer of at least one byte. errors: device_failed.
     Result<Buffer> createBuffer(VkDeviceSize size, VkBufferUsageFlags usage, MemoryKind kind);
-    /// A 2D image with its view of all mips. errors: device_failed.
+    /// A 2D image, or an array of them, with its view of all mips and layers. errors: device_failed.
     Result<Image> createImage(const ImageDescription& description);
 
     VkDeviceSize allocatedBytes() const;

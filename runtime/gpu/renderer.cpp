@@ -21,6 +21,14 @@ bool inPhases(const FrameInput& input)
     return (input.view.flags & shared::kCullOcclusion) != 0;
 }
 
+/// What changes with the frame, before it is recorded.
+void trackShadows(const Scene& scene, std::span<const InstanceMove> moves)
+{
+    if (scene.shadows != nullptr)
+        scene.shadows->track(moves, scene.stream == nullptr ? std::span<const pack::ResidentGroups::Change>()
+                                                            : scene.stream->changedGroups());
+}
+
 } // namespace
 
 Result<std::unique_ptr<Renderer>> Renderer::create(const DeviceDescription& description)
@@ -55,8 +63,17 @@ Result<std::unique_ptr<Scene>> Renderer::upload(const formats::PackView& pack, V
     HEARTH_TRY(material_tiles_.createSet(device_, *scene));
     if (scene->stream != nullptr)
         HEARTH_TRY(page_requests_.createSet(device_, *scene));
+    if (options.shadows.max_maps > 0)
+    {
+        if (!shadows_)
+        {
+            HEARTH_ASSIGN_OR_RETURN(shadows_, ShadowPass::create(device_, layouts_));
+        }
+        HEARTH_TRY(shadows_->createMaps(device_, pack, options.shadows, commands, *scene));
+    }
     for (SceneMaterial& material : scene->materials)
     {
+        material.variant.shadows = scene->shadows != nullptr ? 1 : 0;
         HEARTH_ASSIGN_OR_RETURN(material.pipelines, shading_.prepare(device_, layouts_, material.variant));
     }
     if (scene->dropped_lights > 0)
@@ -100,10 +117,13 @@ void Renderer::recordCull(VkCommandBuffer commands, const Scene& scene, const Fr
     if (input.timestamps != VK_NULL_HANDLE)
         device_.vk.vkCmdResetQueryPool(commands, input.timestamps, 0, kTimestampCount);
     writeTimestamp(device_, commands, input.timestamps, kTimestampBegin);
+    const shared::FrameView view = scene.stream == nullptr ? input.view : scene.stream->scaled(input.view);
+    trackShadows(scene, input.moves);
+    cull_.recordConstants(device_, commands, scene, targets, view, input.moves);
+    if (scene.shadows != nullptr)
+        recordShadows(commands, scene, targets, view, input.shadow_spheres);
+    writeTimestamp(device_, commands, input.timestamps, kTimestampShadows);
     const DebugLabel label(device_, commands, "cull");
-    cull_.recordConstants(device_, commands, scene, targets,
-                          scene.stream == nullptr ? input.view : scene.stream->scaled(input.view),
-                          input.moves);
     cull_.record(device_, commands, scene, targets,
                  inPhases(input) ? shared::kPhaseEarly : shared::kPhaseWhole);
     if (scene.stream != nullptr)
@@ -139,9 +159,28 @@ void Renderer::recordPrefetch(VkCommandBuffer commands, const Scene& scene, cons
                               const shared::FrameView& view) const
 {
     HEARTH_ASSERT(scene.stream != nullptr && view.instance_count == scene.instance_count);
+    trackShadows(scene, {});
     cull_.recordConstants(device_, commands, scene, targets, scene.stream->scaled(view), {});
     cull_.record(device_, commands, scene, targets, shared::kPhaseWhole);
     recordRequests(commands, scene);
+}
+
+/// Each map that must be drawn is a view of its own, culled in the work buffers of the frame; then those are the
+/// picture's again.
+void Renderer::recordShadows(VkCommandBuffer commands, const Scene& scene, const FrameTargets& targets,
+                             const shared::FrameView& view, std::span<const ShadowSphere> spheres) const
+{
+    const DebugLabel label(device_, commands, "shadows");
+    const std::span<const ShadowCache::StaleMap> stale = scene.shadows->planFrame(view, spheres);
+    shadows_->recordBlock(device_, commands, scene);
+    for (const ShadowCache::StaleMap& map : stale)
+    {
+        cull_.recordView(device_, commands, scene, targets, map.casters);
+        cull_.record(device_, commands, scene, targets, shared::kPhaseWhole);
+        shadows_->recordMap(device_, commands, layouts_, scene, map);
+    }
+    if (!stale.empty())
+        cull_.recordView(device_, commands, scene, targets, view);
 }
 
 /// After the first culling phase.

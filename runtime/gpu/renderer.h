@@ -11,6 +11,7 @@
 #include "runtime/gpu/page_request_pass.h"
 #include "runtime/gpu/pyramid_pass.h"
 #include "runtime/gpu/shading_pass.h"
+#include "runtime/gpu/shadow_pass.h"
 
 #include <memory>
 #include <optional>
@@ -22,6 +23,7 @@ namespace hearth::gpu
 enum FrameTimestamp : uint32_t
 {
     kTimestampBegin,
+    kTimestampShadows, ///< no time without shadow maps to draw
     kTimestampCull,
     kTimestampEarlyVisibility, ///< this one and the two after it take no time without occlusion culling
     kTimestampPyramid,
@@ -37,7 +39,10 @@ struct FrameInput
 {
     shared::FrameView view; ///< from shared::makeFrameView, with the size of the targets
     ShadingView shading;
-    std::span<const InstanceMove> moves{};   ///< from this frame on; read while recording
+    std::span<const InstanceMove> moves{}; ///< from this frame on; read while recording
+    /// Of a scene with shadows, where they are finer, beside the spheres of its pack: all of this frame, read while
+    /// recording.
+    std::span<const ShadowSphere> shadow_spheres{};
     VkQueryPool timestamps = VK_NULL_HANDLE; ///< kTimestampCount queries, reset by the frame; or none
 };
 
@@ -53,7 +58,7 @@ public:
     /// errors: device_limit, device_failed.
     Result<FrameTargets> createTargets(VkExtent2D extent) const;
 
-    /// See uploadScene. Also makes the pipelines that the scene's materials need and no scene before had.
+    /// See uploadScene. Also makes the pipelines that the scene's materials and shadows need and no scene before had.
     Result<std::unique_ptr<Scene>> upload(const formats::PackView& pack, VkCommandBuffer commands,
                                           const SceneOptions& options = {});
 
@@ -84,6 +89,8 @@ public:
 
 private:
     Renderer() = default;
+    void recordShadows(VkCommandBuffer commands, const Scene& scene, const FrameTargets& targets,
+                       const shared::FrameView& view, std::span<const ShadowSphere> spheres) const;
     void recordRequests(VkCommandBuffer commands, const Scene& scene) const;
     void recordEarly(VkCommandBuffer commands, const Scene& scene, FrameTargets& targets,
                      const FrameInput& input) const;
@@ -100,6 +107,7 @@ private:
     CullPass cull_;
     PageRequestPass page_requests_;
     PyramidPass pyramid_;
+    std::optional<ShadowPass> shadows_; ///< once a scene has them
     BinPass visibility_;
     std::optional<BinPass> overdraw_;
     MaterialTilesPass material_tiles_;

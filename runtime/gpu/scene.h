@@ -6,6 +6,7 @@
 #include "runtime/gpu/draw_layouts.h"
 #include "runtime/gpu/scene_layout.h"
 #include "runtime/gpu/scene_stream.h"
+#include "runtime/gpu/shadow_plan.h"
 #include "runtime/gpu/uploader.h"
 
 #include <array>
@@ -25,7 +26,11 @@ struct SceneOptions
     /// 0: all of it, at most 512 MiB.
     uint64_t geometry_budget = 0;
     StreamOptions stream{};
+
+    ShadowOptions shadows{}; ///< none unless max_maps is set (README.md, "Shadows")
 };
+
+class SceneShadows;
 
 /// The types of the elements are those of formats/shared.
 struct SceneBuffers
@@ -53,6 +58,7 @@ struct ShadingVariant
     uint32_t textures = 0;                      ///< as shared::Material
     uint32_t uv_sets = 0;                       ///< as shared::Material
     uint32_t unlit = 0;
+    uint32_t shadows = 0; ///< 1: lights have shadow maps
     friend auto operator<=>(const ShadingVariant&, const ShadingVariant&) = default;
 };
 
@@ -74,7 +80,8 @@ struct SceneMaterial
 /// Frames of one scene must not overlap on the GPU: submit them to one queue.
 struct Scene
 {
-    explicit Scene(const Device& device) : arena(device) {}
+    explicit Scene(const Device& device);
+    ~Scene();
 
     MemoryArena arena;
     std::unique_ptr<Uploader> staging; ///< reset() once the commands that loaded the scene have run
@@ -91,7 +98,8 @@ struct Scene
     VkDescriptorSet tile_set = VK_NULL_HANDLE;         ///< of the material-tiles pass
     VkDescriptorSet page_request_set = VK_NULL_HANDLE; ///< of a streamed scene
 
-    std::unique_ptr<SceneStream> stream; ///< of a streamed scene
+    std::unique_ptr<SceneStream> stream;   ///< of a streamed scene
+    std::unique_ptr<SceneShadows> shadows; ///< of a scene with shadows
     std::vector<SceneBin> bins;
     std::vector<formats::InstanceRecord> instances; ///< as they were loaded
     uint32_t instance_count = 0;

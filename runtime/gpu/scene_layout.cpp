@@ -21,6 +21,7 @@ struct BinKey
     bool alpha_tested;
     uint32_t material_row;
     Facing facing;
+    bool unlit;
     friend auto operator<=>(const BinKey&, const BinKey&) = default;
 };
 
@@ -40,12 +41,12 @@ Error limitError(const formats::PackView& pack, const std::string& detail)
 BinKey keyOfMaterial(const formats::PackView& pack, uint32_t material)
 {
     if (material == formats::kNone)
-        return {false, 0, Facing::culled};
+        return {false, 0, Facing::culled, false};
     const formats::MaterialRecord& record = pack.materials()[material];
     const bool tested = record.alpha_mode != static_cast<uint32_t>(formats::AlphaMode::opaque);
     const bool two_sided = (record.flags & formats::kMaterialDoubleSided) != 0;
     return {tested, tested ? materialRow(pack, material) : 0,
-            two_sided ? Facing::doubleSided : Facing::culled};
+            two_sided ? Facing::doubleSided : Facing::culled, (record.flags & formats::kMaterialUnlit) != 0};
 }
 
 /// Append the clusters of a mesh to the order, sorted by key and otherwise as they are.
@@ -116,6 +117,7 @@ Status makeWorkList(const formats::PackView& pack, SceneLayout& layout)
             {key.alpha_tested,
              key.material_row,
              key.facing,
+             key.unlit,
              {static_cast<uint32_t>(layout.items.size()), static_cast<uint32_t>(items.size())}});
         layout.items.insert(layout.items.end(), items.begin(), items.end());
     }

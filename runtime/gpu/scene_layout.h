@@ -25,6 +25,7 @@ struct SceneBin
     bool alpha_tested = false; ///< the material decides which pixels are there
     uint32_t material_row = 0; ///< of the alpha-tested material; 0 where it does not matter
     Facing facing = Facing::culled;
+    bool unlit = false; ///< casts no shadow: a dome with the sky on it would leave no sun
     shared::Bin items{};
 };
 

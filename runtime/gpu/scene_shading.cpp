@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/gpu/scene_shading.h"
 
+#include "runtime/gpu/shadow_plan.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -146,6 +148,7 @@ shared::Lighting makeLighting(const formats::PackView& pack)
         lighting.lights[lighting.light_count++] = defaultSun();
     const float exposure =
         illuminance > shared::kKeyIlluminance ? shared::kKeyIlluminance / illuminance : 1.0f;
+    assignShadowRows(lighting);
     for (uint32_t i = 0; i < lighting.light_count; ++i)
         lighting.lights[i].intensity = lighting.lights[i].intensity * exposure;
     return lighting;

@@ -50,6 +50,9 @@ public:
     /// The view as it will be drawn: its threshold times the error scale.
     shared::FrameView scaled(const shared::FrameView& view) const;
 
+    /// Groups that come or go with the frame that the last beginFrame began, each once.
+    std::span<const pack::ResidentGroups::Change> changedGroups() const { return changes_.groups; }
+
     /// Pages that could not be read, found out by the last beginFrame, each once. What they would refine stays as it is.
     std::span<const uint32_t> failed() const { return changes_.failed; }
     /// Failed pages may be tried again.

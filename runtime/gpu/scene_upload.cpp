@@ -2,6 +2,7 @@
 #include "formats/shared/material_tiles.h"
 #include "runtime/gpu/scene.h"
 #include "runtime/gpu/scene_shading.h"
+#include "runtime/gpu/scene_shadows.h"
 #include "runtime/pack/cut.h"
 
 #include <algorithm>
@@ -164,10 +165,11 @@ Status uploadGeometry(const formats::PackView& pack, const SceneLayout& layout, 
 
 Status createSets(const Device& device, const DrawLayouts& layouts, Scene& scene, uint32_t material_rows)
 {
-    // three sets for drawing, six of the culling pass, those of the material tiles and of the page requests, with room
+    // three sets for drawing (one with the shadow maps), six of the culling pass, those of the material tiles and of the page requests, with room
     // for what each binds
-    const DescriptorPoolSizes sizes{
-        .uniforms = 16 + material_rows, .storages = 80, .textures = material_rows * shared::kTextureCount};
+    const DescriptorPoolSizes sizes{.uniforms = 16 + material_rows,
+                                    .storages = 80,
+                                    .textures = material_rows * shared::kTextureCount + 1};
     HEARTH_ASSIGN_OR_RETURN(scene.pool, createDescriptorPool(device, 11 + material_rows, sizes));
     HEARTH_ASSIGN_OR_RETURN(scene.draw_set, allocateSet(device, scene.pool.get(), layouts.scene.get()));
     const SceneBuffers& b = scene.buffers;
@@ -194,7 +196,20 @@ Status createSets(const Device& device, const DrawLayouts& layouts, Scene& scene
     return success();
 }
 
+/// No shader of a scene without shadows looks at their bindings, but lavapipe (Mesa 22.3) reads what they are; so they
+/// have what is at hand until there are maps.
+void fillShadowBindings(const Device& device, const Scene& scene)
+{
+    DescriptorWriter(scene.draw_set)
+        .uniform(kSceneShadows, scene.buffers.frame)
+        .texture(kSceneShadowMaps, scene.images.back().view.get(), scene.samplers.front().get())
+        .write(device);
+}
+
 } // namespace
+
+Scene::Scene(const Device& device) : arena(device) {}
+Scene::~Scene() = default;
 
 Result<std::unique_ptr<Scene>> uploadScene(const Device& device, const DrawLayouts& layouts,
                                            const formats::PackView& pack, VkCommandBuffer commands,
@@ -232,6 +247,7 @@ Result<std::unique_ptr<Scene>> uploadScene(const Device& device, const DrawLayou
     HEARTH_TRY(scene->staging->uploadRecords(scene->buffers.group_items, group_items));
     HEARTH_TRY(uploadGeometry(pack, layout, *scene->staging, *scene));
     HEARTH_TRY(uploadMaterials(device, layouts, pack, *scene->staging, *scene));
+    fillShadowBindings(device, *scene);
     scene->staging->finish();
     scene->bins = std::move(layout.bins);
     return scene;

@@ -43,13 +43,22 @@ Result<ShadingPass> ShadingPass::create(const Device& device, const DrawLayouts&
 Result<ShadingPipelines> ShadingPass::prepare(const Device& device, const DrawLayouts& layouts,
                                               const ShadingVariant& variant)
 {
+    if (variant.shadows != 0 && shadow_maps_.get() == VK_NULL_HANDLE)
+    {
+        GraphicsDescription maps =
+            describe(shaders::inspect_shadows_frag, layouts.picture.get(), render_pass_);
+        maps.vertex = shaders::fullscreen_vert;
+        maps.depth_compare = VK_COMPARE_OP_LESS; // as clusters_
+        HEARTH_ASSIGN_OR_RETURN(shadow_maps_, createGraphicsPipeline(device, maps));
+    }
     const auto [entry, fresh] = variants_.try_emplace(variant);
     Variant& pipelines = entry->second;
     if (fresh)
     {
         const uint32_t constants[] = {variant.used_slices, variant.textures, variant.uv_sets, variant.unlit};
         GraphicsDescription description =
-            describe(shaders::shading_frag, layouts.picture.get(), render_pass_);
+            describe(variant.shadows != 0 ? shaders::shading_shadowed_frag : shaders::shading_frag,
+                     layouts.picture.get(), render_pass_);
         description.constants = constants;
         HEARTH_ASSIGN_OR_RETURN(pipelines.final_view, createGraphicsPipeline(device, description));
         description.fragment = shaders::inspect_frag;
@@ -64,6 +73,8 @@ void ShadingPass::record(const Device& device, VkCommandBuffer commands, const D
     recordSky(device, commands, layouts, scene, targets, view);
     if (view.shown == shared::kViewError || view.shown == shared::kViewCones)
         recordClusters(device, commands, layouts, scene, targets, view);
+    else if (view.shown == shared::kViewShadowMaps)
+        recordShadowMaps(device, commands, layouts, scene, view);
     else
         recordMaterials(device, commands, layouts, scene, view);
 }
@@ -98,6 +109,17 @@ void ShadingPass::recordClusters(const Device& device, VkCommandBuffer commands,
     device.vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout, 0, 2, sets, 0,
                                       nullptr);
     device.vk.vkCmdPushConstants(commands, layout, kDrawPushStages, 0, sizeof(push), &push);
+    device.vk.vkCmdDraw(commands, 3, 1, 0, 0);
+}
+
+/// With the sets that recordSky has bound.
+void ShadingPass::recordShadowMaps(const Device& device, VkCommandBuffer commands, const DrawLayouts& layouts,
+                                   const Scene& scene, const ShadingView& view) const
+{
+    HEARTH_ASSERT(scene.shadows != nullptr);
+    const DrawPush push{.depth = 0, .shown_view = view.shown};
+    device.vk.vkCmdPushConstants(commands, layouts.picture.get(), kDrawPushStages, 0, sizeof(push), &push);
+    device.vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, shadow_maps_.get());
     device.vk.vkCmdDraw(commands, 3, 1, 0, 0);
 }
 

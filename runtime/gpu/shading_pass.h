@@ -61,12 +61,15 @@ private:
                    const Scene& scene, const FrameTargets& targets, const ShadingView& view) const;
     void recordClusters(const Device& device, VkCommandBuffer commands, const DrawLayouts& layouts,
                         const Scene& scene, const FrameTargets& targets, const ShadingView& view) const;
+    void recordShadowMaps(const Device& device, VkCommandBuffer commands, const DrawLayouts& layouts,
+                          const Scene& scene, const ShadingView& view) const;
     void recordMaterials(const Device& device, VkCommandBuffer commands, const DrawLayouts& layouts,
                          const Scene& scene, const ShadingView& view) const;
 
     VkRenderPass render_pass_ = VK_NULL_HANDLE;
     UniquePipeline sky_;
     UniquePipeline clusters_;
+    UniquePipeline shadow_maps_; ///< once a scene has them
     std::map<ShadingVariant, Variant> variants_;
 };
 

@@ -1,5 +1,5 @@
 // What a point of a surface looks like: its material under the lights and the sky. See runtime/gpu/README.md for units
-// and exposure.
+// and exposure. What of a light reaches the point, `lightShare`, is shadow.glsl's or unshadowed.glsl's.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 
 layout(set = 0, binding = 8, std140) readonly buffer LightingBlock { Lighting lighting; };
@@ -57,7 +57,8 @@ vec3 lit(SurfacePoint point, SurfaceUvs uvs, vec3 base)
     {
         vec3 to_light;
         vec3 irradiance = irradianceOf(lighting.lights[i], point.position, to_light);
-        radiance += irradiance * reflected(shading, to_light);
+        float share = lightShare(lighting.lights[i].shadow_row, point.position, point.flat_normal);
+        radiance += irradiance * reflected(shading, to_light) * share;
     }
 
     float occlusion =

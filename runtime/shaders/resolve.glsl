@@ -179,6 +179,8 @@ SurfacePoint surfacePoint(Surface s)
     SurfacePoint point;
     point.position = s.position;
     point.normal = smoothNormal(s);
+    vec3 flat_normal = geometricNormal(s);
+    point.flat_normal = s.front ? flat_normal : -flat_normal;
     point.tangent = point.bitangent = vec3(0.0);
     if (hasTexture(kTextureNormal))
         tangentFrame(s, point.normal, uvSetOf(kTextureNormal), point.tangent, point.bitangent);

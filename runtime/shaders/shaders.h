@@ -27,12 +27,18 @@ extern const std::span<const uint32_t> visibility_masked_vert;
 extern const std::span<const uint32_t> visibility_masked_frag;
 extern const std::span<const uint32_t> overdraw_frag;
 extern const std::span<const uint32_t> overdraw_masked_frag;
+extern const std::span<const uint32_t> caster_vert;
+extern const std::span<const uint32_t> caster_frag;
+extern const std::span<const uint32_t> caster_masked_vert;
+extern const std::span<const uint32_t> caster_masked_frag;
 extern const std::span<const uint32_t> fullscreen_vert;
 extern const std::span<const uint32_t> material_depth_frag;
 extern const std::span<const uint32_t> shaded_area_vert;
 extern const std::span<const uint32_t> shading_frag;
+extern const std::span<const uint32_t> shading_shadowed_frag;
 extern const std::span<const uint32_t> inspect_frag;
 extern const std::span<const uint32_t> inspect_clusters_frag;
+extern const std::span<const uint32_t> inspect_shadows_frag;
 extern const std::span<const uint32_t> sky_frag;
 
 } // namespace hearth::shaders

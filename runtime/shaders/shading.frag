@@ -8,6 +8,7 @@
 #include "material.glsl"
 #include "surface_point.glsl"
 #include "resolve.glsl"
+#include "unshadowed.glsl"
 #include "lighting.glsl"
 
 layout(input_attachment_index = 0, set = 2, binding = 0) uniform usubpassInput visibility;

@@ -10,6 +10,7 @@ struct SurfacePoint
 {
     vec3 position;  // relative to the eye
     vec3 normal;    // unit, world axes, on the front side; not yet bent by the normal map
+    vec3 flat_normal; // unit, world axes, of the triangle, towards the side that is seen
     vec3 tangent;   // unit, world axes; only where the material has a normal map
     vec3 bitangent;
     vec3 color;     // of the vertices

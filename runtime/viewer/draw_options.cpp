@@ -22,7 +22,17 @@ const char* const kDrawHelp =
     "                          the distance. Example: 0:1,50:1,500:0.4\n"
     "      --view VIEW         final, clusters, lod, triangles, materials, normals, depth, error (yellow: "
     "as\n"
-    "                          large as allowed), cones (red: none) or overdraw (white: 16)\n"
+    "                          large as allowed), cones (red: none), overdraw (white: 16) or shadow-maps "
+    "(grey:\n"
+    "                          none)\n"
+    "      --shadows SETTINGS  off (default), on, or some of maps=N (16 at most), texels=N (1024), kernel=N "
+    "(1:\n"
+    "                          3x3), bias=B (2: how much coarser than the picture), splits=N (4), near=M, "
+    "far=M\n"
+    "                          (metres, where the splits begin and end; as the scene does). Example: "
+    "texels=2048,bias=4\n"
+    "      --shadow-sphere X,Y,Z,RADIUS[,LIGHT]\n"
+    "                          finer shadows there, of all lights or of one; may be given several times\n"
     "      --shaded-area AREA  where each material is shaded: picture, tiles (64x64 pixels where it is "
     "seen), "
     "or\n"
@@ -188,6 +198,10 @@ void addDrawOptions(CommandLine& command_line, DrawOptions& options)
     command_line.addValue(
         "--shaded-area", [&](std::string_view text)
         { return parseChoice("--shaded-area", shadedAreaNames(), text, settings.shaded_area); });
+    command_line.addValue("--shadows",
+                          [&](std::string_view text) { return parseShadows(text, options.shadows); });
+    command_line.addValue("--shadow-sphere",
+                          [&](std::string_view text) { return parseShadowSphere(text, options.shadows); });
     command_line.addValue("--cull", [&](std::string_view text) { return parseCull(text, settings); });
     command_line.addValue("--budget", [&](std::string_view text) { return parseBudget(text, options); });
     command_line.addText("--device", options.device);
@@ -202,6 +216,13 @@ void addDrawOptions(CommandLine& command_line, DrawOptions& options)
                                options.camera.reset();
                                options.scene_camera.reset();
                            });
+}
+
+Status checkDrawOptions(const DrawOptions& options)
+{
+    if (options.settings.view == shared::kViewShadowMaps && options.shadows.options.max_maps == 0)
+        return usageError("--view shadow-maps needs --shadows");
+    return success();
 }
 
 Status parseFrames(std::string_view text, uint32_t& frames)

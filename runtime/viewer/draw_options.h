@@ -5,6 +5,7 @@
 #include "formats/pack_view.h"
 #include "runtime/viewer/command_line.h"
 #include "runtime/viewer/frame_settings.h"
+#include "runtime/viewer/shadow_options.h"
 
 #include <optional>
 #include <string>
@@ -21,6 +22,7 @@ struct DrawOptions
     std::optional<shared::Camera> camera; ///< none: the scene's camera, or fit the scene
     std::optional<uint32_t> scene_camera; ///< index of a camera of the pack
     FrameSettings settings;               ///< checked
+    ShadowSettings shadows;               ///< none unless asked for
     uint64_t geometry_budget = 0;         ///< bytes; 0: all geometry is resident
     std::string device;
     bool validate = false;
@@ -32,6 +34,9 @@ extern const char* const kDrawHelp;
 
 /// The options outlive the command line, which writes to them.
 void addDrawOptions(CommandLine& command_line, DrawOptions& options);
+
+/// What can only be said once all options are read. errors: usage.
+Status checkDrawOptions(const DrawOptions& options);
 
 /// 1 to 10000 frames. errors: usage, naming the option --frames.
 Status parseFrames(std::string_view text, uint32_t& frames);

@@ -142,8 +142,11 @@ std::string formatReport(const FrameReport& report, const formats::PackView& pac
         add("frames", formatFrames(report.frames));
     if (!report.streaming.empty())
         add("streaming", formatStreaming(report.streaming));
+    if (!report.shadows.empty())
+        add("shadows", formatShadows(report.shadows));
     add("milliseconds",
         "{\"frame\":" + number(report.milliseconds[0]) +
+            ",\"shadows\":" + number(report.milliseconds[gpu::kTimestampShadows]) +
             ",\"cull\":" + number(report.milliseconds[gpu::kTimestampCull]) +
             ",\"early_visibility\":" + number(report.milliseconds[gpu::kTimestampEarlyVisibility]) +
             ",\"pyramid\":" + number(report.milliseconds[gpu::kTimestampPyramid]) +

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "runtime/viewer/cull_report.h"
+#include "runtime/viewer/shadow_report.h"
 #include "runtime/viewer/stream_report.h"
 #include "runtime/viewer/vulkan_host.h"
 
@@ -40,6 +41,7 @@ struct FrameReport
     uint32_t dropped_lights = 0;
     std::vector<FrameCounts> frames;     ///< at least one
     std::vector<StreamCounts> streaming; ///< the same frames; empty where all is resident
+    std::vector<ShadowCounts> shadows;   ///< the same frames; empty where there are none
     std::array<double, gpu::kTimestampCount>
         milliseconds{}; ///< of the pass that ends with the timestamp; [0] is the frame
 };

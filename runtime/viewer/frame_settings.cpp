@@ -19,6 +19,7 @@ std::span<const Named<uint32_t>> viewNames()
         {"error", shared::kViewError},
         {"cones", shared::kViewCones},
         {"overdraw", shared::kViewOverdraw},
+        {"shadow-maps", shared::kViewShadowMaps},
     };
     return kViews;
 }

@@ -417,6 +417,45 @@ Status VulkanHost::printMessages() const
                  "the validation layer has " + std::to_string(messages_.size()) + " messages"};
 }
 
+Result<std::vector<float>> VulkanHost::readDepth(const gpu::Device& device, const gpu::Image& image,
+                                                 uint32_t layer)
+{
+    std::vector<float> depths(size_t{image.extent.width} * image.extent.height);
+    const size_t size = depths.size() * sizeof(float);
+    gpu::MemoryArena arena(device, 0);
+    HEARTH_ASSIGN_OR_RETURN(const gpu::Buffer copy, arena.createBuffer(size, VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+                                                                       gpu::MemoryKind::readback));
+    VkImageMemoryBarrier to_copy{};
+    to_copy.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER;
+    to_copy.oldLayout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
+    to_copy.newLayout = VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL;
+    to_copy.dstAccessMask = VK_ACCESS_TRANSFER_READ_BIT;
+    to_copy.srcQueueFamilyIndex = to_copy.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
+    to_copy.image = image.handle.get();
+    to_copy.subresourceRange = {VK_IMAGE_ASPECT_DEPTH_BIT, 0, 1, layer, 1};
+    VkImageMemoryBarrier back = to_copy;
+    std::swap(back.oldLayout, back.newLayout);
+    back.dstAccessMask = VK_ACCESS_SHADER_READ_BIT;
+    HEARTH_TRY(run(
+        [&](VkCommandBuffer commands)
+        {
+            vk_->vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT,
+                                      VK_PIPELINE_STAGE_TRANSFER_BIT, 0, 0, nullptr, 0, nullptr, 1, &to_copy);
+            VkBufferImageCopy region{};
+            region.imageSubresource = {VK_IMAGE_ASPECT_DEPTH_BIT, 0, layer, 1};
+            region.imageExtent = {image.extent.width, image.extent.height, 1};
+            vk_->vkCmdCopyImageToBuffer(commands, image.handle.get(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
+                                        copy.handle.get(), 1, &region);
+            vk_->vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_TRANSFER_BIT,
+                                      VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT, 0, 0, nullptr, 0, nullptr, 1,
+                                      &back);
+            makeVisibleToHost(*vk_, commands);
+            return success();
+        }));
+    std::memcpy(depths.data(), copy.mapped, size);
+    return depths;
+}
+
 Result<VkQueryPool> VulkanHost::createTimestamps(uint32_t count)
 {
     VkQueryPoolCreateInfo info{};

@@ -57,6 +57,10 @@ public:
     Result<std::vector<std::byte>> read(const gpu::Device& device, const gpu::Image& image,
                                         uint32_t texel_bytes);
 
+    /// A layer of an array of D32 in layout SHADER_READ_ONLY_OPTIMAL, where it stays, with usage TRANSFER_SRC; rows top to
+    /// bottom.
+    Result<std::vector<float>> readDepth(const gpu::Device& device, const gpu::Image& image, uint32_t layer);
+
     /// A pool of `count` timestamps, which lives as long as the host.
     Result<VkQueryPool> createTimestamps(uint32_t count);
     /// Milliseconds since the first of them.

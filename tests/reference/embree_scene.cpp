@@ -31,11 +31,12 @@ struct EmbreeScene::State
     struct Query : RTCIntersectContext
     {
         const State* state;
-        explicit Query(const State& s) : state(&s) { rtcInitIntersectContext(this); }
+        const AcceptHit* accept;
+        Query(const State& s, const AcceptHit& a) : state(&s), accept(&a) { rtcInitIntersectContext(this); }
     };
 
     const PackGeometry* geometry;
-    AcceptHit accept;
+    AcceptHit accept, blocks;
     RTCDevice device = nullptr;
     RTCScene top = nullptr;
     std::vector<MeshScene> meshes;
@@ -132,7 +133,7 @@ void EmbreeScene::State::filter(const RTCFilterFunctionNArguments* arguments)
     SurfaceHit candidate = query.state->toHit(query.instID[0], hit.primID, hit.u, hit.v, ray.tfar);
     candidate.front =
         query.state->isFront(candidate, {double{ray.dir_x}, double{ray.dir_y}, double{ray.dir_z}});
-    if (!query.state->accept(candidate))
+    if (!(*query.accept)(candidate))
         arguments->valid[0] = 0;
 }
 
@@ -156,9 +157,11 @@ RTCRay toEmbree(const Ray& ray)
 
 } // namespace
 
-EmbreeScene::EmbreeScene(const PackGeometry& geometry, AcceptHit accept) : state_(std::make_unique<State>())
+EmbreeScene::EmbreeScene(const PackGeometry& geometry, AcceptHit accept, AcceptHit blocks)
+    : state_(std::make_unique<State>())
 {
     state_->geometry = &geometry;
+    state_->blocks = blocks ? std::move(blocks) : accept;
     state_->accept = std::move(accept);
     state_->device = rtcNewDevice(nullptr);
     HEARTH_ASSERT(state_->device != nullptr);
@@ -182,7 +185,7 @@ EmbreeScene::~EmbreeScene()
 
 std::optional<SurfaceHit> EmbreeScene::nearest(const Ray& ray) const
 {
-    State::Query query(*state_);
+    State::Query query(*state_, state_->accept);
     RTCRayHit ray_hit{};
     ray_hit.ray = toEmbree(ray);
     ray_hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
@@ -200,7 +203,7 @@ std::optional<SurfaceHit> EmbreeScene::nearest(const Ray& ray) const
 
 bool EmbreeScene::occluded(const Ray& ray) const
 {
-    State::Query query(*state_);
+    State::Query query(*state_, state_->blocks);
     RTCRay r = toEmbree(ray);
     rtcOccluded1(state_->top, &query, &r);
     return r.tfar < 0;

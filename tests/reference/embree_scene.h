@@ -26,7 +26,9 @@ class EmbreeScene
 {
 public:
     /// Level 0 of every instance. `geometry` must outlive the scene.
-    EmbreeScene(const PackGeometry& geometry, AcceptHit accept);
+    ///
+    /// blocks  which hits end a ray of occluded(); none: those that are accepted
+    EmbreeScene(const PackGeometry& geometry, AcceptHit accept, AcceptHit blocks = {});
     ~EmbreeScene();
     EmbreeScene(const EmbreeScene&) = delete;
     EmbreeScene& operator=(const EmbreeScene&) = delete;

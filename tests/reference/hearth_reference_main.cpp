@@ -103,7 +103,7 @@ int main(int argc, char** argv)
     app.add_option("--scene-camera", arguments.scene_camera, "the pack's camera of that number (default 0)");
     app.add_option("--samples-per-side", arguments.options.samples_per_side, "rays per pixel: its square")
         ->check(CLI::Range(1u, 64u));
-    app.add_flag("--shadows", arguments.options.shadows, "shadows of the lights");
+    app.add_flag("--shadows", arguments.options.shadows, "shadows of suns and spots");
     app.add_option("--occlusion", arguments.options.occlusion_rays, "rays to the sky for each sample");
     app.add_option("--compare", arguments.compare, "print the FLIP difference to this PNG");
     app.add_option("--flip-map", arguments.flip_map, "write that difference as a picture");

@@ -56,7 +56,9 @@ public:
           textures_(textures),
           options_(options),
           lighting_(lightingOf(geometry.view())),
-          scene_(geometry, [this](const SurfaceHit& hit) { return isThere(hit); })
+          scene_(
+              geometry, [this](const SurfaceHit& hit) { return isThere(hit); },
+              [this](const SurfaceHit& hit) { return blocks(hit); })
     {
         forward_ = normalize(Double3(options.camera.target) - Double3(options.camera.position));
         right_ = normalize(cross(forward_, Double3(options.camera.up)));
@@ -91,20 +93,29 @@ private:
                                 sample_size * point.uv_per_metre[texture.uv_set]);
     }
 
-    /// Back faces of single-sided materials and holes of masks are not there. Blended surfaces are where alpha
-    /// exceeds one half: they have no reference of their own.
+    /// Back faces of single-sided materials and holes of masks are not there.
     bool isThere(const SurfaceHit& hit) const
     {
+        return (hit.front || (materialOf(hit).flags & kMaterialDoubleSided) != 0) && !isHole(hit);
+    }
+
+    /// Both faces hold light off; unlit surfaces, which are skies and signs, do not.
+    bool blocks(const SurfaceHit& hit) const
+    {
+        return (materialOf(hit).flags & kMaterialUnlit) == 0 && !isHole(hit);
+    }
+
+    /// Blended surfaces are where alpha exceeds one half: they have no reference of their own.
+    bool isHole(const SurfaceHit& hit) const
+    {
         const MaterialRecord& material = materialOf(hit);
-        if (!hit.front && !(material.flags & kMaterialDoubleSided))
-            return false;
         if (material.alpha_mode == static_cast<uint32_t>(AlphaMode::opaque))
-            return true;
+            return false;
         const SurfacePoint point = surfaceAt(geometry_, hit, 0);
         const double alpha = double{material.base_color.w} * double{point.color.w} *
                              look(material.base_color_texture, point, 0).alpha;
         const bool mask = material.alpha_mode == static_cast<uint32_t>(AlphaMode::mask);
-        return alpha >= (mask ? double{material.alpha_cutoff} : 0.5);
+        return alpha < (mask ? double{material.alpha_cutoff} : 0.5);
     }
 
     Coating coatingAt(const SurfaceHit& hit, const SurfacePoint& point, double sample_size) const
@@ -149,7 +160,7 @@ private:
         for (const SceneLight& light : lighting_.lights)
         {
             const Incident incident = light.at(point.position);
-            if (options_.shadows &&
+            if (options_.shadows && light.type != LightType::point &&
                 scene_.occluded({start, incident.to_light, 0, std::min(incident.distance, 1e30)}))
                 continue;
             radiance += incident.irradiance * reflected(coating, view, incident.to_light);

@@ -15,7 +15,7 @@ struct ReferenceOptions
     uint32_t width = 512;
     uint32_t height = 512;
     uint32_t samples_per_side = 4; ///< rays per pixel: its square
-    bool shadows = false;          ///< of the lights; off, it is what hearth-render draws
+    bool shadows = false;          ///< of suns and spots, as hearth-render --shadows has them
     uint32_t occlusion_rays = 0;   ///< of the sky, for each sample; 0: the sky is everywhere
 };
 

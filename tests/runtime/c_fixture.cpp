@@ -116,7 +116,7 @@ Picture CApiTest::drawInCpp(DrawOptions options)
 {
     options.width = kWidth;
     options.height = kHeight;
-    const std::unique_ptr<gpu::Scene> scene = upload(*view_);
+    const std::unique_ptr<gpu::Scene> scene = upload(*view_, {.shadows = shadows_});
     std::vector<gpu::InstanceMove> moves;
     if (moved_)
     {

@@ -63,6 +63,7 @@ protected:
     AlignedBytes bytes_;
     bool in_parts_ = false;        ///< drawInC records frames in parts
     std::optional<Affine3> moved_; ///< instance 0, in drawInCpp
+    gpu::ShadowOptions shadows_;   ///< in drawInCpp
     hearth_pack* pack_ = nullptr;
     c_caller* caller_ = nullptr;
     hearth_renderer* renderer_ = nullptr;

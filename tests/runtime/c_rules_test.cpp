@@ -134,6 +134,7 @@ TEST_F(CApiTest, nullArgumentsAreRefused)
     EXPECT_EQ(hearth_scene_inform(nullptr, nullptr), HEARTH_ERROR_USAGE);
     EXPECT_EQ(hearth_scene_begin_frame(nullptr, 1, 0), HEARTH_ERROR_USAGE);
     EXPECT_EQ(hearth_scene_stream(nullptr, nullptr), HEARTH_ERROR_USAGE);
+    EXPECT_EQ(hearth_scene_shadows(nullptr, nullptr), HEARTH_ERROR_USAGE);
     EXPECT_EQ(hearth_scene_retry_failed(nullptr), HEARTH_ERROR_USAGE);
     EXPECT_EQ(hearth_record_frame(nullptr, nullptr, nullptr, nullptr), HEARTH_ERROR_USAGE);
     EXPECT_EQ(hearth_record_prefetch(nullptr, nullptr, nullptr, nullptr), HEARTH_ERROR_USAGE);
@@ -191,6 +192,7 @@ TEST_F(CFrameRulesTest, framesThatBreakRulesAreRefused)
     constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
     ASSERT_EQ(upload(HEARTH_SCENE_OPTIONS_INIT), HEARTH_OK) << hearth_last_error(renderer_);
     const hearth_lod_knot torn[] = {{1, 1}, {2, 4}};
+    const hearth_shadow_sphere flat{.center = {0, 0, 0}, .radius = 0, .light = 0, .texels = 0};
     const hearth_move nowhere{1000, {}}, mirrored{0, {{-1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
     const auto refused = [&](const auto& change)
     {
@@ -206,10 +208,13 @@ TEST_F(CFrameRulesTest, framesThatBreakRulesAreRefused)
     EXPECT_THAT(refused([](F& f) { f.error_pixels = -1; }), HasSubstr("error_pixels"));
     EXPECT_THAT(refused([](F& f) { f.depth_scale = kNan; }), HasSubstr("depth_scale"));
     EXPECT_THAT(refused([](F& f) { f.cull_flags = 16; }), HasSubstr("cull_flags"));
-    EXPECT_THAT(refused([](F& f) { f.shown = 10; }), HasSubstr("shown"));
+    EXPECT_THAT(refused([](F& f) { f.shown = 11; }), HasSubstr("shown"));
+    EXPECT_THAT(refused([](F& f) { f.shown = HEARTH_SHOW_SHADOW_MAPS; }), HasSubstr("with shadows"));
     EXPECT_THAT(refused([](F& f) { f.shaded_area = 3; }), HasSubstr("shaded_area"));
-    EXPECT_THAT(refused([](F& f) { f.reserved = 1; }), HasSubstr("reserved"));
     EXPECT_THAT(refused([](F& f) { f.move_count = 1; }), HasSubstr("moves is NULL"));
+    EXPECT_THAT(refused([](F& f) { f.shadow_sphere_count = 1; }), HasSubstr("shadow_spheres is NULL"));
+    EXPECT_THAT(refused([&](F& f) { f.shadow_spheres = &flat, f.shadow_sphere_count = 1; }),
+                HasSubstr("shadow sphere 0"));
     EXPECT_THAT(refused([](F& f) { f.lod_knot_count = 1; }), HasSubstr("lod_knots is NULL"));
     EXPECT_THAT(refused([&](F& f) { f.lod_knots = torn, f.lod_knot_count = 9; }), HasSubstr("above 8"));
     EXPECT_THAT(refused([&](F& f) { f.lod_knots = torn, f.lod_knot_count = 2; }),
@@ -228,6 +233,9 @@ TEST_F(CFrameRulesTest, aSceneWithoutABudgetDoesNotStream)
     EXPECT_EQ(hearth_scene_begin_frame(scene_, 1, 0), HEARTH_ERROR_USAGE);
     EXPECT_THAT(hearth_last_error(renderer_), HasSubstr("no geometry_budget"));
     EXPECT_EQ(hearth_scene_stream(scene_, &counters), HEARTH_ERROR_USAGE);
+    hearth_shadow_counters shadows = HEARTH_SHADOW_COUNTERS_INIT;
+    EXPECT_EQ(hearth_scene_shadows(scene_, &shadows), HEARTH_ERROR_USAGE);
+    EXPECT_THAT(hearth_last_error(renderer_), HasSubstr("no shadows"));
     EXPECT_EQ(hearth_scene_retry_failed(scene_), HEARTH_ERROR_USAGE);
     const VkCommandBuffer commands = c_caller_begin(caller_);
     EXPECT_EQ(hearth_record_prefetch(scene_, targets_, commands, &frame), HEARTH_ERROR_USAGE);
@@ -270,6 +278,25 @@ TEST_F(CFrameRulesTest, sceneOptionsThatBreakRulesAreRefused)
     EXPECT_THAT(refused([](O& o) { o.read = nullptr; }), HasSubstr("read callback"));
     EXPECT_THAT(refused([](O& o) { o.max_loads = 0; }), HasSubstr("max_loads"));
     EXPECT_THAT(refused([](O& o) { o.frames_in_flight = 17; }), HasSubstr("frames_in_flight"));
+    const auto shadows = [&](const auto& change)
+    {
+        return refused(
+            [&](O& o)
+            {
+                o.shadows.max_maps = 4;
+                change(o.shadows);
+            });
+    };
+    using S = hearth_shadow_options;
+    EXPECT_THAT(shadows([](S& s) { s.max_maps = 65; }), HasSubstr("shadows.max_maps"));
+    EXPECT_THAT(shadows([](S& s) { s.texels = 1000; }), HasSubstr("shadows.texels"));
+    EXPECT_THAT(shadows([](S& s) { s.kernel = 4; }), HasSubstr("shadows.kernel"));
+    EXPECT_THAT(shadows([](S& s) { s.splits = 9; }), HasSubstr("shadows.splits"));
+    EXPECT_THAT(shadows([](S& s) { s.error_bias = 0.5f; }), HasSubstr("shadows.error_bias"));
+    EXPECT_THAT(shadows([](S& s) { s.split_far = s.split_near; }), HasSubstr("shadows.split_near"));
+    EXPECT_THAT(shadows([](S& s) { s.split_blend = 2; }), HasSubstr("shadows.split_blend"));
+    EXPECT_THAT(shadows([](S& s) { s.spot_near = 0; }), HasSubstr("shadows.spot_near"));
+    EXPECT_THAT(shadows([](S& s) { s.moving_layers = 2; }), HasSubstr("shadows.moving_layers"));
     EXPECT_EQ(scene_, nullptr);
     EXPECT_EQ(upload(streamedBy(reader, 16)), HEARTH_ERROR_STREAMING_BUDGET);
     EXPECT_THAT(hearth_last_error(renderer_), HasSubstr("[E4006] hint: raise the budget"));

@@ -133,7 +133,8 @@ Picture GpuTest::draw(const gpu::Scene& scene, gpu::FrameTargets& targets, const
         HEARTH_ASSERT(renderer().prepareOverdraw().ok());
     const gpu::FrameInput input{.view = viewOf(scene, camera, options),
                                 .shading = {.shown = options.shown, .area = options.area},
-                                .moves = options.moves};
+                                .moves = options.moves,
+                                .shadow_spheres = options.shadow_spheres};
     const Status status = host().run(
         [&](VkCommandBuffer commands)
         {

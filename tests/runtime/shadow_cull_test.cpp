@@ -156,6 +156,20 @@ TEST(CasterView, refinesEverythingWhereThePictureDoes)
     EXPECT_TRUE(errorExceeds(casters, unmoved(), {0, 0, -5}, 1, 0));
 }
 
+TEST(EyeCell, isAsLargeAsTheTexelsOfTheMapAllow)
+{
+    const FrameView view = makeFrameView({.position = {3, -7, 1e4f}}, 1280, 720, 1, 1);
+    for (const float texel_m : {0.001f, 0.02f, 0.3f})
+    {
+        const EyeCell cell = eyeCell(view, texel_m, 2);
+        const float grown = cutError(view, 100 + cell.shift, 2) - cutError(view, 100, 2);
+        EXPECT_LE(grown, 0.5f * texel_m * 1.001f);
+        EXPECT_GE(grown, 0.25f * texel_m * 0.99f);
+    }
+    // the cut of the source triangles does not depend on the eye
+    EXPECT_GT(eyeCell(makeFrameView({}, 64, 64, 0, 1), 0.01f, 1).shift, 500);
+}
+
 /// Whatever is drawn, in the picture or into a map, is no farther off than its part of the offset.
 TEST(CutOffset, boundsTheErrorsOfBothSurfaces)
 {
@@ -169,27 +183,31 @@ TEST(CutOffset, boundsTheErrorsOfBothSurfaces)
         FrameView view = randomView(random);
         const LodKnot curve[] = {{5, between(random, 0.5f, 2)}, {80, between(random, 0.3f, 2)}};
         ASSERT_TRUE(setLodCurve(view, curve).ok());
-        const FrameView casters = makeCasterView(view, c.light, c.map, kBias);
+        const EyeCell cell = eyeCell(view, std::exp2(between(random, -10, 2)), kBias);
+        ASSERT_LE(length(cell.eye - view.eye), cell.shift * 1.001f + 1e-4f);
+        FrameView from_cell = view;
+        from_cell.eye = cell.eye;
+        const FrameView casters = makeCasterView(from_cell, c.light, c.map, kBias);
         const float radius = between(random, 0.1f, 5);
         const Float3 center = randomUnit(random) * between(random, 1, 60);
         const float error = std::exp2(between(random, -12, 2));
         const float distance =
             length(center + randomUnit(random) * (radius * between(random, 0, 1)) - view.eye);
-        const float offset = shadowCutOffset(view, distance, kBias) * 1.00001f;
+        const float slack = 1.0001f;
         if (!errorExceeds(view, unmoved(), center, radius, error))
         {
             ++seen;
-            EXPECT_LE(error, offset / (1 + kBias));
+            EXPECT_LE(error, cutError(view, distance, 1) * slack);
         }
         if (!errorExceeds(casters, unmoved(), center, radius, error))
         {
             ++cast;
-            EXPECT_LE(error, offset * kBias / (1 + kBias));
+            EXPECT_LE(error, cutError(view, distance + cell.shift, kBias) * slack);
         }
     }
     EXPECT_GT(seen, 2000u);
     EXPECT_GT(cast, seen + 1000u);
-    EXPECT_EQ(shadowCutOffset(makeFrameView({}, 64, 64, 0, 1), 10, kBias), 0);
+    EXPECT_EQ(shadowCutOffset(makeFrameView({}, 64, 64, 0, 1), 10, kBias, 5), 0);
 }
 
 /// A plane that casts from where its coarser level lies, above the one that is seen.

@@ -129,10 +129,10 @@ TEST(SplitSpheres, holdTheViewAndKeepTheirRadii)
         Camera camera{.position = randomUnit(random) * 100};
         camera.target = camera.position + randomUnit(random);
         std::array<Sphere, 4> spheres{};
-        splitSpheres(camera, 1.6f, {.near = 0.1f, .far = 120, .blend = 0.8f}, spheres);
+        const FrameView view = makeFrameView(camera, 1600, 1000, 1, 1);
+        splitSpheres(view, {.near = 0.1f, .far = 120, .blend = 0.8f}, spheres);
         if (run == 0)
             first = spheres;
-        const FrameView view = makeFrameView(camera, 1600, 1000, 1, 1);
         for (size_t i = 0; i < spheres.size(); ++i)
         {
             EXPECT_EQ(spheres[i].radius, first[i].radius);

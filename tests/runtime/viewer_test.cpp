@@ -52,6 +52,7 @@ TEST(RenderOptions, defaultsFitTheScene)
     EXPECT_EQ(options->settings.error_pixels, 1);
     EXPECT_EQ(options->settings.cull_flags, shared::kCullEverything);
     EXPECT_EQ(options->geometry_budget, 0u) << "all is resident";
+    EXPECT_EQ(options->shadows.options.max_maps, 0u) << "no shadows";
 }
 
 TEST(RenderOptions, everyOptionIsRead)
@@ -83,6 +84,11 @@ TEST(RenderOptions, everyOptionIsRead)
                                 "tiles",
                                 "--budget",
                                 "3M",
+                                "--shadows",
+                                "texels=512,bias=3,splits=2,kernel=0,maps=7,far=20",
+                                "--shadow-sphere",
+                                "1,2,3,4",
+                                "--shadow-sphere=-1,0,0,0.5,6",
                                 "--validate",
                                 "-v",
                                 "--output=b.png",
@@ -109,6 +115,18 @@ TEST(RenderOptions, everyOptionIsRead)
     ASSERT_EQ(options->settings.lod_curve.size(), 2u);
     EXPECT_EQ(options->settings.lod_curve[1].distance, 50);
     EXPECT_EQ(options->settings.lod_curve[1].factor, 0.5f);
+    const gpu::ShadowOptions& shadows = options->shadows.options;
+    EXPECT_EQ(shadows.texels, 512u);
+    EXPECT_EQ(shadows.error_bias, 3);
+    EXPECT_EQ(shadows.splits, 2u);
+    EXPECT_EQ(shadows.kernel, 0u);
+    EXPECT_EQ(shadows.max_maps, 7u);
+    EXPECT_EQ(shadows.split_range.far, 20);
+    ASSERT_EQ(options->shadows.spheres.size(), 2u);
+    EXPECT_EQ(options->shadows.spheres[0].center, (Float3{1, 2, 3}));
+    EXPECT_EQ(options->shadows.spheres[0].light, gpu::ShadowSphere::kAllLights);
+    EXPECT_EQ(options->shadows.spheres[1].radius, 0.5f);
+    EXPECT_EQ(options->shadows.spheres[1].light, 6u);
     EXPECT_TRUE(options->validate);
     EXPECT_TRUE(options->verbose);
 }
@@ -154,6 +172,12 @@ TEST(RenderOptions, mistakesAreNamed)
     expectUsage({"a.hearth", "-o", "a.png", "--shaded-area", "half"}, "half");
     expectUsage({"a.hearth", "-o", "a.png", "--view", "pretty"}, "pretty");
     expectUsage({"a.hearth", "-o", "a.png", "--samples", "2"}, "2");
+    for (const char* shadows : {"", "yes", "on,maps=4", "maps=0", "maps=65", "texels=1000", "kernel=4",
+                                "bias=0.5", "far=-1", "near=3,far=2", "size=5"})
+        expectUsage({"a.hearth", "-o", "a.png", "--shadows", shadows}, "--shadows");
+    for (const char* sphere : {"", "1,2,3", "1,2,3,0", "1,2,3,4,x", "1,2,3,4,5,6"})
+        expectUsage({"a.hearth", "-o", "a.png", "--shadow-sphere", sphere}, "--shadow-sphere");
+    expectUsage({"a.hearth", "-o", "a.png", "--view", "shadow-maps"}, "--shadows");
     for (const char* budget : {"", "0", "M", "-1", "1.5M", "1T", "1025G", "99999999999999999999"})
         expectUsage({"a.hearth", "-o", "a.png", "--budget", budget}, "--budget");
     for (const char* tests : {"", "some", "cone,", "all,cone"})

@@ -60,6 +60,18 @@ void warnAboutLimits(const gpu::Scene& scene, const VisibleList& list, const std
                         std::to_string(shared::kMaxLights) + " that are drawn"});
 }
 
+void warnAboutShadows(const ShadowCounts& counts, const std::string& name)
+{
+    const auto warn = [&](uint64_t count, const char* what)
+    {
+        if (count > 0)
+            printError({Issue::degraded, name, "", std::to_string(count) + what});
+    };
+    warn(counts.maps.dropped_maps, " shadow maps are more than there is room for (--shadows maps=N)");
+    warn(counts.maps.unshadowed_lights, " lights cast no shadow: they are more than there are maps for");
+    warn(counts.dropped_clusters, " clusters are more than the visible list holds and cast no shadow");
+}
+
 /// Draws the frames of one run, and writes what was asked for.
 class Run
 {
@@ -138,6 +150,12 @@ public:
                                     countStreaming(host_, renderer_, scene_, serial_));
             streaming_.push_back(counts);
         }
+        if (scene_.shadows != nullptr)
+        {
+            HEARTH_ASSIGN_OR_RETURN(const ShadowCounts counts, countShadows(host_, renderer_, scene_));
+            warnAboutShadows(counts, pack_.name());
+            shadows_.push_back(counts);
+        }
         if (visibility_file.empty())
             return success();
         HEARTH_ASSIGN_OR_RETURN(const std::vector<std::byte> pixels,
@@ -161,6 +179,7 @@ public:
                                  .dropped_lights = scene_.dropped_lights,
                                  .frames = frames_,
                                  .streaming = streaming_,
+                                 .shadows = shadows_,
                                  .milliseconds = medianPassTimes(times_)};
         const std::string text = formatReport(report, pack_);
         return writeFile(options_.stats, std::as_bytes(std::span(text)));
@@ -169,7 +188,9 @@ public:
 private:
     gpu::FrameInput frameOf(const shared::Camera& camera) const
     {
-        return makeFrame(settings_, camera, scene_.instance_count, targets_.extent());
+        gpu::FrameInput frame = makeFrame(settings_, camera, scene_.instance_count, targets_.extent());
+        frame.shadow_spheres = options_.shadows.spheres;
+        return frame;
     }
 
     /// Add what the last frame drew, and what it did not, to the statistics.
@@ -222,6 +243,7 @@ private:
     std::vector<std::vector<double>> times_;
     std::vector<FrameCounts> frames_; ///< of those that were written
     std::vector<StreamCounts> streaming_;
+    std::vector<ShadowCounts> shadows_;
     uint64_t serial_ = 0; ///< of the last frame
 };
 
@@ -230,6 +252,16 @@ pack::PageReader pageReader(const formats::PackView& pack)
 {
     return [&pack](uint32_t page, std::span<std::byte> destination, pack::ReadDone done)
     { done(readPage(pack, page, destination)); };
+}
+
+gpu::SceneOptions sceneOptions(const RenderOptions& options, const formats::PackView& pack,
+                               std::span<const shared::Camera> cameras)
+{
+    gpu::SceneOptions scene;
+    scene.geometry_budget = options.geometry_budget;
+    scene.stream = {.read = pageReader(pack), .frames_in_flight = 1};
+    scene.shadows = fitShadows(options.shadows, pack, cameras);
+    return scene;
 }
 
 Status drawPack(const RenderOptions& options, const formats::PackView& pack, VulkanHost& host)
@@ -243,10 +275,8 @@ Status drawPack(const RenderOptions& options, const formats::PackView& pack, Vul
     HEARTH_TRY(host.run(
         [&](VkCommandBuffer commands) -> Status
         {
-            HEARTH_ASSIGN_OR_RETURN(
-                scene, renderer->upload(pack, commands,
-                                        {.geometry_budget = options.geometry_budget,
-                                         .stream = {.read = pageReader(pack), .frames_in_flight = 1}}));
+            HEARTH_ASSIGN_OR_RETURN(scene,
+                                    renderer->upload(pack, commands, sceneOptions(options, pack, cameras)));
             return success();
         }));
     scene->staging.reset();

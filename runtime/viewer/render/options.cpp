@@ -86,6 +86,7 @@ Result<RenderOptions> parseRenderOptions(std::span<const char* const> arguments)
         return options;
     if (options.pack.empty())
         return usageError("no pack is named");
+    HEARTH_TRY(checkDrawOptions(options));
     if (options.output.empty())
         return usageError("no output is named (-o IMAGE.png)");
     if (!options.camera_path.empty() && options.frames != 1)

@@ -9,11 +9,12 @@ namespace hearth::viewer
 
 Result<std::unique_ptr<LoadedScene>> LoadedScene::load(VulkanHost& host, gpu::Renderer& renderer,
                                                        const formats::PackView& pack,
-                                                       uint64_t geometry_budget)
+                                                       uint64_t geometry_budget,
+                                                       const gpu::ShadowOptions& shadows)
 {
     std::unique_ptr<LoadedScene> loaded(new LoadedScene);
     loaded->geometry_budget_ = geometry_budget;
-    gpu::SceneOptions options{.geometry_budget = geometry_budget};
+    gpu::SceneOptions options{.geometry_budget = geometry_budget, .shadows = shadows};
     if (geometry_budget > 0)
     {
         loaded->loader_ =

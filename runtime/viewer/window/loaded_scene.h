@@ -19,7 +19,8 @@ public:
     /// geometry_budget  bytes; 0: all geometry is resident
     /// errors: those of gpu::Renderer::upload.
     static Result<std::unique_ptr<LoadedScene>> load(VulkanHost& host, gpu::Renderer& renderer,
-                                                     const formats::PackView& pack, uint64_t geometry_budget);
+                                                     const formats::PackView& pack, uint64_t geometry_budget,
+                                                     const gpu::ShadowOptions& shadows);
 
     gpu::Scene& scene() { return *scene_; }
     const gpu::Scene& scene() const { return *scene_; }

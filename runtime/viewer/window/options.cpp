@@ -39,6 +39,7 @@ Result<ViewOptions> parseViewOptions(std::span<const char* const> arguments)
         return options;
     if (options.pack.empty())
         return usageError("no pack is named");
+    HEARTH_TRY(checkDrawOptions(options));
     if (!options.screenshot.empty() && options.frames == 0)
         return usageError("--screenshot needs --frames: it is taken at their end");
     return options;

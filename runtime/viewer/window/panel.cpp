@@ -93,7 +93,7 @@ void Panel::build(ViewSettings& settings, const PanelFacts& facts)
         if (const uint32_t dropped = facts.scene.scene().dropped_lights; dropped > 0)
             showProblem(std::to_string(dropped) + " lights are more than can be drawn");
         chooseCamera(settings, facts);
-        buildPicture(settings.frame);
+        buildPicture(settings.frame, facts.scene.scene().shadows != nullptr);
         buildCurve(settings.frame);
         buildStreaming(settings, facts);
         buildCulling(settings, facts);
@@ -102,9 +102,10 @@ void Panel::build(ViewSettings& settings, const PanelFacts& facts)
     ImGui::End();
 }
 
-void Panel::buildPicture(FrameSettings& settings)
+void Panel::buildPicture(FrameSettings& settings, bool has_shadows)
 {
-    chooseNamed("View", viewNames(), settings.view);
+    // the last one shows shadow maps
+    chooseNamed("View", viewNames().first(viewNames().size() - (has_shadows ? 0 : 1)), settings.view);
     ImGui::SliderFloat("Error, pixels", &settings.error_pixels, 0, kMostError, "%.2f",
                        ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
     chooseNamed("Shaded area", shadedAreaNames(), settings.shaded_area);

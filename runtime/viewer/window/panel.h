@@ -50,7 +50,7 @@ public:
     void build(ViewSettings& settings, const PanelFacts& facts);
 
 private:
-    void buildPicture(FrameSettings& settings);
+    void buildPicture(FrameSettings& settings, bool has_shadows);
     void buildCurve(FrameSettings& settings);
     void buildStreaming(ViewSettings& settings, const PanelFacts& facts);
     void buildCulling(ViewSettings& settings, const PanelFacts& facts);

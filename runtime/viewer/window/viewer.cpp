@@ -45,6 +45,16 @@ std::vector<NamedCamera> camerasOf(const formats::PackView& pack, const shared::
     return cameras;
 }
 
+/// For flights between these cameras.
+gpu::ShadowOptions shadowsOf(const ShadowSettings& settings, const formats::PackView& pack,
+                             std::span<const NamedCamera> named)
+{
+    std::vector<shared::Camera> cameras;
+    for (const NamedCamera& camera : named)
+        cameras.push_back(camera.camera);
+    return fitShadows(settings, pack, cameras);
+}
+
 uint64_t geometryBytes(const formats::PackView& pack)
 {
     uint64_t bytes = 0;
@@ -60,7 +70,10 @@ Viewer::Viewer(const DrawOptions& options, const formats::PackView& pack, const 
       settings_{.frame = options.settings, .geometry_budget = options.geometry_budget},
       panel_(settings_, geometryBytes(pack)),
       camera_(start, flySpeed(pack, start.position)),
-      cameras_(camerasOf(pack, start, static_cast<float>(options.width) / static_cast<float>(options.height)))
+      cameras_(
+          camerasOf(pack, start, static_cast<float>(options.width) / static_cast<float>(options.height))),
+      shadows_(shadowsOf(options.shadows, pack, cameras_)),
+      shadow_spheres_(options.shadows.spheres)
 {
 }
 
@@ -88,7 +101,8 @@ Status Viewer::open(const DrawOptions& options)
     HEARTH_ASSIGN_OR_RETURN(frames_, FrameRing::create(*host_, device, vk_));
     HEARTH_ASSIGN_OR_RETURN(meter_, FrameMeter::create(*host_, device));
     HEARTH_ASSIGN_OR_RETURN(imgui_, ImguiLayer::create(*window_, *host_, device, *swapchain_));
-    HEARTH_ASSIGN_OR_RETURN(scene_, LoadedScene::load(*host_, *renderer_, pack_, settings_.geometry_budget));
+    HEARTH_ASSIGN_OR_RETURN(
+        scene_, LoadedScene::load(*host_, *renderer_, pack_, settings_.geometry_budget, shadows_));
     return success();
 }
 
@@ -181,7 +195,7 @@ Status Viewer::followSettings()
         return success();
     // the scene that is there stays until the new one is
     Result<std::unique_ptr<LoadedScene>> scene =
-        LoadedScene::load(*host_, *renderer_, pack_, settings_.geometry_budget);
+        LoadedScene::load(*host_, *renderer_, pack_, settings_.geometry_budget, shadows_);
     problem_ = scene.ok() ? "" : formatMessage(scene.error());
     if (!scene.ok())
     {
@@ -250,6 +264,7 @@ void Viewer::recordFrame(VkCommandBuffer commands, uint32_t image, bool panel, c
         scene.stream->beginFrame(frames_->serial() + 1, frames_->completedSerial());
     gpu::FrameInput frame =
         makeFrame(settings_.frame, camera_.camera(), scene.instance_count, targets_->extent());
+    frame.shadow_spheres = shadow_spheres_;
     frame.timestamps = meter_->timestamps(frames_->slot());
     renderer_->record(commands, scene, *targets_, frame);
     meter_->record(commands, *scene_, frames_->slot(), settings_.count_culling);

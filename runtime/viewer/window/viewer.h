@@ -60,7 +60,9 @@ private:
     FlyControls controls_;
     FlyCamera camera_;
     std::vector<NamedCamera> cameras_; ///< where it can go; the first is where it started
-    std::string problem_;              ///< with the budget
+    gpu::ShadowOptions shadows_;
+    std::vector<gpu::ShadowSphere> shadow_spheres_;
+    std::string problem_; ///< with the budget
     bool open_ = true;
     bool minimized_ = false;
     bool resized_ = true;

@@ -7,6 +7,7 @@
 #include "runtime/shaders/scene.glsl"
 #include "runtime/shaders/material.glsl"
 #include "runtime/shaders/surface_point.glsl"
+#include "runtime/shaders/unshadowed.glsl"
 #include "runtime/shaders/lighting.glsl"
 
 layout(location = 0) in vec3 in_position;
@@ -23,6 +24,7 @@ void main()
     SurfacePoint point;
     point.position = in_position;
     point.normal = normalizeOr(in_normal, vec3(0.0, 1.0, 0.0));
+    point.flat_normal = point.normal; // no shadows look at it
     completeFrame(point.normal, in_tangent, in_side, point.tangent, point.bitangent);
     point.color = in_color;
     // where both sides are drawn, mirrored instances are not drawn with the other front face

@@ -1,0 +1,4 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#version 450
+
+void main() {}

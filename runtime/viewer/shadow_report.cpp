@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "runtime/viewer/shadow_report.h"
+
+#include <cstring>
+
+namespace hearth::viewer
+{
+
+namespace
+{
+
+/// The members of a JSON object.
+std::string formatMembers(const ShadowCounts& counts)
+{
+    std::string text;
+    const auto add = [&](std::string_view name, uint64_t value)
+    { text.append(text.empty() ? "\"" : ",\"").append(name).append("\":").append(std::to_string(value)); };
+    add("maps", counts.maps.maps);
+    add("drawn_maps", counts.maps.drawn_maps);
+    add("dropped_maps", counts.maps.dropped_maps);
+    add("unshadowed_lights", counts.maps.unshadowed_lights);
+    add("caster_clusters", counts.caster_clusters);
+    add("dropped_clusters", counts.dropped_clusters);
+    add("map_bytes", counts.map_bytes);
+    return text;
+}
+
+} // namespace
+
+Result<ShadowCounts> countShadows(VulkanHost& host, const gpu::Renderer& renderer, const gpu::Scene& scene)
+{
+    const gpu::SceneShadows& shadows = *scene.shadows;
+    HEARTH_ASSIGN_OR_RETURN(const std::vector<std::byte> bytes,
+                            host.read(renderer.device(), shadows.casters()));
+    ShadowCounts counts{.maps = shadows.statistics(), .map_bytes = shadows.allocatedBytes()};
+    // nothing moves here, so that no map has a second layer
+    for (const shared::ShadowMap& map : std::span(shadows.plan().block.maps).first(counts.maps.maps))
+    {
+        shared::FrameCounters layer;
+        std::memcpy(&layer, bytes.data() + map.layer * sizeof(layer), sizeof(layer));
+        counts.caster_clusters += layer.drawn_clusters;
+        counts.dropped_clusters += layer.dropped_clusters;
+    }
+    return counts;
+}
+
+std::string formatShadows(std::span<const ShadowCounts> frames)
+{
+    std::string text = "{";
+    text += formatMembers(frames.back());
+    if (frames.size() > 1)
+    {
+        std::string rows;
+        for (const ShadowCounts& frame : frames)
+            rows.append(rows.empty() ? "\n  {" : ",\n  {").append(formatMembers(frame)).append("}");
+        text.append(",\"frames\":[").append(rows).append("]");
+    }
+    return text + "}";
+}
+
+} // namespace hearth::viewer
