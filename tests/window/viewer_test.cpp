@@ -24,6 +24,7 @@ protected:
         options.width = 320;
         options.height = 240;
         options.validate = true;
+        options.shadows.options.max_maps = 4;
         Result<std::unique_ptr<viewer::Viewer>> viewer = viewer::Viewer::create(options, sample_.pack());
         ASSERT_TRUE(viewer.ok()) << formatMessage(viewer.error());
         viewer_ = std::move(viewer).value();

@@ -48,10 +48,10 @@ void showCount(const char* name, uint64_t count)
 
 void showTimes(const FrameFigures& figures)
 {
-    constexpr const char* kPasses[gpu::kTimestampCount] = {
-        "frame",      "cull",           "early visibility", "pyramid", "late cull",
-        "visibility", "material tiles", "material depth",   "shading"};
-    static_assert(gpu::kTimestampShading == gpu::kTimestampCount - 1);
+    constexpr const char* kPasses[] = {"frame",          "shadows",   "cull",       "early visibility",
+                                       "pyramid",        "late cull", "visibility", "material tiles",
+                                       "material depth", "shading"};
+    static_assert(std::size(kPasses) == gpu::kTimestampCount);
     if (!ImGui::CollapsingHeader("Times on the device"))
         return;
     for (size_t pass = 0; pass < figures.milliseconds.size(); ++pass)
