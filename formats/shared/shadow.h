@@ -63,6 +63,9 @@ struct ShadowBlock
 /// Cosine of the angle from which on offsets grow no more, 89.5 degrees: what is lit there is too dark to be seen.
 HEARTH_CONSTANT float kGrazingCosine = 0.0087f;
 
+/// Metres that a plane passes a spot at the least: what is seen edge-on covers no texel.
+HEARTH_CONSTANT float kLeastFacing = 1e-6f;
+
 /// Texels by which a rasteriser may move a vertex, to 1/16 at the coarsest that Vulkan allows, and rasterStep before it:
 /// so much farther than its pixel's centre a surface is met.
 HEARTH_CONSTANT float kRasterMargin = 0.0625f;
@@ -129,11 +132,16 @@ HEARTH_FUNCTION bool shadowMapHolds(HEARTH_IN(ShadowMap) map, HEARTH_IN(ShadowPo
 /// H. Igehy, "Tracing ray differentials", 1999; RUNTIME 2.10 (design notes).
 ///
 /// normal   unit, either side
+/// nearest  metres from a spot to the nearest part of the surface, or less: at grazing angles the slope is that of
+///          89.5 degrees there, the same for all of the surface, since what differs between the vertices of a triangle would
+///          tilt it
 HEARTH_FUNCTION float shadowSlope(HEARTH_IN(ShadowLight) light, HEARTH_IN(ShadowMap) map, Float3 point,
-                                  Float3 normal)
+                                  Float3 normal, float nearest)
 {
     HEARTH_PRECISE Float3 ray = light.direction * (1.0f - light.perspective) + point * light.perspective;
-    HEARTH_PRECISE float facing = max(abs(dot3(normal, ray)), kGrazingCosine * sqrt(dot3(ray, ray)));
+    HEARTH_PRECISE float ray_length = (1.0f - light.perspective) + nearest * light.perspective;
+    HEARTH_PRECISE float least = max(kGrazingCosine * ray_length, kLeastFacing);
+    HEARTH_PRECISE float facing = max(abs(dot3(normal, ray)), least);
     HEARTH_PRECISE float across =
         abs(dot3(normal, light.right)) / map.scale_x + abs(dot3(normal, light.down)) / map.scale_y;
     HEARTH_PRECISE float slope = light.depth_step * across / facing;
@@ -150,15 +158,17 @@ HEARTH_FUNCTION float rasterStep(float texel)
 
 /// Clip-space position of a vertex of a caster. It is deeper than the vertex by what its surface rises within the filter:
 /// a tap lies at most kernel + 1/2 texels beside the point that is looked up, and what rasterisers round by.
+///
+/// nearest  as shadowSlope: of the triangle
 HEARTH_FUNCTION Float4 shadowCasterClip(HEARTH_IN(ShadowLight) light, HEARTH_IN(ShadowMap) map, Float3 point,
-                                        Float3 normal)
+                                        Float3 normal, float nearest)
 {
     HEARTH_PRECISE float z = dot3(light.direction, point);
     float w = shadowW(light, z);
     HEARTH_PRECISE float x = dot3(light.right, point) * map.scale_x;
     HEARTH_PRECISE float y = dot3(light.down, point) * map.scale_y;
     HEARTH_PRECISE float offset =
-        shadowSlope(light, map, point, normal) * (map.kernel + 0.5f + kRasterMargin);
+        shadowSlope(light, map, point, normal, nearest) * (map.kernel + 0.5f + kRasterMargin);
     HEARTH_PRECISE float depth = ((z * light.depth_scale + light.depth_offset) - offset * w) - light.rounding;
     if (light.perspective == 0.0f)
     {

@@ -20,8 +20,9 @@ namespace hearth::gpu
 class ShadowCache
 {
 public:
-    /// pack  outlives the cache where anything is published
     /// With moving layers, map i has layer i for what rests, and layer i + options.max_maps for all, where anything moves.
+    ///
+    /// pack  outlives the cache where anything is published
     ShadowCache(const formats::PackView& pack, const ShadowOptions& options);
 
     /// Instances that have new transforms from this frame on.

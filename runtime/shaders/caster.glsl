@@ -45,6 +45,10 @@ CasterCorner casterCorner()
     float area2 = dot(across, across);
     // a triangle without area is not drawn: any normal will do
     vec3 normal = area2 > 0.0 ? across * inversesqrt(area2) : light.direction;
-    corner.position = shadowCasterClip(light, shadows.maps[map_index], points[0], normal);
+    // no part of a triangle is nearer than its nearest corner less its longest edge
+    float nearest = min(length(points[0]), min(length(points[1]), length(points[2])));
+    float longest = max(length(points[1] - points[0]),
+                        max(length(points[2] - points[1]), length(points[0] - points[2])));
+    corner.position = shadowCasterClip(light, shadows.maps[map_index], points[0], normal, max(nearest - longest, 0.0));
     return corner;
 }

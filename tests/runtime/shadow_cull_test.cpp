@@ -57,7 +57,7 @@ Instance unmoved()
 
 bool landsInMap(const Case& c, Float3 point)
 {
-    const Float4 clip = shadowCasterClip(c.light, c.map, point - c.light.origin, c.light.direction);
+    const Float4 clip = shadowCasterClip(c.light, c.map, point - c.light.origin, c.light.direction, 1);
     return clip.w > 0 && clip.z <= clip.w && std::abs(clip.x) <= clip.w && std::abs(clip.y) <= clip.w;
 }
 
@@ -231,7 +231,7 @@ TEST(CutOffset, keepsACoarserSurfaceFromShadowingTheOneThatIsSeen)
                 const Float2 texel = shadowTexel(c.map, looked_up);
                 const LightRay ray = rayThrough(c.light, c.map, double{std::floor(texel.x)} + 0.5,
                                                 double{std::floor(texel.y)} + 0.5);
-                const Float4 clip = shadowCasterClip(c.light, c.map, narrow(casting.meet(ray)), normal);
+                const Float4 clip = shadowCasterClip(c.light, c.map, narrow(casting.meet(ray)), normal, 0);
                 return looked_up.depth >= clip.z / clip.w;
             };
             EXPECT_TRUE(isLit(narrow(seen) + normal * off)) << degrees;

@@ -82,7 +82,7 @@ void expectSlopes(Case (*makeCase)(std::mt19937&, ShadowMapSize))
         // floats lose what cancels: between normal and axes on planes across the light, and ray on those along it
         const double distance = c.light.perspective == 0 ? 1 : length(widen(c.point));
         const double flat = double{c.light.depth_step} / (double{c.map.density} * distance);
-        EXPECT_NEAR(double{shadowSlope(c.light, c.map, c.point, normal)}, expected,
+        EXPECT_NEAR(double{shadowSlope(c.light, c.map, c.point, normal, 0)}, expected,
                     std::max(expected, flat) * 1e-6 / std::cos(angle));
     }
 }
@@ -104,8 +104,8 @@ TEST(ShadowSlope, isTheSameFromBothSides)
     {
         const Case c = randomSpot(random, {});
         const Float3 normal = randomUnit(random);
-        EXPECT_EQ(shadowSlope(c.light, c.map, c.point, normal),
-                  shadowSlope(c.light, c.map, c.point, -normal));
+        EXPECT_EQ(shadowSlope(c.light, c.map, c.point, normal, 0),
+                  shadowSlope(c.light, c.map, c.point, -normal, 0));
     }
 }
 
@@ -116,9 +116,27 @@ TEST(ShadowSlope, isBoundedAtGrazingAngles)
     {
         const Case c = randomSun(random, {});
         const float slope =
-            shadowSlope(c.light, c.map, c.point, tilted(c.light.direction, 90 * kDegree, random));
+            shadowSlope(c.light, c.map, c.point, tilted(c.light.direction, 90 * kDegree, random), 0);
         EXPECT_LE(slope, 1.4143f * c.light.depth_step / (c.map.density * kGrazingCosine));
-        EXPECT_TRUE(std::isfinite(shadowSlope(c.light, c.map, c.point, {0, 0, 0})));
+        EXPECT_TRUE(std::isfinite(shadowSlope(c.light, c.map, c.point, {0, 0, 0}, 0)));
+    }
+}
+
+/// What one vertex of a triangle is moved by, the others are: else the triangle would be tilted.
+TEST(ShadowSlope, ofASpotIsTheSameAllOverAPlane)
+{
+    std::mt19937 random(6);
+    for (int run = 0; run < 200; ++run)
+    {
+        const Case c = randomSpot(random, {});
+        // so near the light that far away it is seen from the side
+        const Double3 normal = widen(randomUnit(random));
+        const Double3 foot = normal * 0.05;
+        const Double3 aside = unit(cross(normal, widen(randomUnit(random))));
+        const float near = shadowSlope(c.light, c.map, narrow(foot), narrow(normal), 0.05f);
+        const float far = shadowSlope(c.light, c.map, narrow(foot + aside * 40.0), narrow(normal), 0.05f);
+        EXPECT_NEAR(far, near, near * 1e-3f);
+        EXPECT_LE(shadowSlope(c.light, c.map, narrow(foot), narrow(normal), 40), near * 0.2f);
     }
 }
 
@@ -129,7 +147,7 @@ float storedDepth(const Case& c, const Plane& plane, Float3 normal, double texel
     const Double3 point = plane.meet(ray);
     if (c.light.perspective != 0 && dot(point, widen(c.light.direction)) <= 0)
         return 0;
-    const Float4 clip = shadowCasterClip(c.light, c.map, narrow(point), normal);
+    const Float4 clip = shadowCasterClip(c.light, c.map, narrow(point), normal, 0);
     return clip.z / clip.w;
 }
 

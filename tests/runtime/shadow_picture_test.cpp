@@ -256,29 +256,31 @@ TEST_F(ShadowPictureTest, aMapThatMovesShowsTheSame)
 /// A plane that nothing shadows looks as without shadows.
 TEST_F(ShadowPictureTest, aPlaneIsFreeOfAcneAtAllAngles)
 {
-    for (const uint32_t kernel : {0u, 1u, 2u})
-        for (int degrees = 1; degrees <= 89; degrees += 11)
-        {
-            TestScene test;
-            const double angle = degrees * kDegree;
-            test.addInstance(test.addMesh(withMaterial(makeQuad(40, 40), test.addMaterial(plainMaterial()))),
-                             lying({0, 0, 0}));
-            test.addLight(
-                sun({static_cast<float>(0.8 * std::sin(angle)), static_cast<float>(-std::cos(angle)),
-                     static_cast<float>(0.6 * std::sin(angle))}));
-            const PackView pack = test.build();
-            gpu::ShadowOptions options = kFour;
-            options.texels = 128;
-            options.kernel = kernel;
-            const DrawOptions drawn{.width = 96, .height = 96, .error_pixels = 0};
-            const auto plain = upload(pack);
-            const Picture shadowed = drawShadowed(pack, options, drawn);
-            const Picture lit = draw(*plain, roomCamera(), drawn);
-            size_t darker = 0;
-            for (size_t i = 0; i < lit.color.size(); ++i)
-                darker += channel(shadowed.color[i], 0) < channel(lit.color[i], 0) - 1;
-            EXPECT_EQ(darker, 0u) << degrees << " degrees, kernel " << kernel;
-        }
+    for (const bool spot : {false, true})
+        for (const uint32_t kernel : {0u, 1u, 2u})
+            for (int degrees = 1; degrees <= 89; degrees += 11)
+            {
+                TestScene test;
+                const uint32_t white = test.addMaterial(plainMaterial());
+                test.addInstance(test.addMesh(withMaterial(makeQuad(40, 40), white)), lying({0, 0, 0}));
+                const double angle = degrees * kDegree;
+                const Float3 shine{static_cast<float>(0.8 * std::sin(angle)),
+                                   static_cast<float>(-std::cos(angle)),
+                                   static_cast<float>(0.6 * std::sin(angle))};
+                test.addLight(spot ? light(LightType::spot, shine * -4.0f, shine, 100) : sun(shine));
+                const PackView pack = test.build();
+                gpu::ShadowOptions options = kFour;
+                options.texels = 128;
+                options.kernel = kernel;
+                const DrawOptions drawn{.width = 96, .height = 96, .error_pixels = 0};
+                const auto plain = upload(pack);
+                const Picture shadowed = drawShadowed(pack, options, drawn);
+                const Picture lit = draw(*plain, roomCamera(), drawn);
+                size_t darker = 0;
+                for (size_t i = 0; i < lit.color.size(); ++i)
+                    darker += channel(shadowed.color[i], 0) < channel(lit.color[i], 0) - 1;
+                EXPECT_EQ(darker, 0u) << degrees << " degrees, kernel " << kernel << (spot ? ", spot" : "");
+            }
 }
 
 TEST_F(ShadowPictureTest, holesOfAMaskCastNone)
