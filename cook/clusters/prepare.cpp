@@ -5,6 +5,8 @@
 
 #include <cmath>
 
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
 #include <tbb/parallel_invoke.h>
 
 namespace hearth::clusters
@@ -45,12 +47,16 @@ namespace
 std::vector<uint8_t> degenerateTriangles(const mesh::SourceMesh& source)
 {
     std::vector<uint8_t> degenerate(source.triangleCount());
-    for (size_t t = 0; t < degenerate.size(); ++t)
-        degenerate[t] = mesh::isDegenerate(source.positions[source.indices[t * 3]],
-                                           source.positions[source.indices[t * 3 + 1]],
-                                           source.positions[source.indices[t * 3 + 2]])
-                            ? 1
-                            : 0;
+    const auto look = [&](const tbb::blocked_range<size_t>& triangles)
+    {
+        for (size_t t = triangles.begin(); t < triangles.end(); ++t)
+            degenerate[t] = mesh::isDegenerate(source.positions[source.indices[t * 3]],
+                                               source.positions[source.indices[t * 3 + 1]],
+                                               source.positions[source.indices[t * 3 + 2]])
+                                ? 1
+                                : 0;
+    };
+    tbb::parallel_for(tbb::blocked_range<size_t>(0, degenerate.size(), 16384), look);
     return degenerate;
 }
 

@@ -7,11 +7,17 @@
 #include <cmath>
 #include <limits>
 
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_reduce.h>
+
 namespace hearth::mesh
 {
 
 namespace
 {
+
+using Block = tbb::blocked_range<size_t>;
+constexpr size_t kGrain = 16384;
 
 constexpr int kBits = 16;
 constexpr int kMostExtraBits = 4;
@@ -31,17 +37,22 @@ double largestPart(Float3 from, Float3 to)
 /// Least of the edges' largest coordinate differences: a step no larger keeps the ends of every edge apart.
 double shortestEdge(const SourceMesh& mesh)
 {
-    double shortest = std::numeric_limits<double>::infinity();
-    for (size_t t = 0; t < mesh.indices.size(); t += 3)
+    const auto shortestOf = [&](const Block& triangles, double shortest)
     {
-        const Float3 a = mesh.positions[mesh.indices[t]];
-        const Float3 b = mesh.positions[mesh.indices[t + 1]];
-        const Float3 c = mesh.positions[mesh.indices[t + 2]];
-        const double least = std::min({largestPart(a, b), largestPart(b, c), largestPart(c, a)});
-        if (least < shortest && !isDegenerate(a, b, c))
-            shortest = least;
-    }
-    return shortest;
+        for (size_t t = triangles.begin(); t < triangles.end(); ++t)
+        {
+            const Float3 a = mesh.positions[mesh.indices[t * 3]];
+            const Float3 b = mesh.positions[mesh.indices[t * 3 + 1]];
+            const Float3 c = mesh.positions[mesh.indices[t * 3 + 2]];
+            const double least = std::min({largestPart(a, b), largestPart(b, c), largestPart(c, a)});
+            if (least < shortest && !isDegenerate(a, b, c))
+                shortest = least;
+        }
+        return shortest;
+    };
+    return tbb::parallel_reduce(Block(0, mesh.triangleCount(), kGrain),
+                                std::numeric_limits<double>::infinity(), shortestOf,
+                                [](double a, double b) { return std::min(a, b); });
 }
 
 /// 0 for a mesh without extent: its positions stay as they are.
@@ -74,25 +85,39 @@ float snap(double coordinate, double step)
     return static_cast<float>(std::nearbyint(coordinate / step) * step + 0.0);
 }
 
+namespace
+{
+
+/// The square of how far it moves.
+double snapPosition(Float3& position, double step)
+{
+    double distance2 = 0;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+        const float snapped = snap(position[axis], step);
+        const double moved = double{snapped} - position[axis];
+        distance2 += moved * moved;
+        position[axis] = snapped;
+    }
+    return distance2;
+}
+
+} // namespace
+
 Grid snapToGrid(SourceMesh& mesh)
 {
     Grid grid;
     grid.step = gridStep(mesh);
     if (grid.step == 0)
         return grid;
-    double farthest2 = 0;
-    for (Float3& p : mesh.positions)
+    const auto snapAll = [&](const Block& vertices, double farthest2)
     {
-        double distance2 = 0;
-        for (int axis = 0; axis < 3; ++axis)
-        {
-            const float snapped = snap(p[axis], grid.step);
-            const double moved = double{snapped} - p[axis];
-            distance2 += moved * moved;
-            p[axis] = snapped;
-        }
-        farthest2 = std::max(farthest2, distance2);
-    }
+        for (size_t v = vertices.begin(); v < vertices.end(); ++v)
+            farthest2 = std::max(farthest2, snapPosition(mesh.positions[v], grid.step));
+        return farthest2;
+    };
+    const double farthest2 = tbb::parallel_reduce(Block(0, mesh.vertexCount(), kGrain), 0.0, snapAll,
+                                                  [](double a, double b) { return std::max(a, b); });
     grid.error = std::nextafter(static_cast<float>(std::sqrt(farthest2)), std::numeric_limits<float>::max());
     return grid;
 }
