@@ -4,6 +4,7 @@
 
 #include "formats/result.h"
 
+#include <cstdio>
 #include <functional>
 #include <span>
 #include <string>
@@ -47,6 +48,22 @@ Error usageError(const std::string& detail);
 
 /// The one line of an error, on stderr.
 void printError(const Error& error);
+
+/// What a program does with its command line: help on stdout, or `run(options)`. The exit code; an error is one line on stderr.
+template <typename Options, typename Run>
+int runCommand(const Result<Options>& options, const std::string& help, const Run& run)
+{
+    if (options.ok() && options->help)
+    {
+        std::fputs(help.c_str(), stdout);
+        return 0;
+    }
+    const Status status = options.ok() ? run(*options) : Status(options.error());
+    if (status.ok())
+        return 0;
+    printError(status.error());
+    return exitCode(status.error());
+}
 
 /// In quotation marks.
 std::string quoted(std::string_view text);

@@ -317,17 +317,7 @@ Status render(const RenderOptions& options)
 
 int runRender(std::span<const char* const> arguments)
 {
-    const Result<RenderOptions> options = parseRenderOptions(arguments);
-    if (options.ok() && options->help)
-    {
-        std::fputs(renderHelp().c_str(), stdout);
-        return 0;
-    }
-    const Status status = options.ok() ? render(*options) : Status(options.error());
-    if (status.ok())
-        return 0;
-    printError(status.error());
-    return exitCode(status.error());
+    return runCommand(parseRenderOptions(arguments), renderHelp(), render);
 }
 
 } // namespace hearth::viewer

@@ -75,17 +75,7 @@ Status view(const ViewOptions& options)
 
 int runView(std::span<const char* const> arguments)
 {
-    const Result<ViewOptions> options = parseViewOptions(arguments);
-    if (options.ok() && options->help)
-    {
-        std::fputs(viewHelp().c_str(), stdout);
-        return 0;
-    }
-    const Status status = options.ok() ? view(*options) : Status(options.error());
-    if (status.ok())
-        return 0;
-    printError(status.error());
-    return exitCode(status.error());
+    return runCommand(parseViewOptions(arguments), viewHelp(), view);
 }
 
 } // namespace hearth::viewer
