@@ -7,6 +7,7 @@
 
 #include <cstdlib>
 #include <set>
+#include <thread>
 
 namespace hearth::test
 {
@@ -33,6 +34,26 @@ void fillRocks(TestScene& scene, int count, uint32_t seed)
 Camera lookingAtOrigin(Float3 position)
 {
     return {.position = position, .target = {0, 0, 0}, .y_fov_rad = 0.9f, .z_near = 0.05f};
+}
+
+/// New places for some of the instances; what is mirrored stays mirrored.
+std::vector<gpu::InstanceMove> randomMoves(const gpu::Scene& scene, const formats::PackView& pack,
+                                           std::mt19937& random)
+{
+    std::vector<gpu::InstanceMove> moves;
+    for (uint32_t i = 0; i < pack.instances().size(); ++i)
+    {
+        if (random() % 4 != 0)
+            continue;
+        Affine3 place = randomAffine(random, 4);
+        if ((determinant(place) < 0) != ((pack.instances()[i].flags & formats::kInstanceMirrored) != 0))
+            for (auto& row : place.m)
+                row[0] = -row[0];
+        const auto move = gpu::moveInstance(scene, i, place);
+        HEARTH_ASSERT(move.ok());
+        moves.push_back(*move);
+    }
+    return moves;
 }
 
 class DrawingTest : public GpuTest
@@ -105,7 +126,11 @@ TEST_F(DrawingTest, cullingIsLosslessWhateverWasDrawnBefore)
             default: // the same again: what was drawn hides the rest
                 break;
             }
-            DrawOptions options{.width = width, .height = height, .error_pixels = i % 5 == 0 ? 0.0f : 2.0f};
+            std::vector<gpu::InstanceMove> moves;
+            if (i % 3 == 0)
+                moves = randomMoves(*scene, pack, random);
+            DrawOptions options{
+                .width = width, .height = height, .error_pixels = i % 5 == 0 ? 0.0f : 2.0f, .moves = moves};
             const Picture some = draw(*scene, targets, camera, options);
             options.flags = 0;
             const Picture whole = draw(*scene, other, camera, options);
@@ -336,6 +361,65 @@ TEST_F(DrawingTest, theNumberOfThreadsChangesNothing)
         EXPECT_EQ(pictures.back().color, pictures.front().color) << threads;
     }
     ::unsetenv("LP_NUM_THREADS");
+}
+
+namespace
+{
+
+/// The colours of a few frames, with an instance, a device and a renderer of their own.
+void drawAlone(const formats::PackView& pack, std::vector<std::vector<std::byte>>& pictures)
+{
+    auto host = viewer::VulkanHost::create({.device_name = "", .validate = true});
+    ASSERT_TRUE(host.ok()) << formatMessage(host.error());
+    auto renderer = gpu::Renderer::create((*host)->description());
+    ASSERT_TRUE(renderer.ok()) << formatMessage(renderer.error());
+    std::unique_ptr<gpu::Scene> scene;
+    const Status uploaded = (*host)->run(
+        [&](VkCommandBuffer commands) -> Status
+        {
+            HEARTH_ASSIGN_OR_RETURN(scene, (*renderer)->upload(pack, commands));
+            return success();
+        });
+    ASSERT_TRUE(uploaded.ok()) << formatMessage(uploaded.error());
+    auto targets = (*renderer)->createTargets({96, 72});
+    ASSERT_TRUE(targets.ok());
+    for (const Float3 eye : {Float3{6, 4, 6}, {-2, 7, 1}, {9, 1, -3}})
+    {
+        const FrameView view = makeFrameView(lookingAtOrigin(eye), 96, 72, 1, scene->instance_count);
+        const Status drawn = (*host)->run(
+            [&](VkCommandBuffer commands)
+            {
+                (*renderer)->record(commands, *scene, *targets, {.view = view});
+                return success();
+            });
+        ASSERT_TRUE(drawn.ok()) << formatMessage(drawn.error());
+        auto color = (*host)->read((*renderer)->device(), targets->color(), 4);
+        ASSERT_TRUE(color.ok());
+        pictures.push_back(std::move(*color));
+    }
+    EXPECT_EQ((*host)->messages(), std::vector<std::string>{});
+}
+
+} // namespace
+
+TEST_F(DrawingTest, renderersOfOneProcessKnowNothingOfEachOther)
+{
+    TestScene test, other_test;
+    fillRocks(test, 9, 8);
+    fillRocks(other_test, 7, 3);
+    const formats::PackView packs[] = {test.build(), other_test.build()};
+    std::vector<std::vector<std::byte>> alone[2], together[2];
+    for (size_t i = 0; i < 2; ++i)
+        drawAlone(packs[i], alone[i]);
+    std::thread other([&] { drawAlone(packs[1], together[1]); });
+    drawAlone(packs[0], together[0]);
+    other.join();
+    for (size_t i = 0; i < 2; ++i)
+    {
+        ASSERT_EQ(alone[i].size(), 3u);
+        EXPECT_EQ(together[i], alone[i]);
+    }
+    EXPECT_NE(alone[0], alone[1]);
 }
 
 TEST_F(DrawingTest, aMistakeIsReportedByTheValidationLayer)
