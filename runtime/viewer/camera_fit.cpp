@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/viewer/camera_fit.h"
 
+#include "formats/cluster_bounds.h"
 #include "runtime/gpu/scene_shading.h"
 
 #include <algorithm>
@@ -16,20 +17,45 @@ constexpr float kFieldOfView = 0.6f; // 34 degrees: a portrait lens, little dist
 constexpr float kMargin = 1.08f;
 constexpr Float3 kFrom{0.55f, 0.42f, 0.8f};
 
-/// Calls `visit` with the world-space corners of every drawn instance's box.
+// Where there are more, the boxes of whole instances must do.
+constexpr size_t kMostClusterBoxes = size_t{1} << 18;
+
+template <typename Visitor>
+void visitCorners(const Box3& box, const Affine3& world_from_object, const Visitor& visit)
+{
+    for (int corner = 0; corner < 8; ++corner)
+        visit(transformPoint(world_from_object,
+                             {(corner & 1) ? box.max.x : box.min.x, (corner & 2) ? box.max.y : box.min.y,
+                              (corner & 4) ? box.max.z : box.min.z}));
+}
+
+size_t countClusters(const formats::PackView& pack)
+{
+    size_t count = 0;
+    for (const formats::InstanceRecord& instance : pack.instances())
+        count += pack.meshes()[instance.mesh].clusters.count;
+    return count;
+}
+
+/// Calls `visit` with world-space points around all that is drawn: the corners of the finest clusters' boxes, which lie
+/// closer to round things than the corners of whole ones.
 template <typename Visitor>
 void forEachCorner(const formats::PackView& pack, const Visitor& visit)
 {
+    const bool by_clusters = countClusters(pack) <= kMostClusterBoxes;
     for (const formats::InstanceRecord& instance : pack.instances())
     {
         const formats::MeshRecord& mesh = pack.meshes()[instance.mesh];
         if (mesh.clusters.count == 0)
             continue;
-        for (int corner = 0; corner < 8; ++corner)
-            visit(
-                transformPoint(instance.world_from_object, {(corner & 1) ? mesh.box_max.x : mesh.box_min.x,
-                                                            (corner & 2) ? mesh.box_max.y : mesh.box_min.y,
-                                                            (corner & 4) ? mesh.box_max.z : mesh.box_min.z}));
+        if (!by_clusters)
+        {
+            visitCorners({mesh.box_min, mesh.box_max}, instance.world_from_object, visit);
+            continue;
+        }
+        for (const formats::ClusterRecord& cluster : recordsOf(pack.clusters(), mesh.clusters))
+            if (cluster.level == 0)
+                visitCorners(formats::boxOf(cluster, mesh.grid_step), instance.world_from_object, visit);
     }
 }
 

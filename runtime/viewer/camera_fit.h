@@ -8,7 +8,7 @@
 namespace hearth::viewer
 {
 
-/// Three-quarter view from the right, front and above, as close as all instances' boxes fit into the picture with a
+/// Three-quarter view from the right, front and above, as close as all that is drawn fits into the picture with a
 /// small margin. A scene without triangles gets a view of the origin.
 shared::Camera fitCamera(const formats::PackView& pack, float aspect);
 
