@@ -136,32 +136,50 @@ Result<gpu::FrameInput> makeInput(const hearth_scene& scene, const gpu::FrameTar
                            .timestamps = frame.timestamps};
 }
 
-/// A whole frame, or its first part, by `record(renderer, input)`.
-template <typename Record>
-Status beginFrame(hearth_scene& scene, const hearth_targets* targets, VkCommandBuffer commands,
-                  const hearth_frame* frame, const Record& record)
+/// Which calls record a frame: one, or three in this order.
+enum PartsRecorded : uint32_t
 {
-    HEARTH_TRY(checkCall(scene, targets, commands, frame));
+    kNothing = 0, ///< or the whole of a frame
+    kCulled = 1,
+    kVisible = 2,
+};
+
+/// What a frame brings along, before any of it is recorded.
+Status beginFrame(hearth_scene& scene, const hearth_frame& frame)
+{
     HEARTH_TRY(checkBegun(scene));
-    HEARTH_TRY(makeMoves(scene, *frame));
-    HEARTH_TRY(makeShadowSpheres(scene, *frame));
-    HEARTH_ASSIGN_OR_RETURN(const gpu::FrameInput input, makeInput(scene, targets->targets, *frame));
-    scene.to_be_recorded = false;
-    record(*scene.renderer->renderer, input);
+    HEARTH_TRY(makeMoves(scene, frame));
+    return makeShadowSpheres(scene, frame);
+}
+
+Status checkOrder(const hearth_scene& scene, const hearth_targets* targets, PartsRecorded before)
+{
+    if (scene.parts_recorded != before || scene.parts_targets != targets)
+        return usage("the parts of a frame are recorded in order, with the same targets");
     return success();
 }
 
-/// The part behind `before` others, by `record(renderer, input)`.
+/// `record` is the renderer's function for what comes between.
 template <typename Record>
-Status continueFrame(hearth_scene& scene, const hearth_targets* targets, VkCommandBuffer commands,
-                     const hearth_frame* frame, uint32_t before, const Record& record)
+hearth_result recordParts(const char* function, PartsRecorded before, PartsRecorded after,
+                          const Record& record, hearth_scene* scene, hearth_targets* targets,
+                          VkCommandBuffer commands, const hearth_frame* frame)
 {
-    HEARTH_TRY(checkCall(scene, targets, commands, frame));
-    if (scene.parts_recorded != before || scene.parts_targets != targets)
-        return usage("the parts of a frame are recorded in order, with the same targets");
-    HEARTH_ASSIGN_OR_RETURN(const gpu::FrameInput input, makeInput(scene, targets->targets, *frame));
-    record(*scene.renderer->renderer, input);
-    return success();
+    if (scene == nullptr)
+        return HEARTH_ERROR_USAGE;
+    const auto work = [&]() -> Status
+    {
+        HEARTH_TRY(checkCall(*scene, targets, commands, frame));
+        HEARTH_TRY(before == kNothing ? beginFrame(*scene, *frame) : checkOrder(*scene, targets, before));
+        HEARTH_ASSIGN_OR_RETURN(const gpu::FrameInput input, makeInput(*scene, targets->targets, *frame));
+        if (before == kNothing)
+            scene->to_be_recorded = false;
+        (scene->renderer->renderer.get()->*record)(commands, *scene->scene, targets->targets, input);
+        scene->parts_recorded = after;
+        scene->parts_targets = targets;
+        return success();
+    };
+    return call(scene->renderer->message(), function, work);
 }
 
 hearth_image_state toC(const gpu::ImageState& state)
@@ -179,73 +197,28 @@ hearth_image_use toC(const gpu::ImageUse& use)
 hearth_result hearth_record_frame(hearth_scene* scene, hearth_targets* targets, VkCommandBuffer commands,
                                   const hearth_frame* frame)
 {
-    if (scene == nullptr)
-        return HEARTH_ERROR_USAGE;
-    return call(scene->renderer->message(), __func__,
-                [&]
-                {
-                    return beginFrame(*scene, targets, commands, frame,
-                                      [&](const gpu::Renderer& renderer, const gpu::FrameInput& input)
-                                      {
-                                          renderer.record(commands, *scene->scene, targets->targets, input);
-                                          scene->parts_recorded = 0;
-                                      });
-                });
+    return recordParts(__func__, kNothing, kNothing, &gpu::Renderer::record, scene, targets, commands, frame);
 }
 
 hearth_result hearth_record_cull(hearth_scene* scene, hearth_targets* targets, VkCommandBuffer commands,
                                  const hearth_frame* frame)
 {
-    if (scene == nullptr)
-        return HEARTH_ERROR_USAGE;
-    return call(scene->renderer->message(), __func__,
-                [&]
-                {
-                    return beginFrame(*scene, targets, commands, frame,
-                                      [&](const gpu::Renderer& renderer, const gpu::FrameInput& input)
-                                      {
-                                          renderer.recordCull(commands, *scene->scene, targets->targets,
-                                                              input);
-                                          scene->parts_recorded = 1;
-                                          scene->parts_targets = targets;
-                                      });
-                });
+    return recordParts(__func__, kNothing, kCulled, &gpu::Renderer::recordCull, scene, targets, commands,
+                       frame);
 }
 
 hearth_result hearth_record_visibility(hearth_scene* scene, hearth_targets* targets, VkCommandBuffer commands,
                                        const hearth_frame* frame)
 {
-    if (scene == nullptr)
-        return HEARTH_ERROR_USAGE;
-    return call(scene->renderer->message(), __func__,
-                [&]
-                {
-                    return continueFrame(*scene, targets, commands, frame, 1,
-                                         [&](const gpu::Renderer& renderer, const gpu::FrameInput& input)
-                                         {
-                                             renderer.recordVisibility(commands, *scene->scene,
-                                                                       targets->targets, input);
-                                             scene->parts_recorded = 2;
-                                         });
-                });
+    return recordParts(__func__, kCulled, kVisible, &gpu::Renderer::recordVisibility, scene, targets,
+                       commands, frame);
 }
 
 hearth_result hearth_record_materials(hearth_scene* scene, hearth_targets* targets, VkCommandBuffer commands,
                                       const hearth_frame* frame)
 {
-    if (scene == nullptr)
-        return HEARTH_ERROR_USAGE;
-    return call(scene->renderer->message(), __func__,
-                [&]
-                {
-                    return continueFrame(*scene, targets, commands, frame, 2,
-                                         [&](const gpu::Renderer& renderer, const gpu::FrameInput& input)
-                                         {
-                                             renderer.recordMaterials(commands, *scene->scene,
-                                                                      targets->targets, input);
-                                             scene->parts_recorded = 0;
-                                         });
-                });
+    return recordParts(__func__, kVisible, kNothing, &gpu::Renderer::recordMaterials, scene, targets,
+                       commands, frame);
 }
 
 hearth_result hearth_part_inform(uint32_t part, hearth_part_information* information)

@@ -9,9 +9,9 @@ namespace hearth::test
 
 TEST(ViewOptions, areThoseOfADrawingAndItsOwn)
 {
-    const char* const arguments[] = {"a.hearth",     "--size",   "64x32",     "--view",
-                                     "lod",          "--budget", "2M",        "--frames=7",
-                                     "--screenshot", "a.png",    "--validate"};
+    const char* const arguments[] = {"a.hearth",   "--size",    "64x32",      "--view",       "lod",
+                                     "--budget",   "2M",        "--frames=7", "--screenshot", "a.png",
+                                     "--validate", "--shadows", "maps=5"};
     const auto options = viewer::parseViewOptions(arguments);
     ASSERT_TRUE(options.ok()) << formatMessage(options.error());
     EXPECT_EQ(options->pack, "a.hearth");
@@ -21,6 +21,14 @@ TEST(ViewOptions, areThoseOfADrawingAndItsOwn)
     EXPECT_EQ(options->frames, 7u);
     EXPECT_EQ(options->screenshot, "a.png");
     EXPECT_TRUE(options->validate);
+    EXPECT_EQ(options->shadows.options.max_maps, 5u);
+}
+
+TEST(ViewNames, endWithTheOneThatNeedsShadows)
+{
+    // the panel leaves the last one out where there are none
+    for (const viewer::Named<uint32_t>& view : viewer::viewNames())
+        EXPECT_EQ(view.value == shared::kViewShadowMaps, &view == &viewer::viewNames().back()) << view.name;
 }
 
 TEST(ViewOptions, mistakesAreNamed)
@@ -36,6 +44,7 @@ TEST(ViewOptions, mistakesAreNamed)
     expectUsage({}, "no pack");
     expectUsage({"a.hearth", "-o", "a.png"}, "-o");
     expectUsage({"a.hearth", "--frames", "0"}, "--frames");
+    expectUsage({"a.hearth", "--view", "shadow-maps"}, "--shadows");
     expectUsage({"a.hearth", "--screenshot", "a.png"}, "--frames");
 }
 
