@@ -334,6 +334,14 @@ Status VulkanHost::run(const std::function<Status(VkCommandBuffer)>& record)
                                                command_pool_, VK_COMMAND_BUFFER_LEVEL_PRIMARY, 1};
     VkCommandBuffer commands;
     HEARTH_TRY_VK(vk_->vkAllocateCommandBuffers(device_, &allocate, &commands), "allocate a command buffer");
+    const Status ran = recordAndWait(commands, record);
+    vk_->vkFreeCommandBuffers(device_, command_pool_, 1, &commands);
+    return ran;
+}
+
+Status VulkanHost::recordAndWait(VkCommandBuffer commands,
+                                 const std::function<Status(VkCommandBuffer)>& record)
+{
     const VkCommandBufferBeginInfo begin{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO, nullptr,
                                          VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT, nullptr};
     HEARTH_TRY_VK(vk_->vkBeginCommandBuffer(commands, &begin), "begin a command buffer");
@@ -351,7 +359,6 @@ Status VulkanHost::run(const std::function<Status(VkCommandBuffer)>& record)
     if (result == VK_SUCCESS)
         result = vk_->vkWaitForFences(device_, 1, &fence, VK_TRUE, UINT64_MAX);
     vk_->vkDestroyFence(device_, fence, nullptr);
-    vk_->vkFreeCommandBuffers(device_, command_pool_, 1, &commands);
     HEARTH_TRY_VK(result, "run a command buffer");
     return success();
 }

@@ -78,6 +78,7 @@ private:
     Status createInstance(const HostOptions& options);
     Status chooseDevice(const std::string& name);
     Status createDevice();
+    Status recordAndWait(VkCommandBuffer commands, const std::function<Status(VkCommandBuffer)>& record);
 
     std::unique_ptr<HostTable> vk_;
     void* library_ = nullptr;
