@@ -38,7 +38,7 @@ enum FrameTimestamp : uint32_t
 struct FrameInput
 {
     shared::FrameView view; ///< from shared::makeFrameView, with the size of the targets
-    ShadingView shading;
+    ShadingView shading{};
     std::span<const InstanceMove> moves{}; ///< from this frame on; read while recording
     /// Of a scene with shadows, where they are finer, beside the spheres of its pack: all of this frame, read while
     /// recording.
