@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
+#include "formats/deformation.h"
 #include "formats/mesh.h"
 #include "formats/scene.h"
 
@@ -51,6 +52,12 @@ inline constexpr std::array kChunkList{
               "parts only: which meshes are levels of detail of others"},
     ChunkInfo{kChunkDeformation, 1, "SourceMeshHeader, SourceArray[], data", true,
               "joints, weights and morph targets of a mesh"},
+    ChunkInfo{kChunkDeformedMeshes, 1, "DeformedMeshRecord[]", false, "meshes with a skin or morph targets"},
+    ChunkInfo{kChunkDeformedClusters, 1, "DeformedClusterRecord[]", false,
+              "where their clusters can be in all poses"},
+    ChunkInfo{kChunkClusterJoints, 1, "u32[]", false, "which joints move each of these clusters"},
+    ChunkInfo{kChunkDeformedGroups, 1, "DeformedGroupRecord[]", false,
+              "parts only: where their groups can be"},
 };
 
 /// The list's line for a type, or nullptr: readers skip types that they do not know.

@@ -116,6 +116,9 @@ Status PackView::readTables()
     HEARTH_TRY(table(kChunkClusters, clusters_));
     HEARTH_TRY(table(kChunkPageTable, pages_));
     HEARTH_TRY(table(kChunkPageParents, page_parents_));
+    HEARTH_TRY(table(kChunkDeformedMeshes, deformed_meshes_));
+    HEARTH_TRY(table(kChunkDeformedClusters, deformed_clusters_));
+    HEARTH_TRY(table(kChunkClusterJoints, cluster_joints_));
 
     // pages are read one by one from the file, each with its own codec
     const ChunkEntry* pages = reader_.find(kChunkPages);

@@ -5,6 +5,7 @@
 
 #include "formats/cluster_bounds.h"
 #include "formats/container_reader.h"
+#include "formats/deformation.h"
 #include "formats/mesh.h"
 #include "formats/scene.h"
 
@@ -284,6 +285,9 @@ public:
     std::span<const ClusterRecord> clusters() const { return clusters_.span(); }
     std::span<const PageRecord> pages() const { return pages_.span(); }
     std::span<const uint32_t> pageParents() const { return page_parents_.span(); }
+    std::span<const DeformedMeshRecord> deformedMeshes() const { return deformed_meshes_.span(); }
+    std::span<const DeformedClusterRecord> deformedClusters() const { return deformed_clusters_.span(); }
+    std::span<const uint32_t> clusterJoints() const { return cluster_joints_.span(); }
 
     /// Chunk PAGE, as it lies in the file.
     std::span<const std::byte> pageBytes() const { return page_bytes_.bytes(); }
@@ -330,6 +334,9 @@ private:
     Records<ClusterRecord> clusters_;
     Records<PageRecord> pages_;
     Records<uint32_t> page_parents_;
+    Records<DeformedMeshRecord> deformed_meshes_;
+    Records<DeformedClusterRecord> deformed_clusters_;
+    Records<uint32_t> cluster_joints_;
     ChunkData page_bytes_;
 };
 

@@ -16,15 +16,6 @@ using namespace formats;
 namespace
 {
 
-Transform widened(const Affine3& transform)
-{
-    Transform wide;
-    for (int i = 0; i < 3; ++i)
-        for (int j = 0; j < 4; ++j)
-            wide.m[i][j] = double{transform.m[i][j]};
-    return wide;
-}
-
 /// The instance that stands for all: one mesh in one place. errors: lod_file.
 Result<InstanceRecord> onlyInstance(std::span<const InstanceRecord> instances, const std::string& file)
 {
