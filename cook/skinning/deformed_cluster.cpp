@@ -4,6 +4,15 @@
 namespace hearth::skinning
 {
 
+double weightOf(const DeformedCluster& cluster, size_t vertex, uint32_t joint)
+{
+    double weight = 0;
+    for (size_t i = vertex * cluster.influences; i < (vertex + 1) * cluster.influences; ++i)
+        if (cluster.joints[i] == joint)
+            weight += cluster.weights[i];
+    return weight;
+}
+
 std::vector<MorphedVertex> morphedVertices(const DeformedCluster& cluster,
                                            std::span<const motion::Interval> morph_weights)
 {

@@ -29,6 +29,9 @@ struct DeformedCluster
     std::vector<MorphDeltas> morphs; ///< targets that move a vertex
 };
 
+/// The weight of a joint at a vertex.
+double weightOf(const DeformedCluster& cluster, size_t vertex, uint32_t joint);
+
 /// What moves the clusters of one mesh. Both outlive it.
 struct Deformation
 {

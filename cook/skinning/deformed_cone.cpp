@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/skinning/deformed_cone.h"
 
+#include "cook/skinning/middle_pose.h"
 #include "cook/skinning/rounding.h"
 #include "formats/vertex_codec.h"
 
@@ -27,83 +28,6 @@ struct DeformedTriangle
     double corner_slack; ///< how far the corner comes from there
     Double3 normal;      ///< unit, in the middle pose
     double turn;         ///< radians: how far the normal turns at most
-};
-
-/// The middle pose of a cluster and what is left of its motion.
-class MiddlePose
-{
-public:
-    MiddlePose(uint32_t main, const DeformedCluster& cluster, const Deformation& deformation,
-               std::span<const MorphedVertex> vertices)
-        : cluster_(cluster), vertices_(vertices)
-    {
-        for (size_t v = 0; v < vertices.size(); ++v)
-        {
-            const Double3 bound = vertices[v].middle;
-            Double3 place = deformation.skin == nullptr ? bound : bound * weightOf(cluster, v, main);
-            double slack = length(vertices[v].half);
-            double stretch = deformation.skin == nullptr ? 1.0 : weightOf(cluster, v, main);
-            for (size_t i = v * cluster.influences; i < (v + 1) * cluster.influences; ++i)
-            {
-                const double weight = cluster.weights[i];
-                if (!(weight > 0) || cluster.joints[i] == main)
-                    continue;
-                const motion::JointMotion& motion = *deformation.skin->relative(main, cluster.joints[i]);
-                place = place + transformPoint(motion.ball().center, bound) * weight;
-                stretch += weight * motion.set().norm;
-                add(cluster.joints[i], motion.ball());
-            }
-            places_.push_back(place);
-            morph_slack_.push_back(slack * stretch);
-        }
-    }
-
-    Double3 place(size_t vertex) const { return places_[vertex]; }
-
-    /// How far at most a vertex comes from its place.
-    double slack(size_t vertex) const
-    {
-        double slack = morph_slack_[vertex];
-        for (const Part& part : parts_)
-            slack += weightOf(cluster_, vertex, part.joint) * part.ball->slackAt(vertices_[vertex].middle);
-        return slack;
-    }
-
-    /// How far at most the edge between two vertices comes from that between their places: what both do alike does not
-    /// count.
-    double edgeSlack(size_t a, size_t b) const
-    {
-        double slack = morph_slack_[a] + morph_slack_[b];
-        for (const Part& part : parts_)
-        {
-            const double weight_a = weightOf(cluster_, a, part.joint);
-            const double weight_b = weightOf(cluster_, b, part.joint);
-            const Double3 arm = (vertices_[a].middle - part.ball->pivot) * weight_a -
-                                (vertices_[b].middle - part.ball->pivot) * weight_b;
-            slack += part.ball->linear_slack * length(arm) +
-                     part.ball->point_slack * std::abs(weight_a - weight_b);
-        }
-        return slack;
-    }
-
-private:
-    struct Part
-    {
-        uint32_t joint;
-        const motion::MatrixBall* ball;
-    };
-
-    void add(uint32_t joint, const motion::MatrixBall& ball)
-    {
-        if (std::none_of(parts_.begin(), parts_.end(), [&](const Part& p) { return p.joint == joint; }))
-            parts_.push_back({joint, &ball});
-    }
-
-    const DeformedCluster& cluster_;
-    std::span<const MorphedVertex> vertices_;
-    std::vector<Part> parts_;
-    std::vector<Double3> places_;
-    std::vector<double> morph_slack_;
 };
 
 /// Nothing where the triangle can face anywhere.
@@ -146,27 +70,20 @@ double mostAlong(const DeformedTriangle& triangle, Double3 v)
 
 } // namespace
 
-double weightOf(const DeformedCluster& cluster, size_t vertex, uint32_t joint)
-{
-    double weight = 0;
-    for (size_t i = vertex * cluster.influences; i < (vertex + 1) * cluster.influences; ++i)
-        if (cluster.joints[i] == joint)
-            weight += cluster.weights[i];
-    return weight;
-}
-
 StoredCone coneIn(uint32_t main, const DeformedCluster& cluster, const Deformation& deformation,
                   std::span<const MorphedVertex> vertices, Float3 middle)
 {
     StoredCone none;
     if (deformation.skin != nullptr && deformation.skin->canMirror(main))
         return none;
-    const MiddlePose pose(main, cluster, deformation, vertices);
+    const std::optional<MiddlePose> pose = MiddlePose::in(main, cluster, deformation, vertices);
+    if (!pose)
+        return none;
     std::vector<DeformedTriangle> triangles;
     for (size_t i = 0; i < cluster.indices.size(); i += 3)
     {
         const auto triangle =
-            triangleOf(pose, {cluster.indices[i], cluster.indices[i + 1], cluster.indices[i + 2]});
+            triangleOf(*pose, {cluster.indices[i], cluster.indices[i + 1], cluster.indices[i + 2]});
         if (!triangle)
             return none;
         triangles.push_back(*triangle);

@@ -16,9 +16,6 @@ struct StoredCone
     float back = 0;
 };
 
-/// The weight of a joint at a vertex.
-double weightOf(const DeformedCluster& cluster, size_t vertex, uint32_t joint);
-
 /// main    all that moves the cluster has bounds as this joint sees it
 /// middle  of the cluster's box in the joint
 StoredCone coneIn(uint32_t main, const DeformedCluster& cluster, const Deformation& deformation,
