@@ -50,6 +50,12 @@ inline bool nonNegative(float value)
     return std::isfinite(value) && value >= 0;
 }
 
+inline bool powerOfTwo(float value)
+{
+    int exponent;
+    return std::isfinite(value) && std::frexp(value, &exponent) == 0.5f;
+}
+
 inline bool noneOrBelow(uint32_t index, size_t size)
 {
     return index == kNone || index < size;
@@ -110,7 +116,8 @@ Status checkMaterials(const PackView& view);
 Status checkImages(const PackView& view);
 Status checkSkins(const PackView& view);
 Status checkAnimations(const PackView& view);
-Status checkNodes(const PackView& view);
+Status checkNodeTree(const PackView& view);
+Status checkMeshesOfNodes(const PackView& view);
 Status checkInstances(const PackView& view);
 Status checkCameras(const PackView& view);
 Status checkLights(const PackView& view);
@@ -119,5 +126,6 @@ Status checkMeshTables(const PackView& view);
 Status checkPageTables(const PackView& view);
 Status checkPageGeometry(const PackView& view);
 Status checkDeformations(const PackView& view);
+Status checkDeformedMeshes(const PackView& view);
 
 } // namespace hearth::formats::check

@@ -129,7 +129,9 @@ std::vector<ValueTable> valueTables()
           value("float UV 1", kVertexFloatUv1, "the set is 2 x f32"),
           value("float UV 2", kVertexFloatUv2, "the set is 2 x f32"),
           value("float UV 3", kVertexFloatUv3, "the set is 2 x f32"),
-          value("wide", kVertexWide, "of a cluster only: offsets on grids are u32")}},
+          value("wide", kVertexWide, "of a cluster only: offsets on grids are u32"),
+          value("influences", kVertexInfluences, "4 x u16 joints, then 4 x unorm16 weights"),
+          value("more influences", kVertexMoreInfluences, "8 joints, then 8 weights")}},
         {"PageCodec",
          {value("none", PageCodec::none, "the decoded bytes"),
           value("zstd", PageCodec::zstd, "one zstd frame of them"),
@@ -147,11 +149,7 @@ std::vector<ValueTable> valueTables()
           value("triangle_material", SourceSemantic::triangle_material, "u32 for each triangle, or none"),
           value("morph_position", SourceSemantic::morph_position, "f32[3] deltas, set = target"),
           value("morph_normal", SourceSemantic::morph_normal, "f32[3] deltas, set = target"),
-          value("morph_tangent", SourceSemantic::morph_tangent, "f32[3] deltas, set = target"),
-          value("bind_position", SourceSemantic::bind_position,
-                "f32[3], where the positions are those of a pose"),
-          value("bind_normal", SourceSemantic::bind_normal, "f32[3], unit"),
-          value("bind_tangent", SourceSemantic::bind_tangent, "f32[4]")}},
+          value("morph_tangent", SourceSemantic::morph_tangent, "f32[3] deltas, set = target")}},
     };
 }
 

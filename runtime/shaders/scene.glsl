@@ -37,6 +37,8 @@ const uint kVertexColor = 64u;
 const uint kVertexFineNormal = 128u;
 const uint kVertexFineColor = 256u;
 const uint kVertexWide = 8192u;
+const uint kVertexInfluences = 16384u;
+const uint kVertexMoreInfluences = 32768u;
 const uint kVertexUvStepShift = 16u;
 
 // Words of a vertex; where the sets of UVs end, with fewer of their bits where the next set starts.
@@ -57,6 +59,8 @@ uint vertexWords(uint layout_bits)
     uint words = uvEnd(layout_bits, kVertexUvs);
     if ((layout_bits & kVertexColor) != 0u)
         words += (layout_bits & kVertexFineColor) != 0u ? 2u : 1u;
+    if ((layout_bits & kVertexInfluences) != 0u)
+        words += (layout_bits & kVertexMoreInfluences) != 0u ? 8u : 4u;
     return words;
 }
 

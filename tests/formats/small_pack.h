@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
+#include "formats/deformation.h"
 #include "formats/mesh.h"
 #include "formats/scene.h"
 #include "tests/formats/container_image.h"
@@ -38,8 +39,12 @@ struct PackModel
     std::vector<formats::PageRecord> pages;
     std::vector<uint32_t> page_parents;
     std::vector<std::vector<std::byte>> decoded_pages;
-    std::vector<std::byte> page_bytes;                ///< chunk PAGE
-    std::vector<std::vector<std::byte>> deformations; ///< chunk DEFM of each mesh; none where empty
+    std::vector<std::byte> page_bytes; ///< chunk PAGE
+    std::vector<formats::DeformedMeshRecord> deformed_meshes;
+    std::vector<formats::DeformedClusterRecord> deformed_clusters;
+    std::vector<uint32_t> cluster_joints;
+    std::vector<formats::DeformedGroupRecord> deformed_groups; ///< in parts alone
+    std::vector<std::vector<std::byte>> deformations;          ///< chunk DEFM of each mesh; none where empty
 
     /// Encode decoded_pages into page_bytes again, and set offset, size and hash of the page records.
     /// The second page is stored as it is, the others by zstd.
@@ -56,7 +61,7 @@ struct PackModel
 
 /// Mesh 0: a folded strip of four quads. Level 0 has a cluster for each quad, two groups of two; each group was
 /// simplified to one flat quad; those two are the root group. Page 0 holds the root, pages 1 and 2 a group each.
-/// Mesh 1: no triangles. Mesh 2: one triangle without attributes, skinned, with one morph target.
+/// Mesh 1: no triangles. Mesh 2: one triangle without attributes, skinned, with one morph target that moves its last vertex.
 PackModel smallPack();
 
 } // namespace hearth::test
