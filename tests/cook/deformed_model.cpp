@@ -49,6 +49,13 @@ MeshPose MeshPoses::rest()
     return place(restPose(tables_));
 }
 
+MeshPose MeshPoses::at(uint32_t animation, double time_s)
+{
+    from_ = restPose(tables_);
+    sampleAnimation(tables_, tables_.animations[animation], time_s, from_);
+    return place(from_);
+}
+
 MeshPose MeshPoses::place(const ScenePose& pose)
 {
     poseNodes(tables_, pose, order_, world_from_node_);

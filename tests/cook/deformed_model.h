@@ -33,6 +33,8 @@ public:
     MeshPoses(const formats::MotionTables& tables, uint32_t node, uint32_t seed);
     MeshPose next();
     MeshPose rest();
+    /// A clip alone at a time in seconds.
+    MeshPose at(uint32_t animation, double time_s);
 
 private:
     void sample(formats::ScenePose& pose);
