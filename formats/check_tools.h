@@ -50,6 +50,12 @@ inline bool nonNegative(float value)
     return std::isfinite(value) && value >= 0;
 }
 
+inline bool powerOfTwo(float value)
+{
+    int exponent;
+    return std::isfinite(value) && std::frexp(value, &exponent) == 0.5f;
+}
+
 inline bool noneOrBelow(uint32_t index, size_t size)
 {
     return index == kNone || index < size;

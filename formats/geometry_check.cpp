@@ -20,7 +20,23 @@ bool legalUv(const ClusterGeometry& geometry, uint32_t vertex, uint32_t set)
                        { return coordinate >= -kGridMost && coordinate <= kGridMost; });
 }
 
-Status checkVertices(const PackView& view, size_t i, const ClusterGeometry& geometry)
+/// The weights fall and sum to 1; joints are the skin's, and joint 0 where there is no weight.
+bool legalInfluences(const ClusterGeometry& geometry, uint32_t vertex, uint32_t joint_count)
+{
+    const std::array<uint32_t, 8> joints = geometry.joints(vertex);
+    const std::array<uint32_t, 8> weights = geometry.weightCodes(vertex);
+    uint32_t sum = 0;
+    for (size_t i = 0; i < joints.size(); ++i)
+    {
+        if (joints[i] >= joint_count || (weights[i] == 0 && joints[i] != 0) ||
+            (i > 0 && weights[i] > weights[i - 1]))
+            return false;
+        sum += weights[i];
+    }
+    return sum == 65535;
+}
+
+Status checkVertices(const PackView& view, size_t i, const ClusterGeometry& geometry, uint32_t joint_count)
 {
     const ClusterRecord& cluster = view.clusters()[i];
     const uint32_t layout = geometry.layout();
@@ -43,6 +59,35 @@ Status checkVertices(const PackView& view, size_t i, const ClusterGeometry& geom
         for (uint32_t set = 0; set < 4; ++set)
             if (geometry.has(kVertexUv0 << set) && !legalUv(geometry, v, set))
                 return wrong(Issue::meaning_geometry, v, "a UV is not finite, or beyond the grid");
+        if (geometry.has(kVertexInfluences) && !legalInfluences(geometry, v, joint_count))
+            return wrong(
+                Issue::meaning_geometry, v,
+                "its weights do not fall, or sum to 1, or one is that of a joint that its skin has not");
+    }
+    return success();
+}
+
+/// Targets ascend, each moves a vertex; steps are powers of two.
+Status checkMorphs(const PackView& view, size_t i, const MeshRecord& mesh, const ClusterGeometry& geometry)
+{
+    const auto wrong = [&](uint32_t morph, const char* what)
+    {
+        return fail(view, Issue::meaning_geometry, "cluster", i,
+                    "morph target " + std::to_string(geometry.morphTarget(morph)) + ": " + what);
+    };
+    for (uint32_t morph = 0; morph < geometry.morphCount(); ++morph)
+    {
+        if (geometry.morphTarget(morph) >= mesh.morph_target_count)
+            return wrong(morph, "its mesh has not so many");
+        if (morph > 0 && geometry.morphTarget(morph) <= geometry.morphTarget(morph - 1))
+            return wrong(morph, "targets do not ascend");
+        if (!powerOfTwo(geometry.morphStep(morph)))
+            return wrong(morph, "its step is not a power of two");
+        bool moves = false;
+        for (uint32_t v = 0; v < geometry.vertexCount(); ++v)
+            moves = moves || geometry.morphWords(morph, v) != std::array<uint32_t, 3>{};
+        if (!moves)
+            return wrong(morph, "it moves no vertex of the cluster");
     }
     return success();
 }
@@ -94,7 +139,8 @@ Status checkTriangles(const PackView& view, size_t i, float grid_step, const Clu
 }
 
 /// Clusters lie in the page in their order; what is between them, behind them and behind their indices is zero.
-Status checkPage(const PackView& view, uint32_t page_index, std::span<const std::byte> page)
+Status checkPage(const PackView& view, uint32_t page_index, std::span<const std::byte> page,
+                 uint32_t joint_count)
 {
     const PageRecord& record = view.pages()[page_index];
     const MeshRecord& mesh = view.meshes()[record.mesh];
@@ -110,15 +156,30 @@ Status checkPage(const PackView& view, uint32_t page_index, std::span<const std:
             return fail(view, Issue::meaning_order, "cluster", i, "its geometry overlaps that of another");
         if (!allZero(page.subspan(end, first - end)))
             return fail(view, Issue::meaning_padding, "cluster", i, "bytes before its geometry are not 0");
-        HEARTH_TRY(checkVertices(view, i, *geometry));
+        HEARTH_TRY(checkVertices(view, i, *geometry, joint_count));
+        HEARTH_TRY(checkMorphs(view, i, mesh, *geometry));
         HEARTH_TRY(checkTriangles(view, i, mesh.grid_step, *geometry));
-        // zeros behind the indices are looked at as bytes before the next cluster
-        end = first + clusterBytes(geometry->layout(), cluster.vertex_count, 0) +
-              size_t{cluster.triangle_count} * 3;
+        end = first + geometry->bytes().size();
+        const size_t indices_end =
+            clusterBytes(geometry->layout(), cluster.vertex_count, 0) + size_t{cluster.triangle_count} * 3;
+        const size_t words_end =
+            clusterBytes(geometry->layout(), cluster.vertex_count, cluster.triangle_count);
+        if (!allZero(page.subspan(first + indices_end, words_end - indices_end)))
+            return fail(view, Issue::meaning_padding, "cluster", i, "bytes behind its indices are not 0");
     }
     if (!allZero(page.subspan(end)))
         return fail(view, Issue::meaning_padding, "page", page_index, "bytes at its end are not 0");
     return success();
+}
+
+/// For each mesh, how many joints its skin has; a part that has no nodes does not say.
+std::vector<uint32_t> jointCounts(const PackView& view)
+{
+    std::vector<uint32_t> counts(view.meshes().size(), ~0u);
+    for (const NodeRecord& node : view.nodes())
+        if (node.mesh < counts.size() && node.skin < view.skins().size())
+            counts[node.mesh] = std::min(counts[node.mesh], view.skins()[node.skin].joints.count);
+    return counts;
 }
 
 } // namespace
@@ -126,11 +187,12 @@ Status checkPage(const PackView& view, uint32_t page_index, std::span<const std:
 Status checkPageGeometry(const PackView& view)
 {
     std::vector<std::byte> buffer(kPageMaxBytes);
+    const std::vector<uint32_t> joint_counts = jointCounts(view);
     for (uint32_t i = 0; i < view.pages().size(); ++i)
     {
         const std::span<std::byte> page = std::span(buffer).first(view.pages()[i].size);
         HEARTH_TRY(view.decodePage(i, page));
-        HEARTH_TRY(checkPage(view, i, page));
+        HEARTH_TRY(checkPage(view, i, page, joint_counts[view.pages()[i].mesh]));
     }
     return success();
 }

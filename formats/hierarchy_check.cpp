@@ -22,12 +22,6 @@ bool boxContains(Float3 low, Float3 high, const Box3& box)
     return true;
 }
 
-bool powerOfTwo(float value)
-{
-    int exponent;
-    return std::isfinite(value) && std::frexp(value, &exponent) == 0.5f;
-}
-
 /// The corners of its box are points of the grid that floats have.
 bool onGrid(const ClusterRecord& cluster)
 {
@@ -57,6 +51,10 @@ Status checkMesh(const PackView& view, size_t i)
                         std::to_string(mesh.grid_error));
     if (mesh.skinned > 1)
         return fail(view, Issue::meaning_value, "mesh", i, "skinned " + std::to_string(mesh.skinned));
+    if (mesh.clusters.count > 0 && (mesh.skinned != 0) != (influencesOf(mesh.attributes) != 0))
+        return fail(view, Issue::meaning_value, "mesh", i,
+                    mesh.skinned != 0 ? "it is skinned, but its vertices have no influences"
+                                      : "its vertices have influences, but it is not skinned");
     if (!validBox(mesh.box_min, mesh.box_max))
         return fail(view, Issue::meaning_value, "mesh", i, "its box is empty or not finite");
     if (mesh.lod_count != mesh.levels.count)

@@ -26,7 +26,7 @@ inline constexpr uint32_t kClusterMaxVertices = 256;
 inline constexpr uint32_t kPageMaxBytes = 65536;
 
 /// Which attributes a mesh's vertices have, and how each is coded: the layout of a vertex. A vertex is 32-bit words in
-/// this order: position, normal, tangent, UV sets, colour; the codes are those of vertex_codec.h.
+/// this order: position, normal, tangent, UV sets, colour, joints, weights; the codes are those of vertex_codec.h.
 enum VertexAttributes : uint32_t
 {
     kVertexNormal = 1,
@@ -44,12 +44,25 @@ enum VertexAttributes : uint32_t
     kVertexFloatUv2 = 2048,
     kVertexFloatUv3 = 4096,
     kVertexWide = 8192, ///< of a cluster, never of a mesh: offsets on grids are 32 bits instead of 16
+
+    kVertexInfluences = 1 << 14,     ///< four joints of the mesh's skin, and their weights
+    kVertexMoreInfluences = 1 << 15, ///< eight instead of four; only beside kVertexInfluences
 };
+
+inline constexpr uint32_t kVertexInfluenceBits = kVertexInfluences | kVertexMoreInfluences;
 
 inline constexpr uint32_t kVertexUvs = kVertexUv0 | kVertexUv1 | kVertexUv2 | kVertexUv3;
 
 /// From this bit on, four bits for each UV set: n, where the steps of its grid are 2^-n; 0 for floats or no set.
 inline constexpr uint32_t kVertexUvStepShift = 16;
+
+/// Influences of one vertex with this layout: a joint and a weight of 16 bits each.
+constexpr uint32_t influencesOf(uint32_t layout)
+{
+    if ((layout & kVertexInfluences) == 0)
+        return 0;
+    return (layout & kVertexMoreInfluences) != 0 ? 8 : 4;
+}
 
 /// Words of one vertex with this layout.
 constexpr uint32_t vertexWords(uint32_t layout)
@@ -62,7 +75,7 @@ constexpr uint32_t vertexWords(uint32_t layout)
     words += static_cast<uint32_t>(std::popcount(layout & kVertexUvs) +
                                    std::popcount(layout & kVertexUvs & two_word_uvs));
     words += (layout & kVertexColor) ? ((layout & kVertexFineColor) ? 2 : 1) : 0;
-    return words;
+    return words + influencesOf(layout);
 }
 
 /// Words in front of a cluster's vertices: u and v of the grid point that each UV set on a grid counts from.
@@ -157,7 +170,7 @@ enum class PageCodec : uint32_t
 
 /// One page: clusters of whole groups, in the order of the cluster table. Each cluster's data starts at its
 /// page_word: uvBaseWords words, vertex_count vertices, then 3 u8 vertex indices for each triangle, padded to 4 bytes
-/// with zeros.
+/// with zeros; in a mesh with morph targets, then the cluster's morph section (vertex_codec.h).
 struct PageRecord
 {
     uint64_t offset;

@@ -17,8 +17,21 @@ std::optional<ClusterGeometry> ClusterGeometry::at(std::span<const std::byte> pa
         cluster.triangle_count > kClusterMaxTriangles)
         return std::nullopt;
     const uint32_t layout = layoutOf(cluster, mesh.attributes);
-    const auto data = checkedPart(page, uint64_t{cluster.page_word} * 4,
-                                  clusterBytes(layout, cluster.vertex_count, cluster.triangle_count));
+    const uint64_t first = uint64_t{cluster.page_word} * 4;
+    const uint64_t size = clusterBytes(layout, cluster.vertex_count, cluster.triangle_count);
+    uint32_t morphs = 0;
+    uint64_t morph_bytes = 0;
+    if (mesh.morph_target_count > 0)
+    {
+        const auto count = checkedPart(page, first + size, sizeof(morphs));
+        if (!count)
+            return std::nullopt;
+        std::memcpy(&morphs, count->data(), sizeof(morphs));
+        if (morphs > mesh.morph_target_count || morphs > kPageMaxBytes)
+            return std::nullopt;
+        morph_bytes = 4 * morphSectionWords(morphs, cluster.vertex_count);
+    }
+    const auto data = checkedPart(page, first, size + morph_bytes);
     if (!data)
         return std::nullopt;
     ClusterGeometry geometry;
@@ -29,6 +42,8 @@ std::optional<ClusterGeometry> ClusterGeometry::at(std::span<const std::byte> pa
     geometry.words_ = vertexWords(layout);
     geometry.vertex_count_ = cluster.vertex_count;
     geometry.triangle_count_ = cluster.triangle_count;
+    geometry.morph_count_ = morphs;
+    geometry.morph_first_ = size / 4;
     return geometry;
 }
 

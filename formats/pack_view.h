@@ -78,7 +78,8 @@ inline float errorOf(const ClusterRecord& cluster, std::span<const GroupRecord> 
 class ClusterGeometry
 {
 public:
-    /// nullopt where the cluster's data does not lie inside the page, or its layout does not exist.
+    /// nullopt where the cluster's data does not lie inside the page, its layout does not exist, or it has more morph
+    /// targets than its mesh.
     static std::optional<ClusterGeometry> at(std::span<const std::byte> page, const ClusterRecord& cluster,
                                              const MeshRecord& mesh);
 
@@ -87,7 +88,7 @@ public:
     uint32_t layout() const { return layout_; }
     bool has(uint32_t attribute) const { return (layout_ & attribute) != 0; }
 
-    /// UV bases, vertices and indices, and the zeros behind them.
+    /// UV bases, vertices and indices, the zeros behind them, and the morph section.
     std::span<const std::byte> bytes() const { return data_; }
 
     uint32_t word(uint32_t vertex, uint32_t word) const
@@ -160,8 +161,69 @@ public:
                            {word(vertex, first), has(kVertexFineColor) ? word(vertex, first + 1) : 0u});
     }
 
+    /// Influences of each vertex: 0, 4 or 8. Those without weight come last, and name joint 0.
+    uint32_t influenceCount() const { return influencesOf(layout_); }
+    /// Joints of the mesh's skin, the largest weight first; the first influenceCount() are the vertex's.
+    std::array<uint32_t, 8> joints(uint32_t vertex) const { return influenceHalves(vertex, 0); }
+    /// Codes that sum to 65535.
+    std::array<uint32_t, 8> weightCodes(uint32_t vertex) const
+    {
+        return influenceHalves(vertex, influenceCount() / 2);
+    }
+    /// weightCodes / 65535.
+    std::array<float, 8> weights(uint32_t vertex) const
+    {
+        const std::array<uint32_t, 8> codes = weightCodes(vertex);
+        std::array<float, 8> weights{};
+        for (size_t i = 0; i < weights.size(); ++i)
+            weights[i] = static_cast<float>(codes[i]) / 65535.0f;
+        return weights;
+    }
+
+    /// Morph targets of the mesh that move a vertex of the cluster; `i` below counts them.
+    uint32_t morphCount() const { return morph_count_; }
+    uint32_t morphTarget(uint32_t i) const { return wordAt(morphWord(1 + 2 * size_t{i})); }
+    float morphStep(uint32_t i) const { return std::bit_cast<float>(wordAt(morphWord(2 + 2 * size_t{i}))); }
+    /// What a weight of 1 adds to position and normal.
+    Float3 morphPosition(uint32_t i, uint32_t vertex) const
+    {
+        const float step = morphStep(i);
+        const std::array<uint32_t, 3> words = morphWords(i, vertex);
+        return {fromGrid(formats::morphPosition(words[0]), step),
+                fromGrid(formats::morphPosition(words[1]), step),
+                fromGrid(formats::morphPosition(words[2]), step)};
+    }
+    Float3 morphNormal(uint32_t i, uint32_t vertex) const
+    {
+        const std::array<uint32_t, 3> words = morphWords(i, vertex);
+        constexpr float kStep = 1 / kMorphNormalSteps;
+        return {fromGrid(formats::morphNormal(words[0]), kStep),
+                fromGrid(formats::morphNormal(words[1]), kStep),
+                fromGrid(formats::morphNormal(words[2]), kStep)};
+    }
+    std::array<uint32_t, 3> morphWords(uint32_t i, uint32_t vertex) const
+    {
+        HEARTH_RUNTIME_ASSERT(i < morph_count_ && vertex < vertex_count_);
+        const size_t first =
+            morphWord(morphSectionWords(morph_count_, 0) + (size_t{i} * vertex_count_ + vertex) * 3);
+        return {wordAt(first), wordAt(first + 1), wordAt(first + 2)};
+    }
+
 private:
     ClusterGeometry() = default;
+    std::array<uint32_t, 8> influenceHalves(uint32_t vertex, uint32_t first_word) const
+    {
+        std::array<uint32_t, 8> halves{};
+        const uint32_t first = wordOf(kVertexInfluences) + first_word;
+        for (uint32_t i = 0; i < influenceCount(); ++i)
+            halves[i] = word(vertex, first + i / 2) >> (i % 2 * 16) & 0xFFFFu;
+        return halves;
+    }
+    size_t morphWord(size_t word) const
+    {
+        HEARTH_RUNTIME_ASSERT(morph_count_ > 0);
+        return morph_first_ + word;
+    }
     uint32_t wordAt(size_t word) const
     {
         uint32_t value;
@@ -183,6 +245,8 @@ private:
     uint32_t words_ = 0;
     uint32_t vertex_count_ = 0;
     uint32_t triangle_count_ = 0;
+    uint32_t morph_count_ = 0;
+    size_t morph_first_ = 0; ///< word of the morph section
 };
 
 /// The tables of one container. A chunk that is not there is an empty table. Spans hold as long as the view lives.

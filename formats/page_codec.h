@@ -6,8 +6,11 @@
 #include "formats/fields.h"
 #include "formats/vertex_codec.h"
 
+#include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <span>
 
 namespace hearth::formats
 {
@@ -20,7 +23,9 @@ enum class LaneKind : uint8_t
     bytes, ///< two numbers of 8 bits, from the edge's second vertex
 };
 
-inline constexpr uint32_t kMaxLanes = 28;
+/// Of a vertex with all attributes, the largest layout; and the influences of a skin besides.
+inline constexpr uint32_t kHeaderLanes = 28;
+inline constexpr uint32_t kMaxLanes = kHeaderLanes + 16;
 
 struct VertexLanes
 {
@@ -48,6 +53,7 @@ constexpr VertexLanes vertexLanes(uint32_t layout)
             (layout & kVertexFloatUv0 << set) ? add(LaneKind::word, 4) : add(LaneKind::grid, 2);
     if (layout & kVertexColor)
         (layout & kVertexFineColor) ? add(LaneKind::word, 4) : add(LaneKind::bytes, 2);
+    add(LaneKind::word, 2 * influencesOf(layout));
     return lanes;
 }
 
@@ -65,6 +71,10 @@ constexpr bool sharesMainByte(const VertexLanes& lanes, size_t lane)
 ///     references   two planes (low bytes, high bytes) of numbers: vertices that are one of an earlier cluster
 ///     uv_bases     the words in front of the clusters' vertices
 ///     wide         the vertices of wide clusters, as they are
+///     more_lanes   where a vertex has more than kHeaderLanes lanes: planes and low_bits of the others, as in the header,
+///                  kMaxLanes - kHeaderLanes bytes each
+///     morphs       what stands behind the clusters' triangles, in four planes: the first bytes of all words, then the
+///                  second ones, and so on
 ///     escapes      two bytes for each number of a new vertex whose main bits are all set: the number. By sixteen
 ///                  vertices, in them by lane, in it by vertex
 ///     planes       of the new vertices, a byte each: the main bytes of numbers, then of lanes of two bytes; the second
@@ -80,14 +90,41 @@ struct PageHeader
     uint16_t references;
     uint16_t new_vertices;
     uint32_t escapes;
-    uint8_t planes[kMaxLanes];
-    uint8_t low_bits[kMaxLanes];
+    uint8_t planes[kHeaderLanes];
+    uint8_t low_bits[kHeaderLanes];
 };
+
+/// How the numbers of each lane are stored.
+struct LaneForms
+{
+    std::array<uint8_t, kMaxLanes> planes{};   ///< as PageHeader::planes
+    std::array<uint8_t, kMaxLanes> low_bits{}; ///< as PageHeader::low_bits
+};
+
+/// Bytes of stream more_lanes.
+constexpr size_t moreLaneBytes(const VertexLanes& lanes)
+{
+    return lanes.count > kHeaderLanes ? 2 * size_t{kMaxLanes - kHeaderLanes} : 0;
+}
+
+/// more_lanes  moreLaneBytes bytes
+inline LaneForms readLaneForms(const PageHeader& header, std::span<const std::byte> more_lanes)
+{
+    LaneForms forms;
+    std::copy_n(header.planes, kHeaderLanes, forms.planes.begin());
+    std::copy_n(header.low_bits, kHeaderLanes, forms.low_bits.begin());
+    for (size_t i = 0; i < more_lanes.size() / 2; ++i)
+    {
+        forms.planes[kHeaderLanes + i] = std::to_integer<uint8_t>(more_lanes[i]);
+        forms.low_bits[kHeaderLanes + i] = std::to_integer<uint8_t>(more_lanes[more_lanes.size() / 2 + i]);
+    }
+    return forms;
+}
 
 inline constexpr uint32_t kEscape = 255;
 inline constexpr uint32_t kEscapeOfFour = 15; ///< where main bytes are shared
 
-inline constexpr uint8_t kPlaneMain = 1; ///< of PageHeader::planes: else all are 0
+inline constexpr uint8_t kPlaneMain = 1; ///< of LaneForms::planes: else all are 0
 inline constexpr uint8_t kPlaneSecond = 2;
 inline constexpr uint8_t kPlaneNibbles = 4; ///< of a lane of two bytes
 inline constexpr uint32_t kLanesOfBlock = 8;
@@ -104,13 +141,13 @@ struct LowBitFields
     uint32_t planes() const { return (bits + 7) / 8; }
 };
 
-constexpr LowBitFields lowBitFields(const PageHeader& header, size_t block)
+constexpr LowBitFields lowBitFields(const LaneForms& forms, size_t block)
 {
     LowBitFields fields;
     for (size_t i = 0; i < kLanesOfBlock && block * kLanesOfBlock + i < kMaxLanes; ++i)
     {
         fields.first[i] = fields.bits;
-        fields.bits += header.low_bits[block * kLanesOfBlock + i];
+        fields.bits += forms.low_bits[block * kLanesOfBlock + i];
     }
     return fields;
 }

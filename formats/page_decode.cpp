@@ -52,7 +52,7 @@ public:
           mesh_layout_(mesh_layout),
           lanes_(lanes),
           vertices_(streams, lanes, slots),
-          at_(out.data())
+          page_(out)
     {
     }
 
@@ -70,6 +70,7 @@ public:
                 if (!writeCluster(pair[i], connectivity_[i]))
                     return false;
         }
+        writeMorphs(page_.size());
         return allRead();
     }
 
@@ -82,26 +83,37 @@ private:
         const size_t base_bytes = size_t{uvBaseWords(layout)} * 4;
         const size_t vertex_bytes = size_t{vertexWords(layout)} * 4;
         const size_t index_bytes = size_t{cluster.triangle_count} * 3;
-        std::byte* const end = at_ + clusterBytes(layout, cluster.vertex_count, cluster.triangle_count);
+        writeMorphs(size_t{cluster.page_word} * 4);
+        std::byte* const end =
+            page_.data() + at_ + clusterBytes(layout, cluster.vertex_count, cluster.triangle_count);
         const uint8_t* const uv_bases = streams_.uv_bases.at;
-        std::memcpy(at_, uv_bases, base_bytes);
+        std::byte* at = page_.data() + at_;
+        std::memcpy(at, uv_bases, base_bytes);
         streams_.uv_bases.at += base_bytes;
-        at_ += base_bytes;
+        at += base_bytes;
         if (layout & kVertexWide)
         {
             if (connectivity.referenceCount() != 0)
                 return false;
-            std::memcpy(at_, streams_.wide.at, cluster.vertex_count * vertex_bytes);
+            std::memcpy(at, streams_.wide.at, cluster.vertex_count * vertex_bytes);
             streams_.wide.at += cluster.vertex_count * vertex_bytes;
         }
-        else if (!vertices_.decode(connectivity, baseOf<Blocks>(cluster, lanes_, uv_bases), at_, vertex_bytes,
+        else if (!vertices_.decode(connectivity, baseOf<Blocks>(cluster, lanes_, uv_bases), at, vertex_bytes,
                                    end))
             return false;
-        at_ += cluster.vertex_count * vertex_bytes;
-        std::memcpy(at_, connectivity.indices.data(), index_bytes);
-        std::fill(at_ + index_bytes, end, std::byte{0});
-        at_ = end;
+        at += cluster.vertex_count * vertex_bytes;
+        std::memcpy(at, connectivity.indices.data(), index_bytes);
+        std::fill(at + index_bytes, end, std::byte{0});
+        at_ = static_cast<size_t>(end - page_.data());
         return true;
+    }
+
+    /// What stands behind the triangles of the last cluster, as far as `end`.
+    void writeMorphs(size_t end)
+    {
+        for (; at_ < end; at_ += streams_.morphs.size())
+            for (size_t i = 0; i < streams_.morphs.size(); ++i)
+                page_[at_ + i] = std::byte{*streams_.morphs[i]++};
     }
 
     bool allRead() const
@@ -115,7 +127,8 @@ private:
     const VertexLanes& lanes_;
     std::array<Connectivity, 2> connectivity_;
     VertexDecoder<Blocks> vertices_;
-    std::byte* at_;
+    std::span<std::byte> page_;
+    size_t at_ = 0; ///< what is written
 };
 
 template <size_t Blocks>
@@ -171,7 +184,7 @@ bool PageDecoder::decode(std::span<const std::byte> stored, std::span<const Clus
     for (const ClusterRecord& cluster : clusters)
         if (!shape.add(cluster, mesh_layout, end))
             return false;
-    if (out.empty() || end != out.size() || out.size() > kPageMaxBytes)
+    if (out.empty() || !shape.finish(end, out.size()) || out.size() > kPageMaxBytes)
         return false;
     const std::span<const std::byte> content = scratch_->decompress(stored);
     const VertexLanes lanes = vertexLanes(mesh_layout);
@@ -190,8 +203,12 @@ bool PageDecoder::decode(std::span<const std::byte> stored, std::span<const Clus
         return decodeClusters<2>(*streams, clusters, mesh_layout, lanes, scratch_->slots, out);
     case 3:
         return decodeClusters<3>(*streams, clusters, mesh_layout, lanes, scratch_->slots, out);
-    default:
+    case 4:
         return decodeClusters<4>(*streams, clusters, mesh_layout, lanes, scratch_->slots, out);
+    case 5:
+        return decodeClusters<5>(*streams, clusters, mesh_layout, lanes, scratch_->slots, out);
+    default:
+        return decodeClusters<6>(*streams, clusters, mesh_layout, lanes, scratch_->slots, out);
     }
 }
 

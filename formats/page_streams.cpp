@@ -10,8 +10,8 @@ namespace hearth::formats::page
 namespace
 {
 
-/// Whether the header describes planes as these lanes can have them.
-bool legalPlanes(const PageHeader& header, const VertexLanes& lanes)
+/// Whether planes are described as these lanes can have them.
+bool legalForms(const LaneForms& forms, const VertexLanes& lanes)
 {
     for (size_t lane = 0; lane < kMaxLanes; ++lane)
     {
@@ -23,7 +23,7 @@ bool legalPlanes(const PageHeader& header, const VertexLanes& lanes)
         const uint32_t most_bits = lane >= lanes.count || bytes ? 0
                                    : shared                     ? kMaxLowBitsOfFour
                                                                 : kMaxLowBits;
-        if (header.planes[lane] > most_planes || header.low_bits[lane] > most_bits)
+        if (forms.planes[lane] > most_planes || forms.low_bits[lane] > most_bits)
             return false;
     }
     return true;
@@ -44,8 +44,10 @@ bool legalCodes(std::span<const std::byte> codes)
 bool PageShape::add(const ClusterRecord& cluster, uint32_t mesh_layout, size_t& end)
 {
     if (cluster.vertex_count > kClusterMaxVertices || cluster.triangle_count > kClusterMaxTriangles ||
-        size_t{cluster.page_word} * 4 != end)
+        size_t{cluster.page_word} * 4 < end)
         return false;
+    morph_words += cluster.page_word - end / 4;
+    end = size_t{cluster.page_word} * 4;
     const uint32_t layout = layoutOf(cluster, mesh_layout);
     end += clusterBytes(layout, cluster.vertex_count, cluster.triangle_count);
     codes += codeBytes(cluster.triangle_count);
@@ -57,12 +59,20 @@ bool PageShape::add(const ClusterRecord& cluster, uint32_t mesh_layout, size_t& 
     return true;
 }
 
+bool PageShape::finish(size_t end, size_t page_size)
+{
+    if (page_size < end || (page_size - end) % 4 != 0)
+        return false;
+    morph_words += (page_size - end) / 4;
+    return true;
+}
+
 std::optional<Streams> splitContent(std::span<const std::byte> content, const PageShape& shape,
                                     const VertexLanes& lanes)
 {
     ByteReader reader(content);
     const auto header = reader.read<PageHeader>();
-    if (!header || !legalPlanes(*header, lanes))
+    if (!header)
         return std::nullopt;
     bool good = true;
     const auto take = [&](size_t size)
@@ -83,18 +93,25 @@ std::optional<Streams> splitContent(std::span<const std::byte> content, const Pa
     streams.references = take(size_t{header->references} * 2).at;
     streams.uv_bases = take(shape.uv_base_bytes);
     streams.wide = take(shape.wide_bytes);
+    const auto more_lanes = reader.readBytes(moreLaneBytes(lanes));
+    streams.forms = readLaneForms(*header, more_lanes.value_or(std::span<const std::byte>()));
+    if (!more_lanes || !legalForms(streams.forms, lanes))
+        return std::nullopt;
+    for (const uint8_t*& plane : streams.morphs)
+        plane = take(shape.morph_words).at;
     streams.escapes = take(size_t{header->escapes} * 2);
     const auto takePlanes = [&](bool of_bytes, uint32_t part, auto& planes)
     {
         for (size_t lane = 0; lane < lanes.count; ++lane)
-            if ((lanes.kinds[lane] == LaneKind::bytes) == of_bytes && (header->planes[lane] & part) != 0)
+            if ((lanes.kinds[lane] == LaneKind::bytes) == of_bytes &&
+                (streams.forms.planes[lane] & part) != 0)
                 planes[lane] = take(header->new_vertices).at;
     };
     takePlanes(false, kPlaneMain, streams.main);
     takePlanes(true, kPlaneMain, streams.main);
     takePlanes(true, kPlaneSecond, streams.second);
     for (size_t block = 0; block < kMostBlocks; ++block)
-        for (size_t plane = 0; plane < lowBitFields(*header, block).planes(); ++plane)
+        for (size_t plane = 0; plane < lowBitFields(streams.forms, block).planes(); ++plane)
             streams.low_bits[block][plane] = take(header->new_vertices).at;
     if (!good || reader.remaining() != 0)
         return std::nullopt;

@@ -32,9 +32,11 @@ struct Stream
 struct Streams
 {
     PageHeader header;
+    LaneForms forms;
     Stream codes, uv_bases, wide, escapes;
     std::array<Stream, 2> restarts, reuses;
-    const uint8_t* references = nullptr; ///< low bytes; the high ones header.references behind them
+    std::array<const uint8_t*, 4> morphs{}; ///< the planes of the words behind triangles
+    const uint8_t* references = nullptr;    ///< low bytes; the high ones header.references behind them
     std::array<const uint8_t*, kMaxLanes> main{}, second{}; ///< bytes of lanes; nullptr: all are 0
     std::array<std::array<const uint8_t*, kMostLowPlanes>, kMostBlocks> low_bits{};
 };
@@ -45,10 +47,14 @@ struct PageShape
     size_t codes = 0;
     size_t uv_base_bytes = 0;
     size_t wide_bytes = 0;
-    size_t slots = 1; ///< vertices of narrow clusters, and one
+    size_t morph_words = 0; ///< behind the triangles of clusters
+    size_t slots = 1;       ///< vertices of narrow clusters, and one
 
-    /// False where the cluster does not begin at `end`, which is moved behind it, or is too large.
+    /// False where the cluster begins before `end`, which is moved behind its triangles, or is too large.
     bool add(const ClusterRecord& cluster, uint32_t mesh_layout, size_t& end);
+
+    /// What stands behind the last cluster. False where the page ends before `end`.
+    bool finish(size_t end, size_t page_size);
 };
 
 /// nullopt where the header says what is not legal, or the streams are not as long as the content.

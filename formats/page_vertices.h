@@ -24,7 +24,7 @@ public:
     {
         for (size_t block = 0; block < Blocks; ++block)
         {
-            const LowBitFields fields = lowBitFields(streams.header, block);
+            const LowBitFields fields = lowBitFields(streams.forms, block);
             low_planes_[block] = fields.planes();
             for (size_t i = 0; i < kHalves && block * kHalves + i < lanes.count; ++i)
                 if (const LanePlan plan = planOf(block * kHalves + i, lanes, fields.first[i]); plan.any())
@@ -81,11 +81,11 @@ private:
         plan.lane = lane % kHalves;
         plan.main = streams_.main[lane];
         plan.second = streams_.second[lane];
-        plan.low_bits = streams_.header.low_bits[lane];
+        plan.low_bits = streams_.forms.low_bits[lane];
         plan.first_low_bit = first_low_bit;
         plan.low_mask = allHalves(static_cast<uint16_t>((1u << plan.low_bits) - 1));
         if (lanes.kinds[lane] == LaneKind::bytes)
-            plan.form = (streams_.header.planes[lane] & kPlaneNibbles) ? Form::nibbles : Form::bytes;
+            plan.form = (streams_.forms.planes[lane] & kPlaneNibbles) ? Form::nibbles : Form::bytes;
         if (sharesMainByte(lanes, lane))
         {
             plan.main = streams_.main[lane & ~size_t{1}];

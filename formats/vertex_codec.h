@@ -26,6 +26,14 @@
 //                say where between the two axes of the normal's frame, on the line from one to the other
 //   UV           floats, or (base + offset) * 2^-n, the base the cluster's, offsets 2 x u16, or 2 x u32 in a wide one
 //   colour       4 x unorm8 or unorm16, linear RGBA: q / 255 or q / 65535
+//   influences   4 or 8 joints of the skin as u16, two a word, then as many weights, unorm16: the weights fall, and their
+//                codes sum to exactly 65535; a joint without weight is 0
+//
+// The morph section of a cluster, words:
+//   n            of the mesh's targets that move a vertex of the cluster
+//   n x          { the target's number, ascending; the step of its position deltas, f32 }
+//   n x          for each vertex three words x, y, z: the lower 20 bits are the position's delta, signed, in steps; the
+//                upper 12 the normal's, signed, in units of 1 / 1024
 
 namespace hearth::formats
 {
@@ -49,7 +57,7 @@ constexpr uint32_t uvFractionBits(uint32_t layout, uint32_t set)
 /// set has floats or a grid, and tangents stand beside normals.
 constexpr bool legalLayout(uint32_t layout)
 {
-    if ((layout & (kVertexWide | 3u << 14)) != 0)
+    if ((layout & kVertexWide) != 0 || (layout & kVertexInfluenceBits) == kVertexMoreInfluences)
         return false;
     for (uint32_t set = 0; set < 4; ++set)
     {
@@ -63,12 +71,13 @@ constexpr bool legalLayout(uint32_t layout)
            ((layout & kVertexColor) != 0 || (layout & kVertexFineColor) == 0);
 }
 
-/// First word of attribute `bit` in a vertex with this layout; `bit` is one of them. Positions are at 0, and a normal
-/// that has no word of its own is the upper half of word 1.
+/// First word of attribute `bit` in a vertex with this layout; `bit` is one of them, or kVertexInfluences. Positions are
+/// at 0, and a normal that has no word of its own is the upper half of word 1.
 constexpr uint32_t attributeWord(uint32_t layout, uint32_t bit)
 {
     const bool shares_word = bit == kVertexNormal && (layout & (kVertexFineNormal | kVertexWide)) == 0;
-    return shares_word ? 1 : vertexWords(layout & ((bit - 1) | ~kVertexAttributesAll));
+    const uint32_t before = ((bit - 1) | ~kVertexAttributesAll) & ~kVertexInfluenceBits;
+    return shares_word ? 1 : vertexWords(layout & before);
 }
 
 /// Word of UV set `set`'s base among the uvBaseWords in front of a cluster's vertices.
@@ -77,8 +86,8 @@ constexpr uint32_t uvBaseWord(uint32_t layout, uint32_t set)
     return uvBaseWords(layout & (((kVertexUv0 << set) - 1) | ~kVertexAttributesAll));
 }
 
-/// Bytes of a cluster in its page: UV bases, vertices, then three u8 indices for each triangle, padded with zeros to
-/// words.
+/// Bytes of a cluster in its page, but for a morph section: UV bases, vertices, then three u8 indices for each triangle,
+/// padded with zeros to words.
 constexpr uint32_t clusterBytes(uint32_t layout, uint32_t vertex_count, uint32_t triangle_count)
 {
     return 4 * (uvBaseWords(layout) + vertex_count * vertexWords(layout) + (triangle_count * 3 + 3) / 4);
@@ -87,7 +96,32 @@ constexpr uint32_t clusterBytes(uint32_t layout, uint32_t vertex_count, uint32_t
 /// The layout that needs the most bytes of all that have these attributes.
 constexpr uint32_t largestLayout(uint32_t attributes)
 {
-    return (attributes & kVertexAttributesAll) | kVertexFineNormal | kVertexFineColor | kVertexWide;
+    return (attributes & (kVertexAttributesAll | kVertexInfluenceBits)) | kVertexFineNormal |
+           kVertexFineColor | kVertexWide;
+}
+
+/// Words of a morph section with `targets` targets.
+constexpr size_t morphSectionWords(size_t targets, size_t vertex_count)
+{
+    return 1 + targets * (2 + 3 * vertex_count);
+}
+
+inline constexpr int32_t kMorphPositionMost = (1 << 19) - 1;
+inline constexpr float kMorphNormalSteps =
+    1024; ///< in the difference of two normals that stand on each other
+
+/// Each in [-2^19, 2^19) and [-2^11, 2^11).
+constexpr uint32_t packMorphDelta(int32_t position, int32_t normal)
+{
+    return (static_cast<uint32_t>(position) & 0xFFFFFu) | static_cast<uint32_t>(normal) << 20;
+}
+constexpr int32_t morphPosition(uint32_t word)
+{
+    return static_cast<int32_t>(word << 12) >> 12;
+}
+constexpr int32_t morphNormal(uint32_t word)
+{
+    return static_cast<int32_t>(word) >> 20;
 }
 
 constexpr uint32_t packHalves(int32_t low, int32_t high)

@@ -47,6 +47,21 @@ void fitAttributes(const mesh::SourceMesh& source, mesh::SourceMesh& level)
     for (size_t set = 0; set < mesh::kUvSetCount; ++set)
         fit(level.uvs[set], !source.uvs[set].empty(), count, Float2{0, 0});
     fit(level.colors, !source.colors.empty(), count, Float4{1, 1, 1, 1});
+    level.joint_sets.resize(source.joint_sets.size());
+    level.weight_sets.resize(source.joint_sets.size());
+    for (size_t set = 0; set < source.joint_sets.size(); ++set)
+    {
+        fit(level.joint_sets[set], true, count, mesh::Joints4{});
+        fit(level.weight_sets[set], true, count, set == 0 ? Float4{1, 0, 0, 0} : Float4{});
+    }
+    level.morph_targets.resize(source.morph_targets.size());
+    for (size_t target = 0; target < source.morph_targets.size(); ++target)
+    {
+        fit(level.morph_targets[target].positions, !source.morph_targets[target].positions.empty(), count,
+            Float3{});
+        fit(level.morph_targets[target].normals, !source.morph_targets[target].normals.empty(), count,
+            Float3{});
+    }
 }
 
 /// The triangles of prepared.materials[first ..) whose material, which numbers them, is below `end`.

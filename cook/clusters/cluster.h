@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
+#include "cook/mesh/deformation.h"
 #include "cook/mesh/grid.h"
 #include "cook/mesh/source_mesh.h"
 #include "formats/mesh.h"
@@ -28,9 +29,14 @@ struct PreparedMesh
     std::vector<uint32_t> corners;            ///< three vertices for each triangle
     std::vector<uint32_t> materials;          ///< for each triangle
     std::vector<uint32_t> position_of_vertex; ///< for each vertex
+    mesh::InfluenceLoss influence_loss;
+    std::vector<float> morph_steps; ///< of each morph target's deltas; a power of two
 
     size_t triangleCount() const { return corners.size() / 3; }
 };
+
+/// Most vertices of a cluster: fewer than the format's limit where the morph targets of two would not fit into a page.
+uint32_t clusterVertexLimit(const PreparedMesh& mesh);
 
 /// A cluster's triangles: three u8 indices into its own list of vertices.
 struct ClusterShape
@@ -78,6 +84,8 @@ void appendVertex(mesh::SourceMesh& to, const mesh::SourceMesh& from, uint32_t v
 void appendVertices(mesh::SourceMesh& to, const mesh::SourceMesh& from);
 
 /// Move to the grid, weld, drop triangles without area and those that the grid takes an edge from, merge equal vertices.
-PreparedMesh prepareMesh(mesh::SourceMesh source);
+/// What deforms the mesh comes to what its pages can hold: `influences` (4 or 8) of each vertex at most, in codes, and
+/// morph deltas in steps.
+PreparedMesh prepareMesh(mesh::SourceMesh source, uint32_t influences = 4);
 
 } // namespace hearth::clusters

@@ -71,7 +71,11 @@ class ClusterCoder
 {
 public:
     ClusterCoder(const PreparedMesh& mesh, std::span<const uint32_t> vertices, uint32_t mesh_layout)
-        : source_(mesh.vertices), steps_(1 / mesh.grid.step), vertices_(vertices), layout_(mesh_layout)
+        : mesh_(mesh),
+          source_(mesh.vertices),
+          steps_(1 / mesh.grid.step),
+          vertices_(vertices),
+          layout_(mesh_layout)
     {
     }
 
@@ -101,6 +105,7 @@ public:
         vertex_words_ = vertexWords(layout_);
         CodedCluster cluster;
         cluster.words.resize(uvBaseWords(layout_) + vertices_.size() * vertex_words_);
+        findTargets();
         uint32_t* word = cluster.words.data();
         for (uint32_t set = 0; set < kUvSets; ++set)
             if (uvFractionBits(layout_, set) != 0)
@@ -110,6 +115,7 @@ public:
         for (size_t i = 0; i < vertices_.size(); ++i)
             new_of_old[i] = static_cast<uint8_t>(findOrAppend(record, vertices_[i], word));
         cluster.words.resize(uvBaseWords(layout_) + count_ * vertex_words_);
+        cluster.morphs = morphSection();
         cluster.indices.resize(indices.size());
         for (size_t i = 0; i < indices.size(); ++i)
             cluster.indices[i] = new_of_old[indices[i]];
@@ -122,9 +128,13 @@ private:
     {
         uint32_t* const added = words + count_ * vertex_words_;
         writeVertex(record, vertex, added);
+        const std::span<uint32_t> deltas = deltasOf(count_);
+        writeDeltas(vertex, deltas);
         uint64_t hash = 0;
         for (size_t i = 0; i < vertex_words_; ++i)
             hash = (hash ^ added[i]) * 0x9E3779B97F4A7C15u;
+        for (const uint32_t delta : deltas)
+            hash = (hash ^ delta) * 0x9E3779B97F4A7C15u;
         for (size_t slot = hash >> 55;; slot = (slot + 1) % slots_.size())
         {
             if (slots_[slot] == 0)
@@ -132,9 +142,11 @@ private:
                 slots_[slot] = static_cast<uint16_t>(++count_);
                 return count_ - 1;
             }
-            const uint32_t* const other = words + (slots_[slot] - 1) * vertex_words_;
-            if (std::equal(other, other + vertex_words_, added))
-                return slots_[slot] - size_t{1};
+            const size_t known = slots_[slot] - size_t{1};
+            const uint32_t* const other = words + known * vertex_words_;
+            if (std::equal(other, other + vertex_words_, added) &&
+                std::ranges::equal(deltasOf(known), deltas))
+                return known;
         }
     }
 
@@ -164,8 +176,91 @@ private:
         if (layout_ & kVertexColor)
         {
             const std::array<uint32_t, 2> color = encodeColor(layout_, source_.colors[vertex]);
-            std::copy_n(color.begin(), (layout_ & kVertexFineColor) ? 2 : 1, words);
+            words = std::copy_n(color.begin(), (layout_ & kVertexFineColor) ? 2 : 1, words);
         }
+        if (layout_ & kVertexInfluences)
+            writeInfluences(vertex, words);
+    }
+
+    void writeInfluences(uint32_t vertex, uint32_t* words) const
+    {
+        const size_t sets = source_.joint_sets.size();
+        for (size_t set = 0; set < sets; ++set)
+        {
+            const auto& joint = source_.joint_sets[set][vertex].joint;
+            *words++ = joint[0] | uint32_t{joint[1]} << 16;
+            *words++ = joint[2] | uint32_t{joint[3]} << 16;
+        }
+        for (size_t set = 0; set < sets; ++set)
+        {
+            const Float4 weights = source_.weight_sets[set][vertex];
+            *words++ = quantizeUnorm(weights.x, 65535) | quantizeUnorm(weights.y, 65535) << 16;
+            *words++ = quantizeUnorm(weights.z, 65535) | quantizeUnorm(weights.w, 65535) << 16;
+        }
+    }
+
+    /// The targets that move a vertex of the cluster.
+    void findTargets()
+    {
+        for (uint32_t target = 0; target < source_.morph_targets.size(); ++target)
+        {
+            const mesh::MorphTarget& morph = source_.morph_targets[target];
+            const bool moves = std::any_of(vertices_.begin(), vertices_.end(),
+                                           [&](uint32_t vertex)
+                                           { return deltaWords(morph, target, vertex) != DeltaWords{}; });
+            if (moves)
+                targets_.push_back(target);
+        }
+        deltas_.resize(vertices_.size() * 3 * targets_.size());
+    }
+
+    using DeltaWords = std::array<uint32_t, 3>;
+
+    DeltaWords deltaWords(const mesh::MorphTarget& morph, uint32_t target, uint32_t vertex) const
+    {
+        const float step = mesh_.morph_steps[target];
+        DeltaWords words;
+        for (int axis = 0; axis < 3; ++axis)
+        {
+            const auto position = static_cast<int32_t>(std::lround(morph.positions[vertex][axis] / step));
+            const long normal =
+                morph.normals.empty() ? 0 : std::lround(morph.normals[vertex][axis] * kMorphNormalSteps);
+            words[static_cast<size_t>(axis)] =
+                packMorphDelta(position, static_cast<int32_t>(std::clamp(normal, -2047L, 2047L)));
+        }
+        return words;
+    }
+
+    /// The deltas of one of the cluster's vertices, by target.
+    std::span<uint32_t> deltasOf(size_t number)
+    {
+        return std::span(deltas_).subspan(number * 3 * targets_.size(), 3 * targets_.size());
+    }
+
+    void writeDeltas(uint32_t vertex, std::span<uint32_t> words) const
+    {
+        for (size_t i = 0; i < targets_.size(); ++i)
+            std::ranges::copy(deltaWords(source_.morph_targets[targets_[i]], targets_[i], vertex),
+                              words.begin() + static_cast<ptrdiff_t>(3 * i));
+    }
+
+    std::vector<uint32_t> morphSection()
+    {
+        if (source_.morph_targets.empty())
+            return {};
+        std::vector<uint32_t> section{static_cast<uint32_t>(targets_.size())};
+        for (const uint32_t target : targets_)
+        {
+            section.push_back(target);
+            section.push_back(std::bit_cast<uint32_t>(mesh_.morph_steps[target]));
+        }
+        for (size_t i = 0; i < targets_.size(); ++i)
+            for (size_t v = 0; v < count_; ++v)
+            {
+                const auto words = deltasOf(v).subspan(3 * i, 3);
+                section.insert(section.end(), words.begin(), words.end());
+            }
+        return section;
     }
 
     /// Returns what is behind it.
@@ -190,6 +285,7 @@ private:
         return words;
     }
 
+    const PreparedMesh& mesh_;
     const mesh::SourceMesh& source_;
     double steps_; ///< of the grid in a unit; a power of two
     std::span<const uint32_t> vertices_;
@@ -199,6 +295,8 @@ private:
     bool spread_ = false;
     std::array<uint16_t, 512> slots_{}; ///< 1 + number of a vertex, found by its hash; 0: free
     size_t count_ = 0;
+    std::vector<uint32_t> targets_; ///< morph targets that move a vertex of the cluster
+    std::vector<uint32_t> deltas_;  ///< for each vertex and each of them
 };
 
 /// Whether a normal that is off by 0.7 degrees shows against how the normals bend.

@@ -17,6 +17,7 @@ struct CodedCluster
 {
     std::vector<uint32_t> words;  ///< UV bases, then vertices
     std::vector<uint8_t> indices; ///< three for each triangle
+    std::vector<uint32_t> morphs; ///< the morph section; empty in a mesh without targets
 };
 
 /// How the vertices of a mesh are coded: as coarse as Config allows and the values do.

@@ -148,6 +148,9 @@ public:
             groups_[c].links = std::move(links[c]);
             groups_[c].bytes = formats::clusterBytes(formats::largestLayout(mesh.attributes),
                                                      shape.vertex_count, shape.triangle_count);
+            if (const size_t targets = mesh.vertices.morph_targets.size(); targets > 0)
+                groups_[c].bytes +=
+                    static_cast<uint32_t>(4 * formats::morphSectionWords(targets, shape.vertex_count));
         }
     }
 

@@ -108,13 +108,15 @@ struct Streams
 {
     PageHeader header;
     std::array<std::vector<uint8_t>, 2> restarts, reuses;
-    std::vector<uint8_t> codes, references_low, references_high, uv_bases, wide;
+    std::vector<uint8_t> codes, references_low, references_high, uv_bases, wide, more_lanes;
+    std::array<std::vector<uint8_t>, 4> morphs;
 
     void clear()
     {
         header = {};
-        for (auto* stream : {&restarts[0], &restarts[1], &reuses[0], &reuses[1], &codes, &references_low,
-                             &references_high, &uv_bases, &wide})
+        for (auto* stream :
+             {&restarts[0], &restarts[1], &reuses[0], &reuses[1], &codes, &references_low, &references_high,
+              &uv_bases, &wide, &more_lanes, &morphs[0], &morphs[1], &morphs[2], &morphs[3]})
             stream->clear();
     }
 };
@@ -195,6 +197,9 @@ private:
         appendWords(streams_.uv_bases, words.first(c.base_words));
         if (c.wide)
             appendWords(streams_.wide, words.subspan(c.base_words));
+        for (const uint32_t word : cluster.morphs)
+            for (size_t i = 0; i < streams_.morphs.size(); ++i)
+                streams_.morphs[i].push_back(static_cast<uint8_t>(word >> 8 * i));
     }
 
     void readRows(const ClusterRecord& record, const CodedCluster& cluster)
@@ -311,10 +316,27 @@ private:
             std::memcpy(cluster.words.data() + c.base_words + v * c.words,
                         unordered_.data() + c.base_words + size_t{c.old_of_new[v]} * c.words,
                         size_t{c.words} * 4);
+        reorderMorphs(cluster);
         auto index = cluster.indices.begin();
         for (const WalkStep& step : steps)
             for (const uint8_t corner : step.corners)
                 *index++ = static_cast<uint8_t>(c.new_of_old[corner]);
+    }
+
+    void reorderMorphs(CodedCluster& cluster)
+    {
+        if (cluster.morphs.empty())
+            return;
+        unordered_ = cluster.morphs;
+        const Current& c = current_;
+        const size_t targets = cluster.morphs[0];
+        for (size_t target = 0; target < targets; ++target)
+        {
+            const size_t first = morphSectionWords(targets, 0) + target * c.new_count * 3;
+            for (size_t v = 0; v < c.new_count; ++v)
+                std::copy_n(unordered_.begin() + static_cast<ptrdiff_t>(first + 3 * size_t{c.old_of_new[v]}),
+                            3, cluster.morphs.begin() + static_cast<ptrdiff_t>(first + 3 * v));
+        }
     }
 
     std::vector<std::byte> compress()
@@ -326,12 +348,20 @@ private:
             header.reuses[place] = static_cast<uint16_t>(streams_.reuses[place].size());
         }
         header.references = static_cast<uint16_t>(streams_.references_low.size());
-        planes_.make(header);
+        const LaneForms forms = planes_.make(header);
+        std::copy_n(forms.planes.begin(), kHeaderLanes, header.planes);
+        std::copy_n(forms.low_bits.begin(), kHeaderLanes, header.low_bits);
+        if (moreLaneBytes(lanes_) != 0)
+            for (const auto* numbers : {&forms.planes, &forms.low_bits})
+                streams_.more_lanes.insert(streams_.more_lanes.end(), numbers->begin() + kHeaderLanes,
+                                           numbers->end());
         blocks_of_streams_.clear();
         blocks_of_streams_.add({reinterpret_cast<const uint8_t*>(&header), sizeof(header)});
-        for (const auto* stream : {&streams_.codes, &streams_.restarts[0], &streams_.restarts[1],
-                                   &streams_.reuses[0], &streams_.reuses[1], &streams_.references_low,
-                                   &streams_.references_high, &streams_.uv_bases, &streams_.wide})
+        for (const auto* stream :
+             {&streams_.codes, &streams_.restarts[0], &streams_.restarts[1], &streams_.reuses[0],
+              &streams_.reuses[1], &streams_.references_low, &streams_.references_high, &streams_.uv_bases,
+              &streams_.wide, &streams_.more_lanes, &streams_.morphs[0], &streams_.morphs[1],
+              &streams_.morphs[2], &streams_.morphs[3]})
             blocks_of_streams_.add(*stream);
         blocks_of_streams_.add(planes_.escapes());
         for (const auto& plane : planes_.planes())

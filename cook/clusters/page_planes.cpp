@@ -67,18 +67,21 @@ void PagePlanes::clear(const VertexLanes& lanes)
     escapes_.clear();
 }
 
-void PagePlanes::make(PageHeader& header)
+LaneForms PagePlanes::make(PageHeader& header)
 {
+    LaneForms forms;
     header.new_vertices = static_cast<uint16_t>(rows_.size());
     spreadLanes();
     const size_t blocks = (lanes_.count + kLanesOfBlock - 1) / kLanesOfBlock;
     for (size_t block = 0; block < blocks; ++block)
-        chooseLowBits(block, header);
-    collectEscapes(header);
-    addNumberPlanes(header);
-    addBytePlanes(header);
+        chooseLowBits(block, forms);
+    collectEscapes(forms);
+    header.escapes = static_cast<uint32_t>(escapes_.size() / 2);
+    addNumberPlanes(forms);
+    addBytePlanes(forms);
     for (size_t block = 0; block < blocks; ++block)
-        addLowBits(block, header);
+        addLowBits(block, forms);
+    return forms;
 }
 
 /// From rows of lanes to lanes of vertices.
@@ -112,10 +115,10 @@ uint32_t PagePlanes::escapeOf(size_t lane) const
 }
 
 /// The cheapest of each lane; then as many as fill the bytes of the block.
-void PagePlanes::chooseLowBits(size_t block, PageHeader& header) const
+void PagePlanes::chooseLowBits(size_t block, LaneForms& forms) const
 {
     std::array<LowBitCosts, kLanesOfBlock> costs;
-    auto* const low_bits = header.low_bits + block * kLanesOfBlock;
+    auto* const low_bits = forms.low_bits.data() + block * kLanesOfBlock;
     std::array<uint32_t, kLanesOfBlock> most{};
     uint32_t sum = 0;
     for (size_t i = 0; i < kLanesOfBlock && block * kLanesOfBlock + i < lanes_.count; ++i)
@@ -170,7 +173,7 @@ bool PagePlanes::dropZeros()
     return !zero;
 }
 
-void PagePlanes::addNumberPlanes(PageHeader& header)
+void PagePlanes::addNumberPlanes(LaneForms& forms)
 {
     for (size_t lane = 0; lane < lanes_.count; ++lane)
     {
@@ -179,16 +182,16 @@ void PagePlanes::addNumberPlanes(PageHeader& header)
             continue;
         uint8_t* const plane = nextPlane().data();
         const auto mainOf = [&](size_t of, size_t v)
-        { return std::min<uint32_t>(uint32_t{values_[of][v]} >> header.low_bits[of], escapeOf(of)); };
+        { return std::min<uint32_t>(uint32_t{values_[of][v]} >> forms.low_bits[of], escapeOf(of)); };
         for (size_t v = 0; v < rows_.size(); ++v)
             plane[v] = static_cast<uint8_t>(mainOf(lane, v) | (shared ? mainOf(lane + 1, v) << 4 : 0));
         if (dropZeros())
-            header.planes[lane] |= kPlaneMain;
+            forms.planes[lane] |= kPlaneMain;
     }
 }
 
 /// Bytes, or halves of bytes where the lower ones are hardly worth a code.
-void PagePlanes::addBytePlanes(PageHeader& header)
+void PagePlanes::addBytePlanes(LaneForms& forms)
 {
     const size_t vertices = rows_.size();
     std::vector<std::vector<uint8_t>> seconds;
@@ -210,12 +213,12 @@ void PagePlanes::addBytePlanes(PageHeader& header)
         const double whole = storedBits(histogramOf(main)) + storedBits(histogramOf(second));
         if (storedBits(histogramOf(upper)) + 8.0 * static_cast<double>(vertices) < whole)
         {
-            header.planes[lane] |= kPlaneNibbles;
+            forms.planes[lane] |= kPlaneNibbles;
             main = upper;
             second = lower;
         }
         if (dropZeros())
-            header.planes[lane] |= kPlaneMain;
+            forms.planes[lane] |= kPlaneMain;
         seconds.push_back(std::move(second));
         lane_of_second.push_back(lane);
     }
@@ -223,19 +226,19 @@ void PagePlanes::addBytePlanes(PageHeader& header)
     {
         nextPlane() = seconds[i];
         if (dropZeros())
-            header.planes[lane_of_second[i]] |= kPlaneSecond;
+            forms.planes[lane_of_second[i]] |= kPlaneSecond;
     }
 }
 
-void PagePlanes::addLowBits(size_t block, const PageHeader& header)
+void PagePlanes::addLowBits(size_t block, const LaneForms& forms)
 {
-    const LowBitFields fields = lowBitFields(header, block);
+    const LowBitFields fields = lowBitFields(forms, block);
     for (uint32_t part = 0; part < fields.planes(); ++part)
     {
         uint8_t* const plane = nextPlane().data();
         for (size_t i = 0; i < kLanesOfBlock && block * kLanesOfBlock + i < lanes_.count; ++i)
         {
-            const uint32_t bits = header.low_bits[block * kLanesOfBlock + i];
+            const uint32_t bits = forms.low_bits[block * kLanesOfBlock + i];
             const int shift = static_cast<int>(8 * part) - static_cast<int>(fields.first[i]);
             if (shift <= -8 || shift >= static_cast<int>(bits))
                 continue;
@@ -249,10 +252,10 @@ void PagePlanes::addLowBits(size_t block, const PageHeader& header)
 }
 
 /// By sixteen vertices, in them by lane, in it by vertex.
-void PagePlanes::collectEscapes(PageHeader& header)
+void PagePlanes::collectEscapes(const LaneForms& forms)
 {
     constexpr size_t kGroup = 16;
-    const auto leastEscape = [&](size_t lane) { return escapeOf(lane) << header.low_bits[lane]; };
+    const auto leastEscape = [&](size_t lane) { return escapeOf(lane) << forms.low_bits[lane]; };
     std::vector<size_t> lanes;
     for (size_t lane = 0; lane < lanes_.count; ++lane)
     {
@@ -273,7 +276,6 @@ void PagePlanes::collectEscapes(PageHeader& header)
                     escapes_.push_back(static_cast<uint8_t>(value >> 8));
                 }
         }
-    header.escapes = static_cast<uint32_t>(escapes_.size() / 2);
 }
 
 } // namespace hearth::clusters

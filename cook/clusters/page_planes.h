@@ -28,9 +28,9 @@ public:
     /// The residuals of a new vertex: numbers as formats::zigzag16 has them.
     void add(const VertexRow& residuals) { rows_.push_back(residuals); }
 
-    /// All vertices are there: choose the forms of their lanes and make the planes. Fills new_vertices, escapes, planes and
-    /// low_bits of the header.
-    void make(formats::PageHeader& header);
+    /// All vertices are there: choose the forms of their lanes and make the planes. Fills new_vertices and escapes of the
+    /// header.
+    formats::LaneForms make(formats::PageHeader& header);
 
     /// In the order in which they stand in the page.
     std::span<const std::vector<uint8_t>> planes() const { return {planes_.data(), plane_count_}; }
@@ -39,12 +39,12 @@ public:
 
 private:
     void spreadLanes();
-    void chooseLowBits(size_t block, formats::PageHeader& header) const;
+    void chooseLowBits(size_t block, formats::LaneForms& forms) const;
     uint32_t escapeOf(size_t lane) const;
-    void addNumberPlanes(formats::PageHeader& header);
-    void addBytePlanes(formats::PageHeader& header);
-    void addLowBits(size_t block, const formats::PageHeader& header);
-    void collectEscapes(formats::PageHeader& header);
+    void addNumberPlanes(formats::LaneForms& forms);
+    void addBytePlanes(formats::LaneForms& forms);
+    void addLowBits(size_t block, const formats::LaneForms& forms);
+    void collectEscapes(const formats::LaneForms& forms);
     std::vector<uint8_t>& nextPlane();
     bool dropZeros();
 

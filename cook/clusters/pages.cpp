@@ -21,7 +21,8 @@ using namespace formats;
 
 uint32_t bytesOf(const CodedCluster& cluster)
 {
-    return static_cast<uint32_t>(4 * (cluster.words.size() + (cluster.indices.size() + 3) / 4));
+    return static_cast<uint32_t>(
+        4 * (cluster.words.size() + (cluster.indices.size() + 3) / 4 + cluster.morphs.size()));
 }
 
 /// Writes the clusters of one group after the other. Only what is not in a page yet is held: a few pages, whatever the mesh.

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/clusters/cluster.h"
+#include "cook/mesh/deformation.h"
 #include "cook/mesh/triangles.h"
 #include "cook/mesh/weld.h"
+#include "formats/vertex_codec.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <tbb/blocked_range.h>
@@ -87,6 +90,19 @@ void forEachArray(mesh::SourceMesh& to, const mesh::SourceMesh& from, Visit visi
     for (size_t set = 0; set < mesh::kUvSetCount; ++set)
         visit(to.uvs[set], from.uvs[set]);
     visit(to.colors, from.colors);
+    to.joint_sets.resize(from.joint_sets.size());
+    to.weight_sets.resize(from.weight_sets.size());
+    for (size_t set = 0; set < from.joint_sets.size(); ++set)
+    {
+        visit(to.joint_sets[set], from.joint_sets[set]);
+        visit(to.weight_sets[set], from.weight_sets[set]);
+    }
+    to.morph_targets.resize(from.morph_targets.size());
+    for (size_t target = 0; target < from.morph_targets.size(); ++target)
+    {
+        visit(to.morph_targets[target].positions, from.morph_targets[target].positions);
+        visit(to.morph_targets[target].normals, from.morph_targets[target].normals);
+    }
 }
 
 } // namespace
@@ -108,9 +124,25 @@ void appendVertices(mesh::SourceMesh& to, const mesh::SourceMesh& from)
                  { target.insert(target.end(), source.begin(), source.end()); });
 }
 
-PreparedMesh prepareMesh(mesh::SourceMesh source)
+uint32_t clusterVertexLimit(const PreparedMesh& mesh)
+{
+    using namespace formats;
+    const size_t targets = mesh.vertices.morph_targets.size();
+    if (targets == 0)
+        return kClusterMaxVertices;
+    const uint32_t layout = largestLayout(mesh.attributes);
+    const size_t fixed = clusterBytes(layout, 0, kClusterMaxTriangles) + 4 * morphSectionWords(targets, 0);
+    const size_t of_vertex = 4 * vertexWords(layout) + 12 * targets;
+    const size_t half_page = kPageMaxBytes / 2;
+    const size_t limit = fixed < half_page ? (half_page - fixed) / of_vertex : 0;
+    return static_cast<uint32_t>(std::clamp<size_t>(limit, 3, kClusterMaxVertices));
+}
+
+PreparedMesh prepareMesh(mesh::SourceMesh source, uint32_t influences)
 {
     PreparedMesh prepared;
+    prepared.influence_loss = mesh::reduceInfluences(source, influences);
+    prepared.morph_steps = mesh::snapMorphTargets(source);
     prepared.attributes = mesh::attributesOf(source);
     const std::vector<uint8_t> degenerate = degenerateTriangles(source);
     prepared.grid = mesh::snapToGrid(source);

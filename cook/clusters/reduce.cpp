@@ -48,7 +48,8 @@ std::vector<uint32_t> makeVertices(const PreparedMesh& mesh, const GroupMesh& gr
 
 /// Cut what is left into clusters, material by material in order of their numbers.
 ClusterStore splitSimplified(const GroupMesh& group, const Simplified& simplified,
-                             std::span<const uint32_t> vertex_of_wedge, std::span<const float> errors)
+                             std::span<const uint32_t> vertex_of_wedge, std::span<const float> errors,
+                             uint32_t vertex_limit)
 {
     const size_t count = simplified.triangleCount();
     std::vector<uint32_t> vertices(count * 3);
@@ -76,7 +77,8 @@ ClusterStore splitSimplified(const GroupMesh& group, const Simplified& simplifie
         size_t last = first;
         while (last < count && materials[items[last].triangle] == material)
             ++last;
-        splitIntoClusters(std::span(items).subspan(first, last - first), {vertices, errors, material}, out);
+        splitIntoClusters(std::span(items).subspan(first, last - first),
+                          {vertices, errors, material, vertex_limit}, out);
         first = last;
     }
     return out;
@@ -123,7 +125,8 @@ Reduced reduceGroup(const PreparedMesh& mesh, const ClusterStore& store, std::sp
     const std::vector<uint32_t> vertices = makeVertices(mesh, group, simplified, reduced);
     reduced.attributes =
         measureAttributes(group, {simplified, after, points.of_wedge, mesh.vertices, reduced.made, vertices});
-    reduced.clusters = splitSimplified(group, simplified, vertices, deviation.errors);
+    reduced.clusters =
+        splitSimplified(group, simplified, vertices, deviation.errors, clusterVertexLimit(mesh));
     reduced.progressed = goal.exact || reduced.clusters.shapes.size() < members.size();
     return reduced;
 }

@@ -40,6 +40,8 @@ struct Cut
 class VertexNumbers
 {
 public:
+    explicit VertexNumbers(uint32_t limit) : limit_(limit) {}
+
     /// Number of `vertex`, or kClusterMaxVertices if it would be one too many.
     uint32_t numberOf(uint32_t vertex)
     {
@@ -50,7 +52,7 @@ public:
                 return numbers_[slot];
             slot = (slot + 1) % kSlotCount;
         }
-        if (count_ == kClusterMaxVertices)
+        if (count_ == limit_)
             return kClusterMaxVertices;
         numbers_[slot] = static_cast<uint16_t>(count_);
         vertices_[count_] = vertex;
@@ -72,13 +74,14 @@ private:
 
     std::array<uint16_t, kSlotCount> numbers_ = allFree();
     std::array<uint32_t, kClusterMaxVertices> vertices_;
+    uint32_t limit_;
     uint32_t count_ = 0;
 };
 
 /// Append the items as one cluster; false if they have too many vertices.
 bool appendLeaf(std::span<const SplitItem> items, const SplitTriangles& triangles, ClusterStore& out)
 {
-    VertexNumbers numbers;
+    VertexNumbers numbers(triangles.vertex_limit);
     std::array<uint8_t, kClusterMaxTriangles * 3> indices;
     size_t index_count = 0;
     for (const SplitItem& item : items)
@@ -283,16 +286,16 @@ void applyCut(std::span<SplitItem> items, Cut cut)
 }
 
 /// Triangles that a cluster of these items can have on average before its vertices run out.
-size_t clusterCapacity(std::span<const SplitItem> items, std::span<const uint32_t> corners)
+size_t clusterCapacity(std::span<const SplitItem> items, const SplitTriangles& triangles)
 {
     std::vector<uint32_t> vertices;
     vertices.reserve(items.size() * 3);
     for (const SplitItem& item : items)
         for (size_t k = 0; k < 3; ++k)
-            vertices.push_back(corners[size_t{item.triangle} * 3 + k]);
+            vertices.push_back(triangles.corners[size_t{item.triangle} * 3 + k]);
     std::sort(vertices.begin(), vertices.end());
     const auto unique = static_cast<size_t>(std::unique(vertices.begin(), vertices.end()) - vertices.begin());
-    return std::clamp<size_t>(kClusterMaxVertices * items.size() / unique, 1, kClusterMaxTriangles);
+    return std::clamp<size_t>(triangles.vertex_limit * items.size() / unique, 1, kClusterMaxTriangles);
 }
 
 /// Cut `root` into clusters of up to `capacity` triangles, depth first without recursion. A cluster with too many
@@ -335,7 +338,7 @@ void splitEvenNode(std::span<SplitItem> items, const SplitTriangles& triangles, 
     out.vertices.resize(vertex_count);
     out.indices.resize(index_count);
     out.errors.resize(index_count / 3);
-    splitNode(items, clusterCapacity(items, triangles.corners), true, triangles, out);
+    splitNode(items, clusterCapacity(items, triangles), true, triangles, out);
 }
 
 /// The top of the tree, a wave of nodes at a time, until they are small enough to be split one per task.
@@ -426,7 +429,7 @@ ClusterStore splitMesh(const PreparedMesh& mesh)
         while (last < items.size() && mesh.materials[items[last].triangle] == material)
             ++last;
         const auto nodes = splitTop(std::span(items).subspan(first, last - first));
-        const SplitTriangles triangles{mesh.corners, errors, material};
+        const SplitTriangles triangles{mesh.corners, errors, material, clusterVertexLimit(mesh)};
         std::vector<ClusterStore> parts(nodes.size());
         tbb::parallel_for(size_t{0}, nodes.size(),
                           [&](size_t i) { splitIntoClusters(nodes[i], triangles, parts[i]); });

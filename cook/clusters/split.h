@@ -26,10 +26,11 @@ struct SplitTriangles
     std::span<const uint32_t> corners; ///< three vertices for each triangle
     std::span<const float> errors;     ///< for each triangle, as in ClusterStore
     uint32_t material;
+    uint32_t vertex_limit = formats::kClusterMaxVertices; ///< of a cluster: clusterVertexLimit
 };
 
 /// Top-down: cut where the surface-area cost is least, at multiples of a full cluster, so that all clusters but one
-/// are full. A cluster that would need more than 256 vertices is cut again.
+/// are full. A cluster that would need more vertices than their limit is cut again.
 /// Reorders `items`; deterministic for any order of items with different triangles.
 ///
 /// items      of one material; centers finite

@@ -20,6 +20,8 @@ using Block = tbb::blocked_range<size_t>;
 constexpr size_t kGrain = 16384;
 
 constexpr int kBits = 16;
+/// Poses are compared with those of other programs to 1e-5 of the model's size.
+constexpr int kDeformedBits = 18;
 constexpr int kMostExtraBits = 4;
 
 /// Largest power of two that is not above x; x positive.
@@ -70,7 +72,8 @@ double gridStep(const SourceMesh& mesh)
     }
     if (!(extent > 0))
         return 0;
-    double step = powerOfTwoBelow(std::ldexp(extent, -kBits));
+    const bool deforms = !mesh.joint_sets.empty() || !mesh.morph_targets.empty();
+    double step = powerOfTwoBelow(std::ldexp(extent, -(deforms ? kDeformedBits : kBits)));
     if (const double shortest = shortestEdge(mesh); shortest < step)
         step = std::max(powerOfTwoBelow(shortest), std::ldexp(step, -kMostExtraBits));
     const double float_step = std::ldexp(powerOfTwoBelow(farthest), 1 - std::numeric_limits<float>::digits);

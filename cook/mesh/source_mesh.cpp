@@ -169,6 +169,8 @@ uint32_t attributesOf(const SourceMesh& mesh)
     for (size_t set = 0; set < kUvSetCount; ++set)
         attributes |= mesh.uvs[set].empty() ? 0u : kVertexUv0 << set;
     attributes |= mesh.colors.empty() ? 0u : kVertexColor;
+    attributes |= mesh.joint_sets.empty() ? 0u : kVertexInfluences;
+    attributes |= mesh.joint_sets.size() < 2 ? 0u : kVertexMoreInfluences;
     return attributes;
 }
 

@@ -60,6 +60,8 @@ uint influenceWord(uint layout_bits)
     uint words = uvEnd(layout_bits, kVertexUvs);
     if ((layout_bits & kVertexColor) != 0u)
         words += (layout_bits & kVertexFineColor) != 0u ? 2u : 1u;
+    if ((layout_bits & kVertexInfluences) != 0u)
+        words += (layout_bits & kVertexMoreInfluences) != 0u ? 8u : 4u;
     return words;
 }
 

@@ -67,6 +67,15 @@ const char* kindOfLane(size_t lane, const VertexLanes& lanes, uint32_t layout)
     return "other attributes";
 }
 
+/// What stands behind the triangles of the page's clusters.
+size_t morphBytes(const PageRecord& page, std::span<const ClusterRecord> clusters, uint32_t mesh_layout)
+{
+    size_t bytes = page.size;
+    for (const ClusterRecord& cluster : clusters)
+        bytes -= clusterBytes(layoutOf(cluster, mesh_layout), cluster.vertex_count, cluster.triangle_count);
+    return bytes;
+}
+
 /// Adds the entropies of a page's streams, scaled to what the page takes.
 void addKinds(const PageRecord& page, std::span<const ClusterRecord> clusters, uint32_t mesh_layout,
               std::span<const std::byte> content, std::map<std::string, double>& bytes_of_kind)
@@ -98,19 +107,22 @@ void addKinds(const PageRecord& page, std::span<const ClusterRecord> clusters, u
     take("references", header.references);
     take("UV bases", uv_bases);
     take("wide", wide);
-    take("escapes", header.escapes * 2);
     const VertexLanes lanes = vertexLanes(mesh_layout);
+    const LaneForms forms = readLaneForms(header, content.subspan(at, moreLaneBytes(lanes)));
+    take("headers", moreLaneBytes(lanes));
+    take("morph targets", morphBytes(page, clusters, mesh_layout));
+    take("escapes", header.escapes * 2);
     const auto takePlanes = [&](bool of_bytes, uint32_t part)
     {
         for (size_t lane = 0; lane < lanes.count; ++lane)
-            if ((lanes.kinds[lane] == LaneKind::bytes) == of_bytes && (header.planes[lane] & part) != 0)
+            if ((lanes.kinds[lane] == LaneKind::bytes) == of_bytes && (forms.planes[lane] & part) != 0)
                 take(kindOfLane(lane, lanes, mesh_layout), header.new_vertices);
     };
     takePlanes(false, kPlaneMain);
     takePlanes(true, kPlaneMain);
     takePlanes(true, kPlaneSecond);
     for (size_t block = 0; block * kLanesOfBlock < lanes.count; ++block)
-        for (uint32_t plane = 0; plane < lowBitFields(header, block).planes(); ++plane)
+        for (uint32_t plane = 0; plane < lowBitFields(forms, block).planes(); ++plane)
             take("low bits", header.new_vertices);
     double sum = 0;
     for (const auto& [kind, bytes] : kinds)

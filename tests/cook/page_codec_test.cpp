@@ -35,7 +35,7 @@ bool decodes(std::span<const std::byte> stored, const RandomPage& page, std::vec
     return decoder.decode(bytes, page.records, page.layout, out);
 }
 
-/// The corners of a cluster's triangles, each a vertex as its words, in the least of its three turns.
+/// The corners of a cluster's triangles, each a vertex as its words and morph deltas, in the least of its three turns.
 std::multiset<std::vector<uint32_t>> trianglesOf(const RandomPage& page, size_t cluster)
 {
     const clusters::CodedCluster& coded = page.clusters[cluster];
@@ -50,6 +50,16 @@ std::multiset<std::vector<uint32_t>> trianglesOf(const RandomPage& page, size_t 
             const auto at = coded.words.begin() + static_cast<ptrdiff_t>(uvBaseWords(layout)) +
                             static_cast<ptrdiff_t>(coded.indices[t + i]) * static_cast<ptrdiff_t>(words);
             corners[i].assign(at, at + words);
+            const size_t targets = coded.morphs.empty() ? 0 : coded.morphs[0];
+            for (size_t target = 0; target < targets; ++target)
+            {
+                const auto deltas =
+                    coded.morphs.begin() +
+                    static_cast<ptrdiff_t>(
+                        morphSectionWords(targets, 0) +
+                        (target * page.records[cluster].vertex_count + coded.indices[t + i]) * 3);
+                corners[i].insert(corners[i].end(), deltas, deltas + 3);
+            }
         }
         std::array<std::vector<uint32_t>, 3> least = corners;
         for (int turn = 0; turn < 2; ++turn)
@@ -113,6 +123,22 @@ TEST_P(PageCodecOfLayout, bringsRandomPagesBack)
     {
         SCOPED_TRACE(seed);
         expectRoundTrip(randomPage(GetParam(), seed));
+    }
+}
+
+TEST_P(PageCodecOfLayout, bringsMorphTargetsBack)
+{
+    for (uint32_t seed = 0; seed < 5; ++seed)
+    {
+        SCOPED_TRACE(seed);
+        std::mt19937 random(seed);
+        RandomPage page;
+        page.layout = GetParam();
+        page.morph_targets = 4;
+        addGridCluster(page, 5, false, random);
+        addWildCluster(page, 50, 30, random);
+        addGridCluster(page, 3, true, random);
+        expectRoundTrip(page);
     }
 }
 
@@ -266,6 +292,30 @@ TEST(PageCodec, storesSharedVerticesOnce)
     page.records.push_back(page.records[0]);
     page.records[1].page_word = static_cast<uint16_t>(page.content().size() / 8);
     EXPECT_LT(encode(page).size(), one * 3 / 2);
+}
+
+TEST(PageCodec, storesInfluencesInFewBytes)
+{
+    // a bone and a half: all but the few vertices between two joints have a neighbour's joints, and weights like it
+    const uint32_t layout = kVertexNormal | kVertexInfluences;
+    std::mt19937 random(10);
+    RandomPage plain, skinned;
+    plain.layout = kVertexNormal;
+    skinned.layout = layout;
+    addGridCluster(plain, 8, false, random);
+    addGridCluster(skinned, 8, false, random);
+    const uint32_t words = vertexWords(layout);
+    for (uint32_t v = 0; v < 81; ++v)
+    {
+        const uint32_t row = v / 9;
+        const uint32_t second = row < 3 ? 0 : row < 6 ? 8000 * (row - 2) : 32767;
+        uint32_t* const influences = &skinned.clusters[0].words[(v + 1) * words - 4];
+        influences[0] = second > 0 ? 7u | 8u << 16 : 7u;
+        influences[1] = influences[3] = 0;
+        influences[2] = (65535 - second) | second << 16;
+    }
+    const size_t bytes = encode(skinned).size() - encode(plain).size();
+    EXPECT_LT(bytes, 81u * 16 / 4) << "of the 16 bytes that a vertex has";
 }
 
 TEST(PageCodec, foldsSignsBothWays)

@@ -15,7 +15,7 @@ namespace
 
 size_t bytesOf(const clusters::CodedCluster& cluster)
 {
-    return 4 * (cluster.words.size() + (cluster.indices.size() + 3) / 4);
+    return 4 * (cluster.words.size() + (cluster.indices.size() + 3) / 4 + cluster.morphs.size());
 }
 
 /// A record with its counts, and the words in front of the vertices.
@@ -36,8 +36,16 @@ ClusterRecord& beginCluster(RandomPage& page, bool wide, std::mt19937& random)
     return page.records.back();
 }
 
-void finishCluster(RandomPage& page, size_t vertex_count)
+void finishCluster(RandomPage& page, size_t vertex_count, std::mt19937& random)
 {
+    if (page.morph_targets > 0)
+    {
+        auto& morphs = page.clusters.back().morphs;
+        morphs.resize(morphSectionWords(random() % (page.morph_targets + 1), vertex_count));
+        for (uint32_t& word : morphs)
+            word = static_cast<uint32_t>(random());
+        morphs[0] = static_cast<uint32_t>((morphs.size() - 1) / (2 + 3 * vertex_count));
+    }
     page.records.back().vertex_count = static_cast<uint16_t>(vertex_count);
     page.records.back().triangle_count = static_cast<uint8_t>(page.clusters.back().indices.size() / 3);
 }
@@ -70,6 +78,8 @@ std::vector<std::byte> RandomPage::content() const
         std::memcpy(bytes.data() + first, cluster.words.data(), cluster.words.size() * 4);
         std::memcpy(bytes.data() + first + cluster.words.size() * 4, cluster.indices.data(),
                     cluster.indices.size());
+        std::memcpy(bytes.data() + bytes.size() - cluster.morphs.size() * 4, cluster.morphs.data(),
+                    cluster.morphs.size() * 4);
     }
     return bytes;
 }
@@ -84,7 +94,10 @@ std::vector<uint32_t> sampleLayouts()
             kVertexNormal | kVertexTangent | kVertexUv0 | kVertexUv2 | kVertexFloatUv2 | kVertexColor | grids,
             largestLayout(kVertexAttributesAll & ~kVertexUvs) & ~kVertexWide,
             (largestLayout(kVertexAttributesAll) & ~kVertexWide) | kVertexFloatUv0 | kVertexFloatUv1 |
-                kVertexFloatUv2 | kVertexFloatUv3};
+                kVertexFloatUv2 | kVertexFloatUv3,
+            kVertexNormal | kVertexUv0 | kVertexInfluences | grids,
+            (largestLayout(kVertexAttributesAll | kVertexInfluenceBits) & ~kVertexWide) | kVertexFloatUv0 |
+                kVertexFloatUv1 | kVertexFloatUv2 | kVertexFloatUv3};
 }
 
 void addGridCluster(RandomPage& page, uint32_t side, bool wide, std::mt19937& random)
@@ -101,7 +114,7 @@ void addGridCluster(RandomPage& page, uint32_t side, bool wide, std::mt19937& ra
             for (const uint32_t corner : {at, at + 1, at + side + 1, at + 1, at + side + 2, at + side + 1})
                 indices.push_back(static_cast<uint8_t>(corner));
         }
-    finishCluster(page, size_t{side + 1} * (side + 1));
+    finishCluster(page, size_t{side + 1} * (side + 1), random);
 }
 
 void addWildCluster(RandomPage& page, uint32_t vertex_count, uint32_t triangle_count, std::mt19937& random)
@@ -113,7 +126,7 @@ void addWildCluster(RandomPage& page, uint32_t vertex_count, uint32_t triangle_c
     // all vertices are used, as far as there are corners
     for (uint32_t corner = 0; corner < triangle_count * 3; ++corner)
         indices.push_back(static_cast<uint8_t>(corner < vertex_count ? corner : random() % vertex_count));
-    finishCluster(page, vertex_count);
+    finishCluster(page, vertex_count, random);
 }
 
 RandomPage randomPage(uint32_t layout, uint32_t seed)

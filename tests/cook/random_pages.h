@@ -12,7 +12,8 @@ namespace hearth::test
 
 struct RandomPage
 {
-    uint32_t layout = 0; ///< of the mesh
+    uint32_t layout = 0;        ///< of the mesh
+    uint32_t morph_targets = 0; ///< each cluster has up to so many of them
     std::vector<formats::ClusterRecord> records;
     std::vector<clusters::CodedCluster> clusters;
 

@@ -71,6 +71,8 @@ TEST(VertexWords, areTheOffsetBehindTheLastAttribute)
     EXPECT_EQ(vertexWords(127 | kVertexFloatUv1), 9u);
     EXPECT_EQ(vertexWords(127 | kVertexFloatUv1 | kVertexWide), 14u);
     EXPECT_EQ(vertexWords(kVertexColor | kVertexFineColor), 4u);
+    EXPECT_EQ(vertexWords(kVertexNormal | kVertexInfluences), 6u);
+    EXPECT_EQ(vertexWords(kVertexNormal | kVertexInfluences | kVertexMoreInfluences), 10u);
 }
 
 } // namespace hearth::test

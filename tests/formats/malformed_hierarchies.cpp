@@ -23,6 +23,12 @@ constexpr uint32_t kHuge = 0xFFFFFFF0u; ///< first + count overflows 32 bits
 constexpr size_t kStripVertices = 2 * 4;
 constexpr size_t kStripIndices = kStripVertices + 4 * 5 * 4; ///< of the first cluster of a page
 
+// the cluster of the triangle: vertices of 6 words, position, joints and weights; indices; the section of one target
+constexpr size_t kTriangleJoints = 2 * 4;
+constexpr size_t kTriangleWeights = 4 * 4;
+constexpr size_t kTriangleIndices = 3 * 6 * 4;
+constexpr size_t kTriangleMorphs = kTriangleIndices + 4;
+
 /// Overwrite a word of the first cluster of a page.
 template <typename T>
 void poke(PackModel& pack, size_t page, size_t byte, T value)
@@ -55,6 +61,10 @@ std::vector<MalformedPack> malformedTables()
         {"meshGrid", Issue::meaning_value, "mesh 0", [](PackModel& p) { p.meshes[0].grid_step = 0.3f; }},
         {"meshGridError", Issue::meaning_value, "mesh 0",
          [](PackModel& p) { p.meshes[0].grid_error = kNaN; }},
+        {"meshSkinnedWithoutInfluences", Issue::meaning_value, "mesh 0",
+         [](PackModel& p) { p.meshes[0].skinned = 1; }},
+        {"meshInfluencesWithoutSkin", Issue::meaning_value, "mesh 2",
+         [](PackModel& p) { p.meshes[2].skinned = 0; }},
         {"meshSkinned", Issue::meaning_value, "mesh 2", [](PackModel& p) { p.meshes[2].skinned = 2; }},
         {"meshBoxInfinite", Issue::meaning_value, "mesh 1",
          [](PackModel& p) { p.meshes[1].box_min.x = kInfinity; }},
@@ -257,12 +267,12 @@ std::vector<MalformedPack> malformedGeometry()
 {
     return {
         {"geometryOutsidePage", Issue::meaning_range, "cluster 6",
-         [](PackModel& p) { p.clusters[6].page_word = 1; }},
+         [](PackModel& p) { p.clusters[6].page_word = 16; }},
         {"geometryOffsetHuge", Issue::meaning_range, "cluster 0",
          [](PackModel& p) { p.clusters[0].page_word = 0xFFFF; }},
         {"geometryOverlaps", Issue::meaning_order, "cluster 3",
          [](PackModel& p) { --p.clusters[3].page_word; }},
-        {"geometryPadding", Issue::meaning_padding, "cluster 3",
+        {"geometryPadding", Issue::meaning_padding, "cluster 2",
          [](PackModel& p) { poke(p, 1, kStripIndices + 6, uint8_t{1}); }, true},
         {"geometryBytesBehind", Issue::meaning_padding, "page 2",
          [](PackModel& p) { p.decoded_pages[2].resize(p.decoded_pages[2].size() + 4, std::byte{1}); }, true},
@@ -279,7 +289,28 @@ std::vector<MalformedPack> malformedGeometry()
         {"indexOutside", Issue::meaning_geometry, "cluster 0",
          [](PackModel& p) { poke(p, 0, kStripIndices + 5, uint8_t{4}); }, true},
         {"allDegenerate", Issue::meaning_geometry, "cluster 6",
-         [](PackModel& p) { poke(p, 3, 3 * 8 + 1, uint8_t{0}); }, true},
+         [](PackModel& p) { poke(p, 3, kTriangleIndices + 1, uint8_t{0}); }, true},
+        {"jointOfNoSkin", Issue::meaning_geometry, "cluster 6",
+         [](PackModel& p) { poke(p, 3, kTriangleJoints, uint16_t{2}); }, true},
+        {"jointWithoutWeight", Issue::meaning_geometry, "cluster 6",
+         [](PackModel& p) { poke(p, 3, kTriangleJoints + 4, uint16_t{1}); }, true},
+        {"weightsSum", Issue::meaning_geometry, "cluster 6",
+         [](PackModel& p) { poke(p, 3, kTriangleWeights, uint16_t{40001}); }, true},
+        {"weightsRise", Issue::meaning_geometry, "cluster 6",
+         [](PackModel& p) { poke(p, 3, kTriangleWeights, uint32_t{25535u | 40000u << 16}); }, true},
+        {"morphCount", Issue::meaning_range, "cluster 6",
+         [](PackModel& p) { poke(p, 3, kTriangleMorphs, uint32_t{2}); }, true},
+        {"morphTarget", Issue::meaning_geometry, "cluster 6",
+         [](PackModel& p) { poke(p, 3, kTriangleMorphs + 4, uint32_t{1}); }, true},
+        {"morphStep", Issue::meaning_geometry, "cluster 6",
+         [](PackModel& p) { poke(p, 3, kTriangleMorphs + 8, 0.3f); }, true},
+        {"morphMovesNothing", Issue::meaning_geometry, "cluster 6",
+         [](PackModel& p)
+         {
+             for (size_t word = 0; word < 9; ++word)
+                 poke(p, 3, kTriangleMorphs + 12 + 4 * word, uint32_t{0});
+         },
+         true},
         {"coneTooNarrow", Issue::meaning_bounds, "cluster 2",
          [](PackModel& p) { p.clusters[2].cone_cutoff = 65536 / 20; }},
         {"coneTurned", Issue::meaning_bounds, "cluster 0",

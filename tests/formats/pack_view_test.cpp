@@ -129,6 +129,38 @@ TEST(ClusterGeometry, readsEveryAttribute)
     EXPECT_EQ(geometry.color(2).w, 1);
 }
 
+TEST(ClusterGeometry, readsInfluencesAndMorphTargets)
+{
+    const Opened view(smallPack());
+    const std::vector<std::byte> page = view->decodePage(3).value();
+    const auto found = ClusterGeometry::at(page, view->clusters()[6], view->meshes()[2]);
+    if (!found)
+        FAIL() << "the cluster's geometry was not found";
+    const ClusterGeometry& geometry = *found;
+    ASSERT_EQ(geometry.influenceCount(), 4u);
+    EXPECT_EQ(geometry.joints(2), (std::array<uint32_t, 8>{1, 0, 0, 0}));
+    EXPECT_EQ(geometry.weightCodes(2), (std::array<uint32_t, 8>{40000, 25535, 0, 0}));
+    EXPECT_EQ(geometry.weights(2)[0], 40000.0f / 65535);
+    ASSERT_EQ(geometry.morphCount(), 1u);
+    EXPECT_EQ(geometry.morphTarget(0), 0u);
+    EXPECT_EQ(geometry.morphPosition(0, 1), (Float3{0, 0, 0}));
+    EXPECT_EQ(geometry.morphPosition(0, 2), (Float3{0, 0.5f, 0}));
+    EXPECT_EQ(geometry.morphNormal(0, 2), (Float3{0.5f, -1, 0}));
+    // a mesh without targets has no section, and one with targets cannot do without
+    MeshRecord mesh = view->meshes()[2];
+    const size_t section = 4 * morphSectionWords(1, 3);
+    EXPECT_FALSE(
+        ClusterGeometry::at(std::span(page).first(page.size() - 4), view->clusters()[6], mesh).has_value());
+    EXPECT_FALSE(ClusterGeometry::at(std::span(page).first(page.size() - section), view->clusters()[6], mesh)
+                     .has_value());
+    mesh.morph_target_count = 0;
+    const auto still =
+        ClusterGeometry::at(std::span(page).first(page.size() - section), view->clusters()[6], mesh);
+    if (!still)
+        FAIL() << "the cluster's geometry was not found";
+    EXPECT_EQ(still->morphCount(), 0u);
+}
+
 TEST(ClusterGeometry, refusesDataOutsideThePage)
 {
     const Opened view(smallPack());

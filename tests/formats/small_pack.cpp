@@ -22,6 +22,7 @@ constexpr uint32_t kStripAttributes =
 constexpr float kGridStep = 1.0f / 1024;
 constexpr float kFold = 96 * kGridStep; ///< metres by which every second edge of the strip is lifted
 constexpr float kFoldError = 0.1f;
+constexpr float kMorphStep = 1.0f / 64;
 
 StringRef intern(PackModel& pack, std::string_view text)
 {
@@ -73,6 +74,20 @@ void appendVertex(std::vector<std::byte>& page, Float3 position, const ClusterRe
                                                                          << 16);
     if (layout & kVertexColor)
         appendValue(page, encodeColor(layout, {1, 0.5f, 0.25f, 1})[0]);
+    if (layout & kVertexInfluences)
+        for (const uint32_t word : {1u, 0u, 40000u | 25535u << 16, 0u})
+            appendValue(page, word);
+}
+
+/// The section of target 0, which lifts the last vertex by a half and turns its normal.
+void appendMorphs(std::vector<std::byte>& page, size_t vertex_count)
+{
+    for (const uint32_t word : {1u, 0u, std::bit_cast<uint32_t>(kMorphStep)})
+        appendValue(page, word);
+    for (size_t i = 0; i + 3 < 3 * vertex_count; ++i)
+        appendValue(page, uint32_t{0});
+    for (const uint32_t word : {packMorphDelta(0, 512), packMorphDelta(32, -1024), packMorphDelta(0, 0)})
+        appendValue(page, word);
 }
 
 /// Bounds of the shape: its box, and a cone that all its normals fit.
@@ -101,7 +116,7 @@ void addCluster(PackModel& pack, const Shape& shape, uint32_t refined_group)
     std::vector<std::byte>& page = pack.decoded_pages.back();
 
     const uint32_t layout = pack.meshes.back().attributes;
-    ClusterRecord cluster = boundsOf(shape, layout == 0 ? kNoCone : uint16_t{65536 / 5});
+    ClusterRecord cluster = boundsOf(shape, (layout & kVertexNormal) ? uint16_t{65536 / 5} : kNoCone);
     cluster.material = mesh == 0 ? 0 : kNone;
     cluster.page = static_cast<uint32_t>(pack.decoded_pages.size() - 1);
     cluster.page_word = static_cast<uint16_t>(page.size() / 4);
@@ -119,6 +134,8 @@ void addCluster(PackModel& pack, const Shape& shape, uint32_t refined_group)
     for (const uint8_t index : shape.indices)
         page.push_back(std::byte{index});
     padTo(page, 4);
+    if (pack.meshes.back().morph_target_count > 0)
+        appendMorphs(page, shape.positions.size());
 
     ++pack.groups.back().clusters.count;
     ++pack.pages.back().clusters.count;
@@ -203,7 +220,7 @@ void addStrip(PackModel& pack)
 
 void addTriangle(PackModel& pack)
 {
-    beginMesh(pack, "triangle", 0);
+    beginMesh(pack, "triangle", kVertexInfluences);
     pack.meshes.back().skinned = 1;
     pack.meshes.back().morph_target_count = 1;
     const uint32_t first = static_cast<uint32_t>(pack.clusters.size());

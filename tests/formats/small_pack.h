@@ -56,7 +56,7 @@ struct PackModel
 
 /// Mesh 0: a folded strip of four quads. Level 0 has a cluster for each quad, two groups of two; each group was
 /// simplified to one flat quad; those two are the root group. Page 0 holds the root, pages 1 and 2 a group each.
-/// Mesh 1: no triangles. Mesh 2: one triangle without attributes, skinned, with one morph target.
+/// Mesh 1: no triangles. Mesh 2: one triangle without attributes, skinned, with one morph target that moves its last vertex.
 PackModel smallPack();
 
 } // namespace hearth::test

@@ -202,6 +202,21 @@ TEST(AttributeWord, followsTheOrderOfTheBits)
     EXPECT_EQ(attributeWord(all | kVertexWide, kVertexUv1), 7u);
     EXPECT_EQ(attributeWord(kVertexUv1 | kVertexColor, kVertexUv1), 2u);
     EXPECT_EQ(attributeWord(kVertexUv1 | kVertexColor, kVertexColor), 3u);
+    const uint32_t more = fine | kVertexInfluences | kVertexMoreInfluences;
+    EXPECT_EQ(attributeWord(more, kVertexColor), 12u) << "influences stand behind the others";
+    EXPECT_EQ(attributeWord(more, kVertexInfluences), 14u);
+    EXPECT_EQ(attributeWord(kVertexInfluences | kVertexWide, kVertexInfluences), 3u);
+}
+
+TEST(MorphDelta, keepsBothParts)
+{
+    for (const int32_t position : {0, 1, -1, kMorphPositionMost, -kMorphPositionMost - 1})
+        for (const int32_t normal : {0, 1, -1, 2047, -2048})
+        {
+            const uint32_t word = packMorphDelta(position, normal);
+            EXPECT_EQ(morphPosition(word), position);
+            EXPECT_EQ(morphNormal(word), normal);
+        }
 }
 
 TEST(UvBaseWord, countsTheSetsOnGrids)
@@ -227,7 +242,9 @@ TEST(LegalLayout, saysWhatThereIsAndNothingElse)
     EXPECT_FALSE(legalLayout(kVertexFineNormal));
     EXPECT_FALSE(legalLayout(kVertexFineColor));
     EXPECT_FALSE(legalLayout(kVertexWide)) << "of a cluster";
-    EXPECT_FALSE(legalLayout(1u << 14));
+    EXPECT_TRUE(legalLayout(kVertexInfluences));
+    EXPECT_TRUE(legalLayout(kVertexInfluences | kVertexMoreInfluences));
+    EXPECT_FALSE(legalLayout(kVertexMoreInfluences)) << "more than none";
 }
 
 } // namespace hearth::test

@@ -18,7 +18,8 @@ using namespace hearth::formats;
 
 constexpr uint32_t kLayouts[] = {0, kVertexNormal | kVertexUv0 | 14u << kVertexUvStepShift,
                                  kVertexNormal | kVertexTangent | kVertexUv0 | kVertexUv1 | kVertexFloatUv1 |
-                                     kVertexColor | 14u << kVertexUvStepShift};
+                                     kVertexColor | 14u << kVertexUvStepShift,
+                                 kVertexNormal | kVertexInfluences | kVertexMoreInfluences};
 
 /// Records as the input's first bytes say, one behind the other.
 std::vector<ClusterRecord> readRecords(ByteReader& reader, uint32_t layout, size_t& page_size)
@@ -32,6 +33,7 @@ std::vector<ClusterRecord> readRecords(ByteReader& reader, uint32_t layout, size
         record.extent_shift = reader.read<uint8_t>().value_or(0) % 8 == 7 ? 1 : 0;
         record.page_word = static_cast<uint16_t>(page_size / 4);
         page_size += clusterBytes(layoutOf(record, layout), record.vertex_count, record.triangle_count);
+        page_size += 4 * size_t{reader.read<uint8_t>().value_or(0) % 16u};
         records.push_back(record);
     }
     return records;
