@@ -19,12 +19,12 @@ uint vertexHalf(uint word, uint half_index)
 BlendedJoints blendedJoints(ClusterDraw draw, Pose pose, uint vertex)
 {
     uint layout_bits = draw.vertex_layout;
-    if ((layout_bits & kVertexInfluences) == 0u)
+    uint count = influenceCount(layout_bits);
+    if (count == 0u)
     {
         PaletteRow node = loadJoint(pose, 0u);
         return BlendedJoints(node.world_from_bind_x, node.world_from_bind_y, node.world_from_bind_z);
     }
-    uint count = (layout_bits & kVertexMoreInfluences) != 0u ? 8u : 4u;
     uint joints = vertex + influenceWord(layout_bits);
     uint weights = joints + (count >> 1);
     precise BlendedJoints blended = BlendedJoints(vec4(0.0), vec4(0.0), vec4(0.0));
@@ -50,7 +50,8 @@ struct MorphDelta
     vec3 normal;
 };
 
-// Behind the triangles: n, n times { target, step }, then for each of the n three words for each vertex.
+// Behind the triangles: n, n times { target, step }, then for each of the n three words for each vertex: 20 bits of the
+// position's delta, 12 of the normal's.
 MorphDelta morphDelta(ClusterDraw draw, Pose pose, uint index)
 {
     precise MorphDelta delta = MorphDelta(vec3(0.0), vec3(0.0));
@@ -65,12 +66,12 @@ MorphDelta morphDelta(ClusterDraw draw, Pose pose, uint index)
         if (weight == 0.0)
             continue;
         precise float step_weight = poolFloat(section + 2u + 2u * i) * weight;
-        precise float normal_weight = weight * (1.0 / 16384.0);
+        precise float normal_weight = weight * (1.0 / 1024.0);
         uint word = deltas + (i * vertexCount(draw) + index) * 3u;
         ivec3 codes = ivec3(poolWord(word), poolWord(word + 1u), poolWord(word + 2u));
-        // the sign of each half comes down with the shift
-        delta.position += vec3(codes.x << 16 >> 16, codes.x >> 16, codes.y << 16 >> 16) * step_weight;
-        delta.normal += vec3(codes.y >> 16, codes.z << 16 >> 16, codes.z >> 16) * normal_weight;
+        // the signs come down with the shifts
+        delta.position += vec3(codes << 12 >> 12) * step_weight;
+        delta.normal += vec3(codes >> 20) * normal_weight;
     }
     return delta;
 }

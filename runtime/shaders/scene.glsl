@@ -60,15 +60,18 @@ uint influenceWord(uint layout_bits)
     uint words = uvEnd(layout_bits, kVertexUvs);
     if ((layout_bits & kVertexColor) != 0u)
         words += (layout_bits & kVertexFineColor) != 0u ? 2u : 1u;
-    if ((layout_bits & kVertexInfluences) != 0u)
-        words += (layout_bits & kVertexMoreInfluences) != 0u ? 8u : 4u;
     return words;
 }
 
-uint vertexWords(uint layout_bits)
+// Joints of a vertex that have weights, with which they take a word each.
+uint influenceCount(uint layout_bits)
 {
-    return influenceWord(layout_bits) + ((layout_bits & kVertexInfluences) >> 12) + ((layout_bits & kVertexMoreInfluences) >> 13);
+    if ((layout_bits & kVertexInfluences) == 0u)
+        return 0u;
+    return (layout_bits & kVertexMoreInfluences) != 0u ? 8u : 4u;
 }
+
+uint vertexWords(uint layout_bits) { return influenceWord(layout_bits) + influenceCount(layout_bits); }
 
 uint vertexCount(ClusterDraw draw) { return draw.counts & 0x1FFu; }
 uint triangleCount(ClusterDraw draw) { return draw.counts >> 9 & 0xFFu; }

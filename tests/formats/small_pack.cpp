@@ -451,6 +451,12 @@ std::vector<ChunkImage> PackModel::chunks(bool compressed) const
     table(kChunkClusters, clusters);
     table(kChunkPageTable, pages);
     table(kChunkPageParents, page_parents);
+    if (!deformed_meshes.empty())
+    {
+        table(kChunkDeformedMeshes, deformed_meshes);
+        table(kChunkDeformedClusters, deformed_clusters);
+        table(kChunkClusterJoints, cluster_joints);
+    }
     list.push_back(plainChunk(kChunkPages, 0, 1, page_bytes));
     for (uint32_t i = 0; i < deformations.size(); ++i)
         if (!deformations[i].empty())

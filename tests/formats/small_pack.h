@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
+#include "formats/deformation.h"
 #include "formats/mesh.h"
 #include "formats/scene.h"
 #include "tests/formats/container_image.h"
@@ -39,6 +40,9 @@ struct PackModel
     std::vector<uint32_t> page_parents;
     std::vector<std::vector<std::byte>> decoded_pages;
     std::vector<std::byte> page_bytes;                ///< chunk PAGE
+    std::vector<formats::DeformedMeshRecord> deformed_meshes;
+    std::vector<formats::DeformedClusterRecord> deformed_clusters;
+    std::vector<uint32_t> cluster_joints;
     std::vector<std::vector<std::byte>> deformations; ///< chunk DEFM of each mesh; none where empty
 
     /// Encode decoded_pages into page_bytes again, and set offset, size and hash of the page records.
