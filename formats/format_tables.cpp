@@ -149,11 +149,7 @@ std::vector<ValueTable> valueTables()
           value("triangle_material", SourceSemantic::triangle_material, "u32 for each triangle, or none"),
           value("morph_position", SourceSemantic::morph_position, "f32[3] deltas, set = target"),
           value("morph_normal", SourceSemantic::morph_normal, "f32[3] deltas, set = target"),
-          value("morph_tangent", SourceSemantic::morph_tangent, "f32[3] deltas, set = target"),
-          value("bind_position", SourceSemantic::bind_position,
-                "f32[3], where the positions are those of a pose"),
-          value("bind_normal", SourceSemantic::bind_normal, "f32[3], unit"),
-          value("bind_tangent", SourceSemantic::bind_tangent, "f32[4]")}},
+          value("morph_tangent", SourceSemantic::morph_tangent, "f32[3] deltas, set = target")}},
     };
 }
 

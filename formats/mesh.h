@@ -198,9 +198,6 @@ enum class SourceSemantic : uint32_t
     morph_position = 9,    ///< f32 x 3 deltas, set = target
     morph_normal = 10,     ///< f32 x 3 deltas, set = target
     morph_tangent = 11,    ///< f32 x 3 deltas, set = target
-    bind_position = 12,    ///< f32 x 3, where the positions are those of a pose
-    bind_normal = 13,      ///< f32 x 3, unit
-    bind_tangent = 14,     ///< f32 x 4
 };
 
 /// Mesh `lod` is mesh `mesh` with less detail, made by hand, in the same object space; it is not drawn by itself.

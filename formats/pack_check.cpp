@@ -126,6 +126,13 @@ Status checkHierarchy(const PackView& view)
     return check::checkPageGeometry(view);
 }
 
+Status checkMotion(const PackView& view)
+{
+    HEARTH_TRY(check::checkSkins(view));
+    HEARTH_TRY(check::checkAnimations(view));
+    return check::checkNodeTree(view);
+}
+
 Status checkPack(const PackView& view)
 {
     if (view.container().kind() != ContainerKind::pack)
@@ -133,9 +140,8 @@ Status checkPack(const PackView& view)
     HEARTH_TRY(check::checkTexts(view));
     HEARTH_TRY(check::checkMaterials(view));
     HEARTH_TRY(check::checkImages(view));
-    HEARTH_TRY(check::checkSkins(view));
-    HEARTH_TRY(check::checkAnimations(view));
-    HEARTH_TRY(check::checkNodes(view));
+    HEARTH_TRY(checkMotion(view));
+    HEARTH_TRY(check::checkMeshesOfNodes(view));
     HEARTH_TRY(check::checkInstances(view));
     HEARTH_TRY(check::checkCameras(view));
     HEARTH_TRY(check::checkLights(view));

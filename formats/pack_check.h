@@ -28,6 +28,9 @@ inline constexpr uint32_t kImageMaxSize = 16384;
 /// errors: container_kind, chunk_*, page_hash, meaning_*.
 Status checkPack(const PackView& view);
 
+/// Check skins, animations and the tree of nodes alone: what an import part already has.
+Status checkMotion(const PackView& view);
+
 /// Check meshes, levels, groups, clusters, pages and geometry alone: what a clusters part already has.
 Status checkHierarchy(const PackView& view);
 

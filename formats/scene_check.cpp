@@ -27,8 +27,6 @@ Status checkNode(const PackView& view, size_t i)
     const NodeRecord& node = view.nodes()[i];
     if (!noneOrBelow(node.parent, view.nodes().size()))
         return fail(view, Issue::meaning_reference, "node", i, "parent " + std::to_string(node.parent));
-    if (!noneOrBelow(node.mesh, view.meshes().size()))
-        return fail(view, Issue::meaning_reference, "node", i, "mesh " + std::to_string(node.mesh));
     if (!noneOrBelow(node.skin, view.skins().size()))
         return fail(view, Issue::meaning_reference, "node", i, "skin " + std::to_string(node.skin));
     if (!insideTable(node.morph_weights, view.morphWeights().size()))
@@ -40,6 +38,14 @@ Status checkNode(const PackView& view, size_t i)
         return fail(view, Issue::meaning_value, "node", i, "its transform is not finite");
     if (node.has_trs == 1 && !unitQuaternion(node.rotation))
         return fail(view, Issue::meaning_value, "node", i, "its rotation is not a unit quaternion");
+    return success();
+}
+
+Status checkMeshOfNode(const PackView& view, size_t i)
+{
+    const NodeRecord& node = view.nodes()[i];
+    if (!noneOrBelow(node.mesh, view.meshes().size()))
+        return fail(view, Issue::meaning_reference, "node", i, "mesh " + std::to_string(node.mesh));
     const uint32_t targets = node.mesh == kNone ? 0 : view.meshes()[node.mesh].morph_target_count;
     if (node.morph_weights.count != 0 && node.morph_weights.count != targets)
         return fail(view, Issue::meaning_value, "node", i,
@@ -144,7 +150,7 @@ bool validOrthographic(const CameraRecord& camera)
 
 } // namespace
 
-Status checkNodes(const PackView& view)
+Status checkNodeTree(const PackView& view)
 {
     if (!finite(view.morphWeights()))
         return Error{Issue::meaning_value, view.name(), chunkName(kChunkMorphWeights, 0),
@@ -152,6 +158,13 @@ Status checkNodes(const PackView& view)
     for (size_t i = 0; i < view.nodes().size(); ++i)
         HEARTH_TRY(checkNode(view, i));
     return checkTree(view);
+}
+
+Status checkMeshesOfNodes(const PackView& view)
+{
+    for (size_t i = 0; i < view.nodes().size(); ++i)
+        HEARTH_TRY(checkMeshOfNode(view, i));
+    return success();
 }
 
 Status checkInstances(const PackView& view)

@@ -67,9 +67,6 @@ void addDeformation(ArrayPacker& packer, const SourceMesh& mesh)
         packer.add(SourceSemantic::joints, set, mesh.joint_sets[set]);
         packer.add(SourceSemantic::weights, set, mesh.weight_sets[set]);
     }
-    packer.add(SourceSemantic::bind_position, 0, mesh.bind_pose.positions);
-    packer.add(SourceSemantic::bind_normal, 0, mesh.bind_pose.normals);
-    packer.add(SourceSemantic::bind_tangent, 0, mesh.bind_pose.tangents);
     for (uint32_t target = 0; target < mesh.morph_targets.size(); ++target)
     {
         packer.add(SourceSemantic::morph_position, target, mesh.morph_targets[target].positions);
@@ -149,12 +146,6 @@ bool readArray(std::span<const std::byte> bytes, const SourceMeshHeader& header,
         return copyArray(bytes, array, vertices, grown(mesh.morph_targets, array.set).normals);
     case SourceSemantic::morph_tangent:
         return copyArray(bytes, array, vertices, grown(mesh.morph_targets, array.set).tangents);
-    case SourceSemantic::bind_position:
-        return copyArray(bytes, array, vertices, mesh.bind_pose.positions);
-    case SourceSemantic::bind_normal:
-        return copyArray(bytes, array, vertices, mesh.bind_pose.normals);
-    case SourceSemantic::bind_tangent:
-        return copyArray(bytes, array, vertices, mesh.bind_pose.tangents);
     }
     return false;
 }

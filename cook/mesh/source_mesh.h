@@ -21,7 +21,7 @@ struct Joints4
     uint16_t joint[4];
 };
 
-/// Deltas to the rest pose; an array is empty where the target does not change that attribute.
+/// Deltas to the bind pose; an array is empty where the target does not change that attribute.
 struct MorphTarget
 {
     std::vector<Float3> positions;
@@ -29,16 +29,9 @@ struct MorphTarget
     std::vector<Float3> tangents;
 };
 
-/// The vertices as the skin binds them; empty arrays where the mesh is not posed, or has not that attribute.
-struct BindPose
-{
-    std::vector<Float3> positions;
-    std::vector<Float3> normals;
-    std::vector<Float4> tangents;
-};
-
 /// One mesh of the source: all its primitives together, one material for each triangle.
 /// Every attribute array is empty or has vertexCount() elements; all values are finite; indices are in range.
+/// The vertices are those of the bind pose: joints and morph targets have not moved them.
 /// Triangles without area are still there: the cookers drop and count them.
 struct SourceMesh
 {
@@ -52,9 +45,8 @@ struct SourceMesh
     std::vector<std::vector<Float4>> weight_sets; ///< over all sets, a vertex's weights sum to 1
     std::vector<uint32_t> indices;                ///< three for each triangle
     std::vector<uint32_t> triangle_materials;     ///< for each triangle a material, or formats::kNone
-    std::vector<MorphTarget> morph_targets;       ///< deltas to the bind pose, if there is one
-    BindPose bind_pose;      ///< if there, the attributes above are the rest pose in the scene's space
-    uint32_t face_count = 0; ///< polygons of the source before triangulation
+    std::vector<MorphTarget> morph_targets;
+    uint32_t face_count = 0;          ///< polygons of the source before triangulation
     uint32_t source_vertex_count = 0; ///< as the source counts them (glTF: its distinct POSITION accessors)
 
     size_t vertexCount() const { return positions.size(); }

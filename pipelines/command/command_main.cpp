@@ -153,6 +153,8 @@ void addExtract(CLI::App& app, Work& run)
         std::string file;
         uint32_t mesh = 0;
         float error = 0;
+        std::string animation;
+        double time = 0;
         std::string output;
     };
     auto options = std::make_shared<Options>();
@@ -161,17 +163,25 @@ void addExtract(CLI::App& app, Work& run)
     verb->add_option("--error", options->error,
                      "largest error in the mesh's own units; 0: the source's triangles")
         ->required();
+    const CLI::Option* animation = verb->add_option(
+        "--animation", options->animation, "clip that poses the mesh: its name, or its index if it has none");
+    verb->add_option("--time", options->time, "seconds from the start of the clip")->needs("--animation");
     verb->add_option("-o,--output", options->output, "PLY file to write")->required();
     verb->footer("Example: hearth extract village.hearth --mesh 0 --error 0.01 -o cut.ply");
     verb->callback(
-        [options, &run]
+        [options, animation, &run]
         {
-            run = [options]
+            run = [options, animation]
             {
                 if (!(options->error >= 0) || !std::isfinite(options->error))
                     return usageError("--error must be a number from 0 on");
+                if (!std::isfinite(options->time))
+                    return usageError("--time must be a number");
+                std::optional<command::ClipTime> clip;
+                if (animation->count() > 0)
+                    clip = command::ClipTime{options->animation, options->time};
                 const Status status =
-                    command::extractCut(options->file, options->mesh, options->error, options->output);
+                    command::extractCut(options->file, options->mesh, options->error, clip, options->output);
                 return status.ok() ? 0 : fail(status.error());
             };
         });

@@ -65,16 +65,18 @@ std::string plyHeader(const PackView& pack, const MeshRecord& mesh, std::span<co
            fmt::format("element face {}\nproperty list uchar int vertex_indices\nend_header\n", triangles);
 }
 
-void writeVertices(WholeFile& file, const ClusterGeometry& geometry)
+/// pose  null: the vertices as they are
+void writeVertices(WholeFile& file, const ClusterGeometry& geometry, const PosedMesh* pose)
 {
     std::vector<float> values;
     for (uint32_t v = 0; v < geometry.vertexCount(); ++v)
     {
-        const Float3 position = geometry.position(v);
+        const PosedVertex posed = pose != nullptr ? pose->vertex(geometry, v) : PosedVertex{};
+        const Float3 position = pose != nullptr ? posed.position : geometry.position(v);
         values.insert(values.end(), {position.x, position.y, position.z});
         if (geometry.has(kVertexNormal))
         {
-            const Float3 normal = geometry.normal(v);
+            const Float3 normal = pose != nullptr ? posed.normal : geometry.normal(v);
             values.insert(values.end(), {normal.x, normal.y, normal.z});
         }
         if (geometry.has(kVertexUv0))
@@ -86,13 +88,17 @@ void writeVertices(WholeFile& file, const ClusterGeometry& geometry)
     file.write(std::as_bytes(std::span(values)));
 }
 
-void writeFaces(WholeFile& file, const ClusterGeometry& geometry, uint32_t first_vertex)
+void writeFaces(WholeFile& file, const ClusterGeometry& geometry, uint32_t first_vertex,
+                const PosedMesh* pose)
 {
     std::vector<std::byte> bytes;
     for (uint32_t t = 0; t < geometry.triangleCount(); ++t)
     {
         bytes.push_back(std::byte{3});
-        for (const uint32_t corner : geometry.triangle(t))
+        std::array<uint32_t, 3> corners = geometry.triangle(t);
+        if (pose != nullptr && pose->vertex(geometry, corners[0]).mirrored)
+            std::swap(corners[1], corners[2]);
+        for (const uint32_t corner : corners)
         {
             const uint32_t vertex = first_vertex + corner;
             const auto raw = std::as_bytes(std::span(&vertex, 1));
@@ -118,7 +124,8 @@ std::vector<uint32_t> clustersOfCut(const PackView& pack, const MeshRecord& mesh
     return cut;
 }
 
-Status extractCut(const std::string& path, uint32_t mesh, float error, const std::string& output)
+Status extractCut(const std::string& path, uint32_t mesh, float error, const std::optional<ClipTime>& clip,
+                  const std::string& output)
 {
     HEARTH_ASSIGN_OR_RETURN(const PackView pack, openPack(path));
     if (mesh >= pack.meshes().size())
@@ -126,6 +133,12 @@ Status extractCut(const std::string& path, uint32_t mesh, float error, const std
                      fmt::format("there is no mesh {}: the file has {}", mesh, pack.meshes().size())};
     const MeshRecord& record = pack.meshes()[mesh];
     const std::vector<uint32_t> cut = clustersOfCut(pack, record, error);
+    std::optional<PosedMesh> pose;
+    if (clip || isDeformed(record))
+    {
+        HEARTH_ASSIGN_OR_RETURN(pose, PosedMesh::make(pack, mesh, clip));
+    }
+    const PosedMesh* const posed = pose ? &*pose : nullptr;
 
     HEARTH_ASSIGN_OR_RETURN(WholeFile file, WholeFile::create(output));
     file.write(plyHeader(pack, record, cut));
@@ -134,14 +147,14 @@ Status extractCut(const std::string& path, uint32_t mesh, float error, const std
     {
         HEARTH_ASSIGN_OR_RETURN(const ClusterGeometry geometry,
                                 pages.geometryOf(pack.clusters()[cluster], record));
-        writeVertices(file, geometry);
+        writeVertices(file, geometry, posed);
     }
     uint32_t first_vertex = 0;
     for (const uint32_t cluster : cut)
     {
         HEARTH_ASSIGN_OR_RETURN(const ClusterGeometry geometry,
                                 pages.geometryOf(pack.clusters()[cluster], record));
-        writeFaces(file, geometry, first_vertex);
+        writeFaces(file, geometry, first_vertex, posed);
         first_vertex += geometry.vertexCount();
     }
     return file.finish();

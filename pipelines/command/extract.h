@@ -3,7 +3,9 @@
 #pragma once
 
 #include "formats/pack_view.h"
+#include "pipelines/command/posed_mesh.h"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,7 +19,10 @@ std::vector<uint32_t> clustersOfCut(const formats::PackView& pack, const formats
 
 /// Write the cut of mesh `mesh` as binary little-endian PLY: x y z, then nx ny nz and s t where the mesh has them;
 /// vertices are shared inside a cluster, not between clusters. One page is in memory at a time.
-/// errors: usage where the mesh does not exist; those of openPack; cannot_write.
-Status extractCut(const std::string& path, uint32_t mesh, float error, const std::string& output);
+/// What joints or morph targets move is written in the scene's space, in the rest pose or that of the clip; other meshes in
+/// their own space, or with a clip in the scene's.
+/// errors: usage where the mesh or the clip does not exist; those of openPack; cannot_write.
+Status extractCut(const std::string& path, uint32_t mesh, float error, const std::optional<ClipTime>& clip,
+                  const std::string& output);
 
 } // namespace hearth::command

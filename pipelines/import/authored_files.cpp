@@ -26,9 +26,18 @@ Result<InstanceRecord> onlyInstance(std::span<const InstanceRecord> instances, c
                              instances.size())};
 }
 
-bool isSkinned(std::span<const NodeRecord> nodes, const InstanceRecord& instance)
+/// What the joints of the instance's skin are called; none where it has no skin.
+template <typename NameOf>
+std::vector<std::string> jointNames(std::span<const NodeRecord> nodes, std::span<const SkinRecord> skins,
+                                    std::span<const JointRecord> joints, const InstanceRecord& instance,
+                                    NameOf nameOf)
 {
-    return instance.node < nodes.size() && nodes[instance.node].skin != kNone;
+    std::vector<std::string> names;
+    if (instance.node >= nodes.size() || nodes[instance.node].skin == kNone)
+        return names;
+    for (const JointRecord& joint : recordsOf(joints, skins[nodes[instance.node].skin].joints))
+        names.emplace_back(nameOf(nodes[joint.node].name));
+    return names;
 }
 
 /// Append the images of a part as they are.
@@ -68,7 +77,7 @@ void copyMaterials(const PackView& from, uint32_t first_image, PartBuilder& part
 struct Base
 {
     InstanceRecord instance;
-    bool skinned = false;
+    std::vector<std::string> joints; ///< names; none without a skin
 };
 
 Status addLevel(const PackView& from, const std::string& path, const Base& base, PartBuilder& part)
@@ -77,9 +86,10 @@ Status addLevel(const PackView& from, const std::string& path, const Base& base,
     HEARTH_ASSIGN_OR_RETURN(mesh::SourceMesh mesh, mesh::readSourceMesh(from.container(), instance.mesh));
     const auto drop = [&](const char* why)
     { part.warn(Issue::dropped, "", fmt::format("level of detail {} {}: it is not kept", path, why)); };
-    if (isSkinned(from.nodes(), instance) != base.skinned)
+    const auto nameOf = [&](StringRef name) { return from.text(name); };
+    if (jointNames(from.nodes(), from.skins(), from.joints(), instance, nameOf) != base.joints)
     {
-        drop("must be skinned like its source, or not skinned like it");
+        drop("has not the joints of its source");
         return success();
     }
     const auto object_from_world = inverted(widened(base.instance.world_from_object));
@@ -94,7 +104,7 @@ Status addLevel(const PackView& from, const std::string& path, const Base& base,
     const uint32_t first_image = part.imageCount();
     HEARTH_TRY(copyImages(from, part));
     copyMaterials(from, first_image, part);
-    return part.addLod(base.instance.mesh, std::move(mesh));
+    return part.addLod(base.instance.mesh, mesh);
 }
 
 } // namespace
@@ -106,7 +116,9 @@ Status addAuthoredFiles(std::span<const tools::LodFile> files, const std::string
     if (part.hasLods())
         return Error{Issue::lod_file, part.sourceName(), "",
                      "has levels of detail of its own: they cannot be mixed with those of files"};
-    const Base base{instance, isSkinned(part.nodes, instance)};
+    const auto nameOf = [&](StringRef name) { return part.text(name); };
+    const Base base{instance,
+                    jointNames<decltype(nameOf)>(part.nodes, part.skins, part.joints, instance, nameOf)};
     for (const tools::LodFile& file : files)
     {
         const std::string path = fmt::format("{}/{}.part", folder, file.level);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/import/gltf_lods.h"
 
-#include "pipelines/import/gltf_rest_pose.h"
+#include "pipelines/import/gltf_mesh_uses.h"
 
 #include <fmt/format.h>
 

@@ -27,35 +27,6 @@ std::string_view modeName(PrimitiveMode mode)
     return mode == PrimitiveMode::points ? "points" : "lines";
 }
 
-void addScaled(std::vector<Float3>& values, const std::vector<Float3>& deltas, float weight)
-{
-    for (size_t i = 0; i < std::min(values.size(), deltas.size()); ++i)
-        values[i] += deltas[i] * weight;
-}
-
-/// Move the vertices to the rest pose of the morph targets.
-void applyMorphWeights(mesh::SourceMesh& mesh, std::span<const float> weights)
-{
-    std::vector<Float3> tangents;
-    for (const Float4& tangent : mesh.tangents)
-        tangents.push_back({tangent.x, tangent.y, tangent.z});
-    for (size_t target = 0; target < std::min(weights.size(), mesh.morph_targets.size()); ++target)
-    {
-        if (weights[target] == 0.0f)
-            continue;
-        addScaled(mesh.positions, mesh.morph_targets[target].positions, weights[target]);
-        addScaled(mesh.normals, mesh.morph_targets[target].normals, weights[target]);
-        addScaled(tangents, mesh.morph_targets[target].tangents, weights[target]);
-    }
-    for (Float3& normal : mesh.normals)
-        normal = normalizeOr(normal, {});
-    for (size_t i = 0; i < tangents.size(); ++i)
-    {
-        const Float3 unit = normalizeOr(tangents[i], {1, 0, 0});
-        mesh.tangents[i] = {unit.x, unit.y, unit.z, mesh.tangents[i].w};
-    }
-}
-
 /// A target that moves nothing has its number too, which a part would lose with its last array.
 void keepEmptyTargets(mesh::SourceMesh& mesh)
 {
@@ -66,7 +37,7 @@ void keepEmptyTargets(mesh::SourceMesh& mesh)
 
 } // namespace
 
-Result<mesh::SourceMesh> GltfMeshReader::read(uint32_t mesh_index, std::span<const float> rest_weights)
+Result<mesh::SourceMesh> GltfMeshReader::read(uint32_t mesh_index)
 {
     const GltfMesh& mesh = model_.meshes[mesh_index];
     piece_of_key_.clear();
@@ -89,7 +60,7 @@ Result<mesh::SourceMesh> GltfMeshReader::read(uint32_t mesh_index, std::span<con
     std::vector<mesh::SourceMesh> parts;
     for (Piece& piece : pieces_)
     {
-        HEARTH_TRY(finishPiece(piece, rest_weights));
+        finishPiece(piece);
         parts.push_back(std::move(piece.vertices.mesh));
     }
     mesh::SourceMesh result = mergedPieces(std::move(parts));
@@ -178,19 +149,15 @@ Status GltfMeshReader::addTriangles(const GltfPrimitive& primitive, const std::s
     return success();
 }
 
-Status GltfMeshReader::finishPiece(Piece& piece, std::span<const float> rest_weights)
+void GltfMeshReader::finishPiece(Piece& piece)
 {
     mesh::SourceMesh& mesh = piece.vertices.mesh;
-    applyMorphWeights(mesh, rest_weights);
-    if (!std::all_of(mesh.positions.begin(), mesh.positions.end(), isFinite))
-        return context_.error(Issue::gltf_data, piece.where, "the morph weights move vertices to infinity");
     reportMissingUvs(piece);
     if (mesh.normals.empty())
         generateNormals(mesh, kFlat);
     else
         fillZeroNormals(mesh);
     finishTangents(piece);
-    return success();
 }
 
 /// Keep or make tangents for the first normal texture of the piece; without one they have no use.

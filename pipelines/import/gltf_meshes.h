@@ -18,10 +18,9 @@ public:
 
     /// Triangles of all primitives, with one material each. Vertices that primitives share stay shared. Points and
     /// lines are left out and named. Normals are generated flat where they are missing, as the specification asks;
-    /// tangents where a normal texture needs them. `rest_weights` are those of the morph targets: the targets stay
-    /// as they are and the positions become those of the rest pose.
+    /// tangents where a normal texture needs them. Neither skin nor morph targets move anything.
     /// errors: those of readVertices, gltf_value, gltf_data, index_out_of_range, input_too_large.
-    Result<mesh::SourceMesh> read(uint32_t mesh_index, std::span<const float> rest_weights);
+    Result<mesh::SourceMesh> read(uint32_t mesh_index);
 
 private:
     /// Primitives that use the same vertices.
@@ -35,7 +34,7 @@ private:
     Result<uint32_t> pieceOf(const GltfPrimitive& primitive, const std::string& where);
     Status addTriangles(const GltfPrimitive& primitive, const std::string& where, Piece& piece);
     Result<std::vector<uint32_t>> readIndices(const GltfPrimitive& primitive, const Piece& piece);
-    Status finishPiece(Piece& piece, std::span<const float> rest_weights);
+    void finishPiece(Piece& piece);
     void finishTangents(Piece& piece);
     void reportMissingUvs(const Piece& piece);
 

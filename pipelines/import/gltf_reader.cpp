@@ -46,12 +46,13 @@ Status importGltf(const std::string& path, std::span<const std::byte> bytes, con
     HEARTH_ASSIGN_OR_RETURN(const std::vector<InverseBinds> inverse_binds,
                             writeSkins(model, accessors, context));
     const GltfLods lods = findLods(model, context);
+    const MeshUses uses = findMeshUses(model);
     HEARTH_ASSIGN_OR_RETURN(const std::vector<MeshSummary> summaries,
-                            writeMeshes(model, lods, meshes, inverse_binds, context));
+                            writeMeshes(model, uses, lods, meshes, inverse_binds, context));
     context.part.counts.vertices = sourceVertexCount(model);
     HEARTH_TRY(writeMaterials(model, buffers, context));
     HEARTH_TRY(writeAnimations(model, accessors, context, tally));
-    HEARTH_TRY(writeScene(model, summaries, lods.hidden, inverse_binds, accessors, context, tally));
+    HEARTH_TRY(writeScene(model, uses, summaries, lods.hidden, accessors, context, tally));
     tally.report(part);
     return success();
 }

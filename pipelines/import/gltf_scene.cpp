@@ -4,7 +4,6 @@
 #include "formats/scale_bound.h"
 #include "pipelines/import/gltf_animations.h"
 #include "pipelines/import/gltf_instancing.h"
-#include "pipelines/import/gltf_rest_pose.h"
 
 #include <fmt/format.h>
 
@@ -61,12 +60,11 @@ std::vector<bool> findDrawn(const GltfModel& model, const GltfContext& context)
 class SceneWriter
 {
 public:
-    SceneWriter(const GltfModel& model, std::span<const MeshSummary> meshes,
-                std::span<const InverseBinds> inverse_binds, GltfAccessors& accessors,
-                const GltfContext& context, GltfTally& tally)
+    SceneWriter(const GltfModel& model, const MeshUses& uses, std::span<const MeshSummary> meshes,
+                GltfAccessors& accessors, const GltfContext& context, GltfTally& tally)
         : model_(model),
+          uses_(uses),
           meshes_(meshes),
-          inverse_binds_(inverse_binds),
           accessors_(accessors),
           context_(context),
           tally_(tally),
@@ -92,8 +90,8 @@ private:
     Result<Affine3> narrow(const Transform& transform, uint32_t node) const;
 
     const GltfModel& model_;
+    const MeshUses& uses_;
     std::span<const MeshSummary> meshes_;
-    std::span<const InverseBinds> inverse_binds_;
     GltfAccessors& accessors_;
     const GltfContext& context_;
     GltfTally& tally_;
@@ -111,14 +109,10 @@ Result<Affine3> SceneWriter::narrow(const Transform& transform, uint32_t node) c
 
 void SceneWriter::writeMorphWeights(uint32_t node, NodeRecord& record)
 {
-    const uint32_t mesh = model_.nodes[node].mesh;
-    const size_t count = mesh == kNone ? 0 : meshes_[mesh].morph_target_count;
+    const size_t count = record.mesh == kNone ? 0 : meshes_[record.mesh].morph_target_count;
     if (count == 0)
         return;
     const std::vector<float> weights = morphWeights(model_, node, count);
-    if (weights != restWeights(model_, mesh))
-        tally_.degraded("other morph weights than the mesh's first node: they are drawn alike",
-                        nodePointer(node));
     record.morph_weights = {static_cast<uint32_t>(context_.part.morph_weights.size()),
                             static_cast<uint32_t>(count)};
     context_.part.morph_weights.insert(context_.part.morph_weights.end(), weights.begin(), weights.end());
@@ -129,7 +123,7 @@ Status SceneWriter::checkSkin(uint32_t node) const
     const GltfNode& n = model_.nodes[node];
     if (n.mesh == kNone || n.skin == kNone)
         return success();
-    const size_t used = meshes_[n.mesh].used_joints.size();
+    const size_t used = meshes_[uses_.of_node[node]].used_joints.size();
     if (used > model_.skins[n.skin].joints.size())
         return context_.error(Issue::gltf_data, nodePointer(node),
                               fmt::format("mesh {} uses joint {}, but skin {} has {} joints", n.mesh,
@@ -144,8 +138,8 @@ Status SceneWriter::writeNode(uint32_t node)
     NodeRecord record{};
     record.name = context_.part.intern(n.name);
     record.parent = n.parent;
-    record.mesh = n.mesh;
-    record.skin = n.skin;
+    record.mesh = uses_.of_node[node];
+    record.skin = record.mesh != kNone && meshes_[record.mesh].skin == SkinState::usable ? n.skin : kNone;
     record.has_trs = n.has_trs ? 1 : 0;
     record.translation = {n.translation[0], n.translation[1], n.translation[2]};
     record.rotation = {n.rotation[0], n.rotation[1], n.rotation[2], n.rotation[3]};
@@ -159,28 +153,23 @@ Status SceneWriter::writeNode(uint32_t node)
 /// A skinned mesh stands where its joints carry it; the transform of its own node does not count.
 Transform SceneWriter::objectTransform(uint32_t node)
 {
-    const GltfNode& n = model_.nodes[node];
-    if (const uint32_t posed_by = meshes_[n.mesh].posed_by; posed_by != kNone)
-    {
-        if (model_.nodes[posed_by].skin != n.skin)
-            tally_.degraded("a mesh that several skins pose: it is drawn in the pose of its first node",
-                            nodePointer(node));
-        return {};
-    }
-    if (n.skin == kNone)
+    if (model_.nodes[node].skin == kNone)
         return world_from_node_[node];
-    const auto pose = skinnedRestPose(model_.skins[n.skin], inverse_binds_[n.skin],
-                                      meshes_[n.mesh].used_joints, world_from_node_);
-    if (!pose)
+    switch (meshes_[uses_.of_node[node]].skin)
     {
+    case SkinState::usable:
+        return {};
+    case SkinState::idle:
         tally_.degraded("a skin that does not move its mesh: the mesh is drawn where its node is",
                         nodePointer(node));
-        return world_from_node_[node];
+        break;
+    case SkinState::too_large:
+        tally_.degraded(
+            "a skin whose rest pose does not fit 32-bit numbers: the mesh is drawn where its node is",
+            nodePointer(node));
+        break;
     }
-    if (!pose->rigid)
-        tally_.degraded("a skinned mesh whose pose does not fit 32-bit numbers: it is drawn in the bind pose",
-                        nodePointer(node));
-    return pose->world_from_object;
+    return world_from_node_[node];
 }
 
 Status SceneWriter::writeInstance(uint32_t node, const Transform& world_from_object)
@@ -190,7 +179,7 @@ Status SceneWriter::writeInstance(uint32_t node, const Transform& world_from_obj
                               fmt::format("more than {} instances", context_.options.limits.max_instances));
     InstanceRecord record{};
     HEARTH_ASSIGN_OR_RETURN(record.world_from_object, narrow(world_from_object, node));
-    record.mesh = model_.nodes[node].mesh;
+    record.mesh = uses_.of_node[node];
     record.node = node;
     record.flags = determinant(record.world_from_object) < 0 ? kInstanceMirrored : 0u;
     record.scale_max = scaleBound(record.world_from_object);
@@ -201,11 +190,17 @@ Status SceneWriter::writeInstance(uint32_t node, const Transform& world_from_obj
 Status SceneWriter::writeInstances(uint32_t node)
 {
     const GltfNode& n = model_.nodes[node];
-    if (n.mesh == kNone || !meshes_[n.mesh].has_triangles)
+    if (n.mesh == kNone || !meshes_[uses_.of_node[node]].has_triangles)
         return success();
     const Transform world_from_object = objectTransform(node);
     if (!n.has_instancing)
         return writeInstance(node, world_from_object);
+    if (meshes_[uses_.of_node[node]].skin == SkinState::usable)
+    {
+        tally_.dropped("instancing of a skinned mesh is not kept: it stands where its joints are",
+                       nodePointer(node));
+        return writeInstance(node, world_from_object);
+    }
     HEARTH_ASSIGN_OR_RETURN(const std::vector<Transform> copies,
                             readInstancing(n, node, accessors_, context_, tally_));
     for (const Transform& copy : copies)
@@ -304,15 +299,6 @@ Status SceneWriter::writeContents(uint32_t node)
     return writeLight(node);
 }
 
-void reportStillness(const GltfModel& model, std::span<const MeshSummary> meshes, const GltfContext& context)
-{
-    const bool morphs = std::any_of(meshes.begin(), meshes.end(),
-                                    [](const MeshSummary& m) { return m.morph_target_count > 0; });
-    if (morphs || !model.skins.empty() || !model.animations.empty())
-        context.part.warn(Issue::degraded, "",
-                          "skins, animations and morph targets are kept, but only the rest pose is drawn");
-}
-
 } // namespace
 
 std::vector<float> morphWeights(const GltfModel& model, uint32_t node, size_t count)
@@ -323,23 +309,12 @@ std::vector<float> morphWeights(const GltfModel& model, uint32_t node, size_t co
     return weights;
 }
 
-std::vector<float> restWeights(const GltfModel& model, uint32_t mesh)
-{
-    const size_t count = morphTargetCount(model.meshes[mesh]);
-    for (uint32_t node = 0; node < model.nodes.size(); ++node)
-        if (model.nodes[node].mesh == mesh)
-            return morphWeights(model, node, count);
-    std::vector<float> weights = model.meshes[mesh].weights;
-    weights.resize(count);
-    return weights;
-}
-
-Status writeScene(const GltfModel& model, std::span<const MeshSummary> meshes,
-                  const std::vector<bool>& hidden, std::span<const InverseBinds> inverse_binds,
-                  GltfAccessors& accessors, const GltfContext& context, GltfTally& tally)
+Status writeScene(const GltfModel& model, const MeshUses& uses, std::span<const MeshSummary> meshes,
+                  const std::vector<bool>& hidden, GltfAccessors& accessors, const GltfContext& context,
+                  GltfTally& tally)
 {
     const std::vector<bool> drawn = findDrawn(model, context);
-    SceneWriter writer(model, meshes, inverse_binds, accessors, context, tally);
+    SceneWriter writer(model, uses, meshes, accessors, context, tally);
     for (uint32_t node = 0; node < model.nodes.size(); ++node)
         HEARTH_TRY(writer.writeNode(node));
     for (uint32_t node = 0; node < model.nodes.size(); ++node)
@@ -348,7 +323,6 @@ Status writeScene(const GltfModel& model, std::span<const MeshSummary> meshes,
     for (uint32_t node = 0; node < model.nodes.size(); ++node)
         if (drawn[node] && !hidden[node])
             HEARTH_TRY(writer.writeShadowSphere(node));
-    reportStillness(model, meshes, context);
     return success();
 }
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "pipelines/import/gltf_accessors.h"
-#include "pipelines/import/gltf_skins.h"
+#include "pipelines/import/gltf_mesh_uses.h"
 #include "pipelines/import/gltf_vertices.h"
 
 namespace hearth::import
@@ -14,21 +14,19 @@ struct MeshSummary
 {
     bool has_triangles = false;
     std::vector<bool> used_joints;
+    SkinState skin = SkinState::idle; ///< usable: the mesh has joints and weights
     size_t morph_target_count = 0;
-    uint32_t posed_by = formats::kNone; ///< the node whose pose the vertices have, in the space of the scene
 };
 
 /// Write all nodes, and the instances, cameras and lights of the default scene (the first one, or without scenes
 /// all nodes). errors: gltf_value, gltf_data, input_too_large.
 /// `hidden` are nodes whose contents are not drawn.
-Status writeScene(const GltfModel& model, std::span<const MeshSummary> meshes,
-                  const std::vector<bool>& hidden, std::span<const InverseBinds> inverse_binds,
-                  GltfAccessors& accessors, const GltfContext& context, GltfTally& tally);
+/// `meshes` are those of `uses`.
+Status writeScene(const GltfModel& model, const MeshUses& uses, std::span<const MeshSummary> meshes,
+                  const std::vector<bool>& hidden, GltfAccessors& accessors, const GltfContext& context,
+                  GltfTally& tally);
 
 /// The morph weights of a node with a mesh: its own, or else the mesh's; `count` of them, missing ones 0.
 std::vector<float> morphWeights(const GltfModel& model, uint32_t node, size_t count);
-
-/// The weights that a mesh is drawn with: those of the first node that has it, or its own where none has.
-std::vector<float> restWeights(const GltfModel& model, uint32_t mesh);
 
 } // namespace hearth::import

@@ -116,13 +116,9 @@ Status PartBuilder::addMesh(const mesh::SourceMesh& mesh)
     return mesh::writeSourceMesh(writer_, mesh_count_++, mesh);
 }
 
-Status PartBuilder::addLod(uint32_t of, mesh::SourceMesh mesh)
+Status PartBuilder::addLod(uint32_t of, const mesh::SourceMesh& mesh)
 {
     HEARTH_ASSERT(of < mesh_count_);
-    mesh.joint_sets = {};
-    mesh.weight_sets = {};
-    mesh.morph_targets = {};
-    mesh.bind_pose = {};
     lods_.push_back({of, mesh_count_});
     return addMesh(mesh);
 }

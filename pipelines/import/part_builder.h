@@ -48,12 +48,18 @@ public:
     /// The name's place in the string table; equal names share it.
     formats::StringRef intern(std::string_view text);
 
+    /// A text of the string table.
+    std::string_view text(formats::StringRef ref) const
+    {
+        return std::string_view(strings_).substr(ref.offset, ref.length);
+    }
+
     /// Next mesh; meshes get the indices 0, 1, ... in call order.
     Status addMesh(const mesh::SourceMesh& mesh);
 
-    /// A mesh that is the next coarser level of detail of mesh `of`, in its object space. It is a mesh of its own number;
-    /// joints and morph targets are not kept: levels are drawn in the rest pose.
-    Status addLod(uint32_t of, mesh::SourceMesh mesh);
+    /// A mesh that is the next coarser level of detail of mesh `of`, in its object space, moved by the same joints. It is a
+    /// mesh of its own number.
+    Status addLod(uint32_t of, const mesh::SourceMesh& mesh);
 
     /// Next image (finest mip only); returns its index. `record` brings name, format and flags.
     Result<uint32_t> addImage(formats::ImageRecord record, const DecodedImage& image);

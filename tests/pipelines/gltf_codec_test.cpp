@@ -52,7 +52,8 @@ std::string dracoSquare()
 const std::string kDracoPrimitive =
     R"("extensionsRequired":["KHR_draco_mesh_compression"],"meshes":[{"primitives":[{
     "attributes":{"POSITION":0,"COLOR_0":1,"JOINTS_0":2,"WEIGHTS_0":3},"indices":4,"extensions":{"KHR_draco_mesh_compression":
-    {"bufferView":0,"attributes":{"POSITION":0,"COLOR_0":1,"JOINTS_0":2}}}}]}])";
+    {"bufferView":0,"attributes":{"POSITION":0,"COLOR_0":1,"JOINTS_0":2}}}}]}],
+    "skins":[{"joints":[1,2,3,4]}],"nodes":[{"mesh":0,"skin":0},{},{},{},{}])";
 
 Imported importDraco(const std::string& compressed, const std::string& document = kDracoPrimitive)
 {
@@ -79,6 +80,7 @@ TEST(Draco, givesBackTheTrianglesAndAttributes)
         EXPECT_FLOAT_EQ(color.x, 0.2f);
         EXPECT_FLOAT_EQ(color.z, 0.6f);
     }
+    ASSERT_EQ(mesh.joint_sets.size(), 1u);
     for (const mesh::Joints4& joints : mesh.joint_sets[0])
         EXPECT_EQ(joints.joint[0], 3);
     for (const Float3 normal : mesh.normals)

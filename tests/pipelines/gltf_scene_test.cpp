@@ -275,80 +275,71 @@ Imported importSkinned(bool both_joints, const std::string& nodes)
         nodes);
 }
 
-TEST(GltfSkins, drawTheMeshWhereItsJointsCarryIt)
+TEST(GltfSkins, keepTheMeshAsItIsBound)
 {
-    // the mesh's own node is far away, which does not count; both joints stand as they were bound, but 2 higher
+    // the mesh's own node is far away, which does not count; joints carry it to the scene's space
     const Imported result = importSkinned(true, R"("nodes":[{"mesh":0,"skin":0,"translation":[100,0,0]},
-        {"translation":[5,2,0],"children":[2]},{"translation":[0,1,0]}])");
+        {"translation":[5,2,0],"children":[2]},{"translation":[0,1,0],"rotation":[0,0,0.70710678,0.70710678]}])");
     ASSERT_TRUE(result.ok()) << result.message();
-    expectNear(transformPoint(instancesOf(result)[0].world_from_object, {1, 1, 0}), {1, 3, 0});
-    EXPECT_FALSE(result.warnsOf(Issue::degraded, "bind pose"));
-    EXPECT_TRUE(result.warnsOf(Issue::degraded, "rest pose"));
+    EXPECT_EQ(instancesOf(result)[0].world_from_object, Affine3{});
+    EXPECT_NEAR(instancesOf(result)[0].scale_max, 1, 1e-5);
     const auto joints = result.records<JointRecord>(kChunkJoints);
     ASSERT_EQ(joints.size(), 2u);
     EXPECT_EQ(joints[1].node, 2u);
     EXPECT_EQ(joints[1].joint_from_bind.m[1][3], -1.0f);
-    EXPECT_EQ(result.mesh().joint_sets[0][2].joint[0], 1);
+    const mesh::SourceMesh mesh = result.mesh();
+    EXPECT_EQ(mesh.joint_sets[0][2].joint[0], 1);
+    ASSERT_EQ(mesh.vertexCount(), 4u);
+    EXPECT_EQ(mesh.positions[2], (Float3{1, 1, 0}));
+    EXPECT_EQ(mesh.normals[2], (Float3{0, 0, 1}));
+    EXPECT_TRUE(result.warnings.empty());
 }
 
-TEST(GltfSkins, drawTheRestPoseWhereJointsArePosed)
-{
-    // joint 1 carries two corners 2 to the right, and a quarter turn about z through its own place, (7, 1)
-    const std::string nodes = R"("nodes":[{"mesh":0,"skin":0,"translation":[100,0,0]},{"translation":[5,0,0]},
-        {"translation":[7,1,0],"rotation":[0,0,0.70710678,0.70710678]}])";
-    const Imported posed = importSkinned(true, nodes);
-    ASSERT_TRUE(posed.ok()) << posed.message();
-    EXPECT_FALSE(posed.warnsOf(Issue::degraded, "bind pose"));
-    EXPECT_EQ(instancesOf(posed)[0].world_from_object, Affine3{});
-    const mesh::SourceMesh mesh = posed.mesh();
-    const mesh::SourceMesh bound = importSkinned(false, nodes).mesh();
-    EXPECT_EQ(mesh.bind_pose.positions, bound.positions);
-    EXPECT_EQ(mesh.bind_pose.normals, bound.normals);
-    EXPECT_TRUE(bound.bind_pose.positions.empty()) << "the second joint moves nothing there";
-    ASSERT_EQ(mesh.vertexCount(), bound.vertexCount());
-    size_t turned = 0;
-    for (size_t v = 0; v < mesh.vertexCount(); ++v)
-    {
-        const Float3 p = bound.positions[v];
-        if (mesh.joint_sets[0][v].joint[0] == 0)
-        {
-            expectNear(mesh.positions[v], p);
-            continue;
-        }
-        ++turned;
-        expectNear(mesh.positions[v], {7 - (p.y - 1), 1 + (p.x - 5), p.z});
-        expectNear(mesh.normals[v], {-bound.normals[v].y, bound.normals[v].x, bound.normals[v].z});
-    }
-    EXPECT_GT(turned, 0u);
-}
-
-TEST(GltfSkins, mirroredJointsTurnTrianglesOver)
-{
-    const Imported mirrored = importSkinned(true, R"("nodes":[{"mesh":0,"skin":0},
-        {"translation":[5,0,0],"scale":[-1,1,1]},{"translation":[8,1,0],"scale":[-1,1,1]}])");
-    ASSERT_TRUE(mirrored.ok()) << mirrored.message();
-    const mesh::SourceMesh mesh = mirrored.mesh();
-    ASSERT_FALSE(mesh.bind_pose.positions.empty());
-    for (size_t i = 0; i < mesh.indices.size(); i += 3)
-    {
-        const Float3 a = mesh.positions[mesh.indices[i]];
-        const Float3 face =
-            cross(mesh.positions[mesh.indices[i + 1]] - a, mesh.positions[mesh.indices[i + 2]] - a);
-        EXPECT_GT(dot(face, mesh.normals[mesh.indices[i]]), 0.0f) << "front and normal agree";
-    }
-}
-
-TEST(GltfSkins, sayWhenAMeshHasTwoPoses)
+TEST(GltfSkins, giveACopyToEachFurtherSkin)
 {
     GltfData data = squareData();
     data.add("VEC4", std::vector<uint8_t>{0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0});
     data.add("VEC4", std::vector<float>{1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0});
-    const Imported result = data.import(
-        R"("meshes":[{"primitives":[{"attributes":{"POSITION":0,"JOINTS_0":2,"WEIGHTS_0":3},"indices":1}]}],
-        "skins":[{"joints":[2,3]},{"joints":[3,2]}],
-        "nodes":[{"mesh":0,"skin":0},{"mesh":0,"skin":1},{"translation":[5,0,0]},{}])");
+    const std::string mesh =
+        R"({"primitives":[{"attributes":{"POSITION":0,"JOINTS_0":2,"WEIGHTS_0":3},"indices":1}]})";
+    const Imported result = data.import(R"("meshes":[)" + mesh + "," + mesh + R"(],
+        "skins":[{"joints":[5,6]},{"joints":[6,5]}],
+        "nodes":[{"mesh":0,"skin":0},{"mesh":0,"skin":1},{"mesh":0},{"mesh":1,"skin":1},{"mesh":0,"skin":1},
+        {"translation":[5,0,0]},{}])");
     ASSERT_TRUE(result.ok()) << result.message();
-    EXPECT_TRUE(result.warnsOf(Issue::degraded, "several skins"));
+    const auto nodes = result.records<NodeRecord>(kChunkNodes);
+    const auto instances = instancesOf(result);
+    constexpr std::array<uint32_t, 5> kMeshes{0, 2, 3, 1, 2};
+    constexpr std::array<uint32_t, 5> kSkins{0, 1, kNone, 1, 1};
+    for (size_t node = 0; node < kMeshes.size(); ++node)
+    {
+        EXPECT_EQ(nodes[node].mesh, kMeshes[node]) << node;
+        EXPECT_EQ(nodes[node].skin, kSkins[node]) << node;
+        EXPECT_EQ(instances[node].mesh, kMeshes[node]) << node;
+    }
+    EXPECT_EQ(result.mesh(2).positions, result.mesh(0).positions);
+    EXPECT_EQ(result.mesh(2).joint_sets.size(), 1u);
+    EXPECT_TRUE(result.mesh(3).joint_sets.empty()) << "nothing moves the copy without a skin";
+    EXPECT_EQ(result.counts.triangles, 4u) << "copies are not counted";
+}
+
+TEST(GltfSkins, leaveTheMeshAtItsNodeWhereTheyCannotMoveIt)
+{
+    // joints that shrink it to nothing
+    const Imported flat = importSkinned(true, R"("nodes":[{"mesh":0,"skin":0,"translation":[100,0,0]},
+        {"translation":[5,0,0],"scale":[0,0,0]},{"translation":[7,1,0],"scale":[0,0,0]}])");
+    ASSERT_TRUE(flat.ok()) << flat.message();
+    EXPECT_TRUE(flat.warnsOf(Issue::degraded, "does not move its mesh"));
+    EXPECT_EQ(instancesOf(flat)[0].world_from_object.m[0][3], 100.0f);
+    EXPECT_EQ(flat.records<NodeRecord>(kChunkNodes)[0].skin, kNone);
+    EXPECT_TRUE(flat.mesh().joint_sets.empty());
+    // a place that floats do not have
+    const Imported far =
+        importSkinned(true, R"("nodes":[{"mesh":0,"skin":0},{"translation":[3e38,0,0],"children":[2]},
+        {"translation":[3e38,1,0]}])");
+    ASSERT_TRUE(far.ok()) << far.message();
+    EXPECT_TRUE(far.warnsOf(Issue::degraded, "32-bit numbers"));
+    EXPECT_TRUE(far.mesh().joint_sets.empty());
 }
 
 TEST(GltfAnimations, keepKeysAndMendThem)

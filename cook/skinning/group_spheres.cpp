@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/skinning/group_spheres.h"
+
+#include "cook/skinning/cluster_bounds.h"
+#include "cook/skinning/middle_pose.h"
+#include "cook/skinning/rounding.h"
+#include "formats/assert.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <tbb/parallel_for.h>
+
+namespace hearth::skinning
+{
+
+using namespace formats;
+using motion::Box3d;
+
+namespace
+{
+
+// The joints with most of the mesh on them are tried as anchors, and the skin's first, which is mostly a root.
+constexpr size_t kMostAnchors = 6;
+
+// More steps shrink a sphere by less than 1 % of its radius.
+constexpr int kSphereSteps = 12;
+
+// As the spheres of static groups: a runtime in single precision cannot see them inverted.
+constexpr double kMonotoneSlack = 1.0 + 1.0 / 262144.0;
+
+struct WideSphere
+{
+    Double3 center;
+    double radius = 0;
+};
+
+/// Where the vertices of a cluster are in all poses; nothing where there are no bounds.
+using Reached = std::optional<std::vector<WideSphere>>;
+
+Reached reachedBy(const DeformedCluster& cluster, const Deformation& deformation, uint32_t anchor)
+{
+    const std::vector<MorphedVertex> vertices = morphedVertices(cluster, deformation.morph_weights);
+    const std::optional<MiddlePose> pose = MiddlePose::in(anchor, cluster, deformation, vertices);
+    if (!pose)
+        return std::nullopt;
+    std::vector<WideSphere> spheres;
+    for (size_t v = 0; v < vertices.size(); ++v)
+        spheres.push_back({pose->place(v), pose->slack(v)});
+    return spheres;
+}
+
+void add(Box3d& box, const WideSphere& sphere)
+{
+    const Double3 r{sphere.radius, sphere.radius, sphere.radius};
+    motion::add(box, sphere.center - r);
+    motion::add(box, sphere.center + r);
+}
+
+/// Where the points that each joint moves come, seen from a candidate; half the diagonal of the box around all.
+double sizeSeenFrom(uint32_t anchor, const motion::SkinMotion& skin, std::span<const Box3d> reach)
+{
+    Box3d box;
+    for (uint32_t joint = 0; joint < reach.size(); ++joint)
+    {
+        if (reach[joint][0].empty())
+            continue;
+        const motion::JointMotion* motion = skin.relative(anchor, joint);
+        if (motion == nullptr)
+            return std::numeric_limits<double>::infinity();
+        const Double3 center = middle(reach[joint]);
+        const double radius = motion->set().norm * length(half(reach[joint]));
+        add(box, {transformPoint(motion->ball().center, center), motion->ball().slackAt(center) + radius});
+    }
+    return length(half(box));
+}
+
+uint32_t anchorOf(std::span<const DeformedCluster> clusters, const motion::SkinMotion& skin,
+                  std::span<const Box3d> reach)
+{
+    std::vector<double> weights(skin.jointCount());
+    for (const DeformedCluster& cluster : clusters)
+        for (size_t i = 0; i < cluster.joints.size(); ++i)
+            weights[cluster.joints[i]] += cluster.weights[i];
+    std::vector<uint32_t> candidates(weights.size());
+    for (uint32_t joint = 0; joint < candidates.size(); ++joint)
+        candidates[joint] = joint;
+    std::stable_sort(candidates.begin(), candidates.end(),
+                     [&](uint32_t a, uint32_t b) { return weights[a] > weights[b]; });
+    candidates.resize(std::min(candidates.size(), kMostAnchors));
+    candidates.push_back(0);
+    std::vector<double> sizes(candidates.size());
+    tbb::parallel_for(size_t{0}, candidates.size(),
+                      [&](size_t i) { sizes[i] = sizeSeenFrom(candidates[i], skin, reach); });
+    return candidates[static_cast<size_t>(std::min_element(sizes.begin(), sizes.end()) - sizes.begin())];
+}
+
+/// How far a sphere around a point has to reach, and which of the spheres asks for it.
+std::pair<double, size_t> farthestFrom(Double3 center, std::span<const WideSphere> spheres)
+{
+    std::pair<double, size_t> farthest{0, 0};
+    for (size_t i = 0; i < spheres.size(); ++i)
+        if (const double reach = length(spheres[i].center - center) + spheres[i].radius;
+            reach > farthest.first)
+            farthest = {reach, i};
+    return farthest;
+}
+
+/// source  M. Badoiu, K. L. Clarkson, "Smaller core-sets for balls", 2003
+Sphere sphereAround(std::span<const WideSphere> spheres)
+{
+    HEARTH_ASSERT(!spheres.empty());
+    Box3d box;
+    for (const WideSphere& sphere : spheres)
+        add(box, sphere);
+    Double3 center = middle(box);
+    Double3 best = center;
+    double best_radius = std::numeric_limits<double>::infinity();
+    for (int step = 1; step <= kSphereSteps; ++step)
+    {
+        const auto [radius, farthest] = farthestFrom(center, spheres);
+        if (radius < best_radius)
+        {
+            best = center;
+            best_radius = radius;
+        }
+        center = center + (spheres[farthest].center - center) * (0.3 / (step + 1));
+    }
+    const Float3 stored = narrow(best);
+    return {stored, roundUp(farthestFrom(widen(stored), spheres).first * kMonotoneSlack)};
+}
+
+/// Fine to coarse: the records stand coarse to fine, the groups of a set together.
+std::vector<Sphere> nestedSpheres(const MeshHierarchy& hierarchy, std::span<const Reached> reached)
+{
+    std::vector<Sphere> spheres(hierarchy.groups.size());
+    for (size_t end = hierarchy.groups.size(); end > 0;)
+    {
+        const size_t first = end - 1 - hierarchy.groups[end - 1].set_offset;
+        std::vector<WideSphere> inside;
+        for (size_t g = first; g < end; ++g)
+        {
+            const Range clusters = hierarchy.groups[g].clusters;
+            for (uint32_t c = clusters.first; c < clusters.first + clusters.count; ++c)
+            {
+                const uint32_t local = c - hierarchy.first_cluster;
+                const std::vector<WideSphere>& places = *reached[local];
+                inside.insert(inside.end(), places.begin(), places.end());
+                if (const uint32_t refined = hierarchy.clusters[local].refined_group; refined != kNone)
+                {
+                    const Sphere& sphere = spheres[refined - hierarchy.first_group];
+                    inside.push_back({widen(sphere.center), double{sphere.radius}});
+                }
+            }
+        }
+        const Sphere sphere = sphereAround(inside);
+        for (; end > first; --end)
+            spheres[end - 1] = sphere;
+    }
+    return spheres;
+}
+
+} // namespace
+
+AnchoredBounds anchoredBounds(const MeshHierarchy& hierarchy, std::span<const DeformedCluster> clusters,
+                              const Deformation& deformation, std::span<const Box3d> reach)
+{
+    AnchoredBounds bounds;
+    if (deformation.skin != nullptr)
+        bounds.anchor = anchorOf(clusters, *deformation.skin, reach);
+    std::vector<Reached> reached(clusters.size());
+    tbb::parallel_for(size_t{0}, clusters.size(),
+                      [&](size_t i) { reached[i] = reachedBy(clusters[i], deformation, bounds.anchor); });
+    if (std::any_of(reached.begin(), reached.end(), [](const Reached& r) { return !r; }))
+    {
+        const Float3 far{kUnbounded, kUnbounded, kUnbounded};
+        bounds.box = {-far, far};
+        bounds.spheres.assign(hierarchy.groups.size(), {{}, kUnbounded});
+        return bounds;
+    }
+    Box3d box;
+    for (const Reached& places : reached)
+        for (const WideSphere& place : *places)
+            add(box, place);
+    bounds.box = roundedOut(box);
+    bounds.spheres = nestedSpheres(hierarchy, reached);
+    return bounds;
+}
+
+} // namespace hearth::skinning

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/skinning/rounding.h"
+
+#include <cmath>
+#include <limits>
+
+namespace hearth::skinning
+{
+
+namespace
+{
+
+// Some 30 roundings: transforms of a few joints, their products with weights, and the sum.
+constexpr double kSingleMargin = 2e-6;
+
+} // namespace
+
+float roundUp(double value)
+{
+    constexpr float kLargest = std::numeric_limits<float>::max();
+    if (!(value < double{kLargest}))
+        return kLargest;
+    const auto rounded = static_cast<float>(value);
+    return double{rounded} >= value ? rounded : std::nextafter(rounded, kLargest);
+}
+
+Box3 roundedOut(const motion::Box3d& box)
+{
+    double farthest = 0;
+    for (const motion::Interval& axis : box)
+        farthest = std::max(farthest, axis.magnitude());
+    Box3 rounded;
+    for (size_t axis = 0; axis < 3; ++axis)
+    {
+        rounded.min[static_cast<int>(axis)] = -roundUp(kSingleMargin * farthest - box[axis].low);
+        rounded.max[static_cast<int>(axis)] = roundUp(kSingleMargin * farthest + box[axis].high);
+    }
+    return rounded;
+}
+
+} // namespace hearth::skinning

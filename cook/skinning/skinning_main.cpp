@@ -1,0 +1,104 @@
+// hearth-skinning: reads an import part and its clusters part, and writes the skinning part.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/skinning/skinning_part.h"
+#include "cook/tools/whole_file.h"
+#include "formats/program.h"
+
+#include <CLI/CLI.hpp>
+
+#include <cstdio>
+#include <memory>
+
+#include <tbb/global_control.h>
+
+namespace
+{
+
+using namespace hearth;
+
+struct Arguments
+{
+    std::string import_part;
+    std::string clusters_part;
+    std::string output;
+    std::string statistics;
+    size_t jobs = 0;
+};
+
+Result<formats::PackView> open(const std::string& path)
+{
+    HEARTH_ASSIGN_OR_RETURN(formats::ContainerReader reader,
+                            formats::ContainerReader::open(path, formats::Check::structure));
+    if (reader.kind() != formats::ContainerKind::part)
+        return Error{Issue::container_kind, path, "", "this is a pack, not a part"};
+    return formats::PackView::read(std::move(reader));
+}
+
+Status writeStatistics(const Arguments& arguments, const std::vector<skinning::MeshStatistics>& meshes)
+{
+    const std::string source =
+        arguments.import_part.substr(arguments.import_part.rfind('/') + 1); // npos + 1 is 0
+    const std::string json = skinning::statisticsJson(source, meshes);
+    if (arguments.statistics == "-")
+        return std::fwrite(json.data(), 1, json.size(), stdout) == json.size() && std::fflush(stdout) == 0
+                   ? success()
+                   : Error{Issue::read_failed, "stdout", "", "cannot be written"};
+    HEARTH_ASSIGN_OR_RETURN(tools::WholeFile file, tools::WholeFile::create(arguments.statistics));
+    file.write(json);
+    return file.finish();
+}
+
+Status cook(const Arguments& arguments)
+{
+    HEARTH_ASSIGN_OR_RETURN(const formats::PackView import_part, open(arguments.import_part));
+    HEARTH_ASSIGN_OR_RETURN(const formats::PackView clusters_part, open(arguments.clusters_part));
+    HEARTH_ASSIGN_OR_RETURN(const std::vector<skinning::MeshStatistics> meshes,
+                            skinning::writeSkinningPart(import_part, clusters_part, arguments.output));
+    return arguments.statistics.empty() ? success() : writeStatistics(arguments, meshes);
+}
+
+int run(const Arguments& arguments)
+{
+    std::unique_ptr<tbb::global_control> limit;
+    if (arguments.jobs > 0)
+        limit = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism,
+                                                      arguments.jobs);
+    const Status cooked = cook(arguments);
+    if (cooked.ok())
+        return 0;
+    std::fprintf(stderr, "%s\n", formatMessage(cooked.error()).c_str());
+    return exitCode(cooked.error());
+}
+
+int program(int argc, char** argv)
+{
+    CLI::App app(
+        "Bounds meshes with skins and morph targets over all animations and writes the skinning part.");
+    Arguments arguments;
+    app.add_option("import", arguments.import_part, "import part")->required();
+    app.add_option("clusters", arguments.clusters_part, "clusters part of the same source")->required();
+    app.add_option("-o,--output", arguments.output, "skinning part to write")->required();
+    app.add_option("-j,--jobs", arguments.jobs, "threads to use; the result does not depend on it");
+    app.add_option("--stats", arguments.statistics,
+                   "write what became of each mesh as JSON; - is standard output");
+    app.footer(
+        "Example: hearth-skinning fox.import.part fox.clusters.part -o fox.skinning.part --stats -\n"
+        "Exit codes: 0 done, 2 usage, 65 malformed input, 66 input missing, 70 internal, 73 cannot write, "
+        "74 I/O");
+    try
+    {
+        app.parse(argc, argv);
+    }
+    catch (const CLI::ParseError& error)
+    {
+        return app.exit(error) == 0 ? 0 : 2;
+    }
+    return run(arguments);
+}
+
+} // namespace
+
+int main(int argc, char** argv)
+{
+    return hearth::runProgram("hearth-skinning", [&] { return program(argc, argv); });
+}
