@@ -43,10 +43,12 @@ DeformedCluster loadDeformedCluster(Pose pose, uint cluster)
 
 CarriedBox boxInPose(Instance instance, Pose pose, DeformedCluster cluster)
 {
+    PaletteRow main_joint = loadJoint(pose, cluster.joint);
     if ((pose.flags & kPoseFree) == 0u)
-        return boxInClips(instance, loadJoint(pose, cluster.joint), cluster);
-    CarriedBox box = emptyFreeBox(instance);
-    for (uint i = 0u; i < cluster.joint_count; ++i)
+        return boxInClips(instance, main_joint, cluster);
+    CarriedBox box = grownBy(emptyFreeBox(instance), main_joint, cluster.bind_min, cluster.bind_max);
+    // the first is the main one; without a skin there are none
+    for (uint i = 1u; i < cluster.joint_count; ++i)
         box = grownBy(box, loadJoint(pose, deformationWord(cluster.first_joint + i)), cluster.bind_min, cluster.bind_max);
     return box;
 }

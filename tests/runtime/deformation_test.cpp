@@ -157,7 +157,7 @@ TEST_F(DeformationTest, skinnedVerticesAreWhereGltfSays)
         Poses posed;
         keep(poses, posed);
         const Picture picture =
-            draw(*scene, randomCamera(random, 3), {.error_pixels = 2, .flags = 0, .poses = views});
+            draw(*scene, randomCamera(random, 3), {.error_pixels = 0.25f, .flags = 0, .poses = views});
         const DeformationHeader header = headerOf(*scene);
         const auto words = read<float>(scene->deformation->buffer,
                                        header.scratch_word + size_t{header.block_words} * header.block_count);
@@ -201,7 +201,7 @@ TEST_F(DeformationTest, theSizeOfTheScratchDoesNotShow)
     const auto whole = upload(test.pack());
     const uint64_t block_bytes = headerOf(*whole).block_words * 4;
     const auto none = upload(test.pack(), {.deformation = {.scratch_bytes = 0}});
-    const auto few = upload(test.pack(), {.deformation = {.scratch_bytes = 20 * block_bytes}});
+    const auto few = upload(test.pack(), {.deformation = {.scratch_bytes = 6 * block_bytes}});
     gpu::FrameTargets targets[] = {makeTargets(160, 120), makeTargets(160, 120), makeTargets(160, 120)};
     Camera camera;
     size_t beyond = 0;
@@ -211,7 +211,7 @@ TEST_F(DeformationTest, theSizeOfTheScratchDoesNotShow)
             camera = randomCamera(random, 4);
         const auto poses = test.randomPoses(random);
         const auto views = viewsOf(poses);
-        const DrawOptions options{.error_pixels = 2, .poses = views};
+        const DrawOptions options{.error_pixels = 0.5f, .poses = views};
         const Picture expected = draw(*whole, targets[0], camera, options);
         const Picture direct = draw(*none, targets[1], camera, options);
         const Picture mixed = draw(*few, targets[2], camera, options);
@@ -221,7 +221,7 @@ TEST_F(DeformationTest, theSizeOfTheScratchDoesNotShow)
         ASSERT_EQ(mixed.visibility, expected.visibility) << "frame " << frame;
         ASSERT_EQ(mixed.color, expected.color) << "frame " << frame;
         const DeformationHeader header = headerOf(*few);
-        beyond += header.late_end - header.late_first + header.early_end - header.early_first > 20 ? 1 : 0;
+        beyond += header.late_end - header.late_first + header.early_end - header.early_first > 6 ? 1 : 0;
     }
     EXPECT_GT(beyond, 5u) << "a scratch that is never full is not tested";
 }
