@@ -229,7 +229,7 @@ public:
         rows_.finishRow();
         addClusters();
         for (uint32_t i = 0; i < instances_.size(); ++i)
-            if (const auto mesh = findMesh(instances_[i].mesh))
+            if (const auto* mesh = pack::findDeformedMesh(pack_, instances_[i].mesh))
                 addInstance(i, *mesh);
         std::memcpy(layout_.words.data(), &header_, sizeof(header_));
         const std::vector<PosedRows> poses = posesAtRest(pack_, layout_);
@@ -253,21 +253,8 @@ private:
         }
     }
 
-    /// Row of chunk DMSH.
-    std::optional<uint32_t> findMesh(uint32_t mesh) const
+    void addInstance(uint32_t number, const formats::DeformedMeshRecord& mesh)
     {
-        const auto meshes = pack_.deformedMeshes();
-        const auto found = std::lower_bound(meshes.begin(), meshes.end(), mesh,
-                                            [](const formats::DeformedMeshRecord& record, uint32_t number)
-                                            { return record.mesh < number; });
-        if (found == meshes.end() || found->mesh != mesh)
-            return std::nullopt;
-        return static_cast<uint32_t>(found - meshes.begin());
-    }
-
-    void addInstance(uint32_t number, uint32_t deformed_mesh)
-    {
-        const formats::DeformedMeshRecord& mesh = pack_.deformedMeshes()[deformed_mesh];
         const formats::MeshRecord& record = pack_.meshes()[mesh.mesh];
         DeformedInstance instance{
             .instance = number,
@@ -275,7 +262,7 @@ private:
             .joint_count = mesh.skin == formats::kNone ? 1 : pack_.skins()[mesh.skin].joints.count,
             .target_count = record.morph_target_count,
             .pose_row = rows_.nextRow(),
-            .cluster_row = cluster_rows_[deformed_mesh],
+            .cluster_row = cluster_rows_[static_cast<size_t>(&mesh - pack_.deformedMeshes().data())],
             .record = instances_[number],
             .box_in_clips = widenedBy({mesh.box_min, mesh.box_max}, clusters_.slack(mesh)),
             .box_in_bind = clusters_.bindBox(mesh)};

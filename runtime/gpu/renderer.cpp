@@ -176,11 +176,12 @@ void Renderer::recordMaterials(VkCommandBuffer commands, const Scene& scene, con
 }
 
 void Renderer::recordPrefetch(VkCommandBuffer commands, const Scene& scene, const FrameTargets& targets,
-                              const shared::FrameView& view) const
+                              const shared::FrameView& view, std::span<const InstanceMove> moves,
+                              std::span<const InstancePose> poses) const
 {
     HEARTH_ASSERT(scene.stream != nullptr && view.instance_count == scene.instance_count);
-    trackShadows(scene, {});
-    cull_.recordConstants(device_, commands, scene, targets, scene.stream->scaled(view), {}, {});
+    trackShadows(scene, moves);
+    cull_.recordConstants(device_, commands, scene, targets, scene.stream->scaled(view), moves, poses);
     cull_.record(device_, commands, scene, targets, shared::kPhaseWhole);
     recordRequests(commands, scene);
 }

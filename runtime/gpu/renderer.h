@@ -89,7 +89,8 @@ public:
     /// The same without drawing: asks for what a frame with this view asks for. For a streamed scene, in place of record.
     /// Clobbers compute state, and leaves the depth pyramid as it is.
     void recordPrefetch(VkCommandBuffer commands, const Scene& scene, const FrameTargets& targets,
-                        const shared::FrameView& view) const;
+                        const shared::FrameView& view, std::span<const InstanceMove> moves = {},
+                        std::span<const InstancePose> poses = {}) const;
 
 private:
     Renderer() = default;

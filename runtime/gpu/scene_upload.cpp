@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "formats/shared/material_tiles.h"
 #include "runtime/gpu/scene.h"
+#include "runtime/gpu/scene_boxes.h"
 #include "runtime/gpu/scene_shading.h"
 #include "runtime/gpu/scene_shadows.h"
 #include "runtime/pack/cut.h"

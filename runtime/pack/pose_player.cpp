@@ -25,15 +25,6 @@ std::vector<uint8_t> findAnimatedNodes(const formats::MotionTables& tables,
     return animated;
 }
 
-const formats::DeformedMeshRecord* findDeformed(const formats::PackView& pack, uint32_t mesh)
-{
-    const auto meshes = pack.deformedMeshes();
-    const auto found = std::lower_bound(meshes.begin(), meshes.end(), mesh,
-                                        [](const formats::DeformedMeshRecord& record, uint32_t number)
-                                        { return record.mesh < number; });
-    return found != meshes.end() && found->mesh == mesh ? &*found : nullptr;
-}
-
 } // namespace
 
 PosePlayer::PosePlayer(const formats::PackView& pack)
@@ -48,7 +39,7 @@ PosePlayer::PosePlayer(const formats::PackView& pack)
     formats::poseNodes(tables_, rest_, parents_first_, world_from_node_);
     const std::vector<uint8_t> animated = findAnimatedNodes(tables_, parents_first_);
     for (uint32_t i = 0; i < instances_.size(); ++i)
-        if (const auto* mesh = findDeformed(pack, instances_[i].mesh))
+        if (const auto* mesh = findDeformedMesh(pack, instances_[i].mesh))
             addDeformed(i, *mesh, pack.meshes()[mesh->mesh].morph_target_count);
         else if (animated[instances_[i].node] != 0)
             addRigid(i);
@@ -73,7 +64,8 @@ Affine3d PosePlayer::nodeFromObject(const formats::InstanceRecord& instance) con
 void PosePlayer::addRigid(uint32_t instance)
 {
     const formats::InstanceRecord& record = instances_[instance];
-    rigid_.push_back({instance, record.node, nodeFromObject(record), record.world_from_object});
+    rigid_.push_back({record.node, nodeFromObject(record)});
+    places_.push_back({instance, record.world_from_object});
 }
 
 void PosePlayer::addDeformed(uint32_t instance, const formats::DeformedMeshRecord& mesh, uint32_t targets)
@@ -125,8 +117,8 @@ void PosePlayer::take(const formats::ScenePose& pose)
 {
     formats::poseNodes(tables_, pose, parents_first_, world_from_node_);
     moved_count_ = 0;
-    for (Rigid& rigid : rigid_)
-        placeRigid(rigid);
+    for (size_t i = 0; i < rigid_.size(); ++i)
+        placeRigid(i);
     for (const Deformed& deformed : deformed_)
         poseDeformed(deformed, pose);
 }
@@ -145,13 +137,23 @@ void PosePlayer::poseDeformed(const Deformed& deformed, const formats::ScenePose
 }
 
 /// Where the place does not fit into floats, the instance stays.
-void PosePlayer::placeRigid(Rigid& rigid)
+void PosePlayer::placeRigid(size_t rigid)
 {
-    const auto place = narrowed(world_from_node_[rigid.node] * rigid.node_from_object);
-    if (!place || *place == rigid.world_from_object)
+    MovedInstance& place = places_[rigid];
+    const auto now = narrowed(world_from_node_[rigid_[rigid].node] * rigid_[rigid].node_from_object);
+    if (!now || *now == place.world_from_object)
         return;
-    rigid.world_from_object = *place;
-    moved_[moved_count_++] = {rigid.instance, *place};
+    place.world_from_object = *now;
+    moved_[moved_count_++] = place;
+}
+
+const formats::DeformedMeshRecord* findDeformedMesh(const formats::PackView& pack, uint32_t mesh)
+{
+    const auto meshes = pack.deformedMeshes();
+    const auto found = std::lower_bound(meshes.begin(), meshes.end(), mesh,
+                                        [](const formats::DeformedMeshRecord& record, uint32_t number)
+                                        { return record.mesh < number; });
+    return found != meshes.end() && found->mesh == mesh ? &*found : nullptr;
 }
 
 std::optional<uint32_t> findAnimation(const formats::PackView& pack, std::string_view name)

@@ -49,16 +49,17 @@ public:
     /// Rigid instances that now stand elsewhere than before the last call of the three above. Valid until the next.
     std::span<const MovedInstance> moved() const { return {moved_.data(), moved_count_}; }
 
+    /// All rigid instances that clips move, and where they stand now.
+    std::span<const MovedInstance> places() const { return places_; }
+
     /// All deformed instances, ascending. Valid until the next call of the three.
     std::span<const PosedInstance> posed() const { return posed_; }
 
 private:
     struct Rigid
     {
-        uint32_t instance;
         uint32_t node;
         Affine3d node_from_object;
-        Affine3 world_from_object;
     };
     struct Deformed
     {
@@ -77,7 +78,7 @@ private:
     void addDeformed(uint32_t instance, const formats::DeformedMeshRecord& mesh, uint32_t targets);
     void resetTo(formats::ScenePose& pose) const;
     void take(const formats::ScenePose& pose);
-    void placeRigid(Rigid& rigid);
+    void placeRigid(size_t rigid);
     void poseDeformed(const Deformed& deformed, const formats::ScenePose& pose);
 
     formats::MotionTables tables_;
@@ -89,10 +90,14 @@ private:
     std::vector<Deformed> deformed_;
     std::vector<Affine3d> palettes_;
     std::vector<float> weights_;
+    std::vector<MovedInstance> places_; ///< of rigid_
     std::vector<MovedInstance> moved_;
     size_t moved_count_ = 0;
     std::vector<PosedInstance> posed_;
 };
+
+/// What the chunk DMSH says of a mesh; null where it is rigid.
+const formats::DeformedMeshRecord* findDeformedMesh(const formats::PackView& pack, uint32_t mesh);
 
 /// The clip of this name, or else of this number. Nothing where there is none.
 std::optional<uint32_t> findAnimation(const formats::PackView& pack, std::string_view name);
