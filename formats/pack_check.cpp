@@ -148,7 +148,8 @@ Status checkPack(const PackView& view)
     HEARTH_TRY(check::checkShadowSpheres(view));
     HEARTH_TRY(checkHierarchy(view));
     HEARTH_TRY(check::checkMaterialsOfClusters(view));
-    return check::checkDeformations(view);
+    HEARTH_TRY(check::checkDeformations(view));
+    return check::checkDeformedMeshes(view);
 }
 
 } // namespace hearth::formats

@@ -90,14 +90,15 @@ void forEachArray(mesh::SourceMesh& to, const mesh::SourceMesh& from, Visit visi
     for (size_t set = 0; set < mesh::kUvSetCount; ++set)
         visit(to.uvs[set], from.uvs[set]);
     visit(to.colors, from.colors);
-    to.joint_sets.resize(from.joint_sets.size());
-    to.weight_sets.resize(from.weight_sets.size());
+    // a mesh that has no vertices yet has no sets either
+    to.joint_sets.resize(std::max(to.joint_sets.size(), from.joint_sets.size()));
+    to.weight_sets.resize(to.joint_sets.size());
     for (size_t set = 0; set < from.joint_sets.size(); ++set)
     {
         visit(to.joint_sets[set], from.joint_sets[set]);
         visit(to.weight_sets[set], from.weight_sets[set]);
     }
-    to.morph_targets.resize(from.morph_targets.size());
+    to.morph_targets.resize(std::max(to.morph_targets.size(), from.morph_targets.size()));
     for (size_t target = 0; target < from.morph_targets.size(); ++target)
     {
         visit(to.morph_targets[target].positions, from.morph_targets[target].positions);

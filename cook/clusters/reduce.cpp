@@ -3,6 +3,7 @@
 
 #include "cook/clusters/bounds.h"
 #include "cook/clusters/cell_merge.h"
+#include "cook/clusters/deformed_deviation.h"
 #include "cook/clusters/deviation.h"
 #include "cook/clusters/group_mesh.h"
 #include "cook/clusters/islands.h"
@@ -84,6 +85,13 @@ ClusterStore splitSimplified(const GroupMesh& group, const Simplified& simplifie
     return out;
 }
 
+/// A deformed mesh of which nobody says how it moves stays as it is bound, but for its morph targets.
+const MeshMotion& motionOf(const PreparedMesh& mesh)
+{
+    static const MeshMotion none;
+    return mesh.motion != nullptr ? *mesh.motion : none;
+}
+
 } // namespace
 
 Reduced reduceGroup(const PreparedMesh& mesh, const ClusterStore& store, std::span<const uint32_t> members,
@@ -115,14 +123,17 @@ Reduced reduceGroup(const PreparedMesh& mesh, const ClusterStore& store, std::sp
     Surface after(positionsOfCorners(group, simplified.corners), simplified.placement.places);
     SurfacePoints points = findPoints(group, simplified, after);
     fitToGroup(group, simplified, after, points);
-    Deviation deviation = boundDeviation(group, simplified, after, points.of_position);
+    const std::vector<uint32_t> vertices = makeVertices(mesh, group, simplified, reduced);
+    Deviation deviation =
+        mesh.deforms() ? boundDeformedDeviation(group, simplified, after,
+                                                {mesh.vertices, reduced.made, vertices}, motionOf(mesh))
+                       : boundDeviation(group, simplified, after, points.of_position);
     reduced.loose_pieces = deviation.loose_pieces;
     for (float& error : deviation.errors)
     {
         error = roundUp(error * group.scale);
         reduced.distance = std::max(reduced.distance, error);
     }
-    const std::vector<uint32_t> vertices = makeVertices(mesh, group, simplified, reduced);
     reduced.attributes =
         measureAttributes(group, {simplified, after, points.of_wedge, mesh.vertices, reduced.made, vertices});
     reduced.clusters =

@@ -2,6 +2,7 @@
 #include "cook/skinning/read_clusters.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include <tbb/parallel_for.h>
 
@@ -12,6 +13,9 @@ using namespace formats;
 
 namespace
 {
+
+// Codes of weights sum to it.
+constexpr double kWeightSum = 65535;
 
 Error fail(const PackView& part, Issue issue, uint32_t cluster, std::string detail)
 {
@@ -25,7 +29,7 @@ void addInfluences(const ClusterGeometry& geometry, uint32_t vertex, DeformedClu
     for (size_t i = 0; i < cluster.influences; ++i)
     {
         cluster.joints.push_back(static_cast<uint16_t>(joints[i]));
-        cluster.weights.push_back(codes[i] / 65535.0);
+        cluster.weights.push_back(codes[i] / kWeightSum);
     }
 }
 
@@ -51,6 +55,15 @@ DeformedCluster clusterOf(const ClusterGeometry& geometry)
     return cluster;
 }
 
+/// 1 up to rounding where the codes sum as they have to.
+double sumOfWeights(const DeformedCluster& cluster, size_t vertex)
+{
+    double sum = 0;
+    for (size_t i = vertex * cluster.influences; i < (vertex + 1) * cluster.influences; ++i)
+        sum += cluster.weights[i] * kWeightSum;
+    return std::round(sum) / kWeightSum;
+}
+
 Status checkCluster(const PackView& part, uint32_t number, const DeformedCluster& cluster,
                     uint32_t joint_count, uint32_t target_count)
 {
@@ -58,9 +71,15 @@ Status checkCluster(const PackView& part, uint32_t number, const DeformedCluster
     { return std::all_of(values.begin(), values.end(), [&](auto value) { return value < count; }); };
     if (!least(cluster.indices, cluster.positions.size()))
         return fail(part, Issue::meaning_geometry, number, "a triangle points outside of its vertices");
+    if ((joint_count > 0) != (cluster.influences > 0))
+        return fail(part, Issue::meaning_geometry, number,
+                    "it has influences without a skin, or none with one");
     if (!least(cluster.joints, joint_count))
         return fail(part, Issue::meaning_reference, number,
                     "a joint is not one of the " + std::to_string(joint_count) + " of its skin");
+    for (size_t v = 0; v < cluster.positions.size() && joint_count > 0; ++v)
+        if (sumOfWeights(cluster, v) != 1)
+            return fail(part, Issue::meaning_geometry, number, "the weights of a vertex do not sum to 1");
     for (const MorphDeltas& morph : cluster.morphs)
         if (morph.target >= target_count)
             return fail(part, Issue::meaning_reference, number,

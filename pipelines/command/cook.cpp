@@ -77,14 +77,20 @@ void addSource(Plan& plan, const std::string& programs, const std::string& folde
         plan.back().command.insert(plan.back().command.end(), {"--profile", options.profile});
     if (!options.report_file.empty())
         plan.back().command.insert(plan.back().command.end(), {"--stats", statisticsFile(folder, index)});
+    plan.push_back({"skinning",
+                    index,
+                    {programs + "/hearth-skinning", part("import"), part("clusters"), "-o", part("skinning")},
+                    part("skinning"),
+                    {plan.size() - 1},
+                    source});
 }
 
 void addLink(Plan& plan, const std::string& programs, const std::string& packed, const CookOptions& options)
 {
     Stage link{"link", options.sources.size(), {programs + "/hearth-link"}, packed, {}, options.output};
-    // the link reads import, clusters and textures parts, in this order
-    for (size_t first = 0; first < plan.size(); first += 3)
-        for (const size_t part : {first, first + 2, first + 1})
+    // the link reads import, clusters, textures and skinning parts, in this order
+    for (size_t first = 0; first < plan.size(); first += 4)
+        for (const size_t part : {first, first + 2, first + 1, first + 3})
             link.command.push_back(plan[part].output);
     link.command.insert(link.command.end(), {"-o", packed});
     for (size_t i = 0; i < plan.size(); ++i)

@@ -27,7 +27,7 @@ struct CookOptions
 /// One cooker's run.
 struct StageRecord
 {
-    std::string stage; ///< "import", "clusters", "textures", "link"
+    std::string stage; ///< "import", "clusters", "textures", "skinning", "link"
     size_t source = 0; ///< index of the source; their number for the link
     double seconds = 0;
     double cpu_seconds = 0;

@@ -6,6 +6,7 @@
 #include "pipelines/link/merged_meta.h"
 #include "pipelines/link/rebase.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -28,6 +29,8 @@ struct Source
     PackView import_part;
     PackView clusters_part;
     PackView textures_part;
+    PackView skinning_part;
+    Records<DeformedGroupRecord> deformed_groups; ///< of the skinning part
     Offsets offsets;
 };
 
@@ -63,6 +66,12 @@ Status checkTogether(const Source& source)
     const uint64_t images = source.import_part.images().size();
     if (source.textures_part.images().size() != images)
         return differ(source.textures_part, "images", source.textures_part.images().size(), images);
+    for (const DeformedGroupRecord& group : source.deformed_groups.span())
+        if (group.group >= source.clusters_part.groups().size())
+            return Error{Issue::meaning_reference, source.skinning_part.name(), "",
+                         "has a sphere for group " + std::to_string(group.group) +
+                             ", the clusters part has " +
+                             std::to_string(source.clusters_part.groups().size())};
     return success();
 }
 
@@ -71,7 +80,11 @@ Result<Source> openSource(const SourceParts& parts)
     HEARTH_ASSIGN_OR_RETURN(PackView import_part, openPart(parts.import_part));
     HEARTH_ASSIGN_OR_RETURN(PackView clusters_part, openPart(parts.clusters_part));
     HEARTH_ASSIGN_OR_RETURN(PackView textures_part, openPart(parts.textures_part));
-    Source source{std::move(import_part), std::move(clusters_part), std::move(textures_part), {}};
+    HEARTH_ASSIGN_OR_RETURN(PackView skinning_part, openPart(parts.skinning_part));
+    HEARTH_ASSIGN_OR_RETURN(Records<DeformedGroupRecord> deformed_groups,
+                            skinning_part.container().records<DeformedGroupRecord>(kChunkDeformedGroups));
+    Source source{std::move(import_part),   std::move(clusters_part),   std::move(textures_part),
+                  std::move(skinning_part), std::move(deformed_groups), {}};
     HEARTH_TRY(checkTogether(source));
     return source;
 }
@@ -95,6 +108,7 @@ bool advancePast(const Source& source, Offsets& next)
 {
     const PackView& scene = source.import_part;
     const PackView& meshes = source.clusters_part;
+    const PackView& deformed = source.skinning_part;
     next = source.offsets;
     next.strings = source.offsets.mesh_strings;
     next.page_bytes += alignedPageBytes(meshes);
@@ -107,7 +121,9 @@ bool advancePast(const Source& source, Offsets& next)
            advance(next.meshes, meshes.meshes().size()) && advance(next.levels, meshes.levels().size()) &&
            advance(next.groups, meshes.groups().size()) && advance(next.clusters, meshes.clusters().size()) &&
            advance(next.pages, meshes.pages().size()) &&
-           advance(next.page_parents, meshes.pageParents().size());
+           advance(next.page_parents, meshes.pageParents().size()) &&
+           advance(next.deformed_clusters, deformed.deformedClusters().size()) &&
+           advance(next.cluster_joints, deformed.clusterJoints().size());
 }
 
 /// Give every source its place in the merged tables.
@@ -181,16 +197,56 @@ Status writeScene(ContainerWriter& writer, std::span<const Source> sources)
     return write(kChunkMorphWeights, &PackView::morphWeights);
 }
 
+/// The groups of all sources; those of deformed meshes with the spheres that hold in all poses.
+Status writeGroups(ContainerWriter& writer, std::span<const Source> sources)
+{
+    std::vector<GroupRecord> merged;
+    for (const Source& source : sources)
+    {
+        const size_t first = merged.size();
+        for (GroupRecord group : source.clusters_part.groups())
+        {
+            rebase(group, source.offsets);
+            merged.push_back(group);
+        }
+        for (const DeformedGroupRecord& deformed : source.deformed_groups.span())
+        {
+            merged[first + deformed.group].sphere_center = deformed.sphere_center;
+            merged[first + deformed.group].sphere_radius = deformed.sphere_radius;
+        }
+    }
+    return writer.addRecords<GroupRecord>(kChunkGroups, merged);
+}
+
 Status writeMeshes(ContainerWriter& writer, std::span<const Source> sources)
 {
     const auto write = [&]<typename T>(uint32_t type, std::span<const T> (PackView::*table)() const)
     { return writeTable(writer, sources, type, &Source::clusters_part, table); };
     HEARTH_TRY(write(kChunkMeshes, &PackView::meshes));
     HEARTH_TRY(write(kChunkLevels, &PackView::levels));
-    HEARTH_TRY(write(kChunkGroups, &PackView::groups));
+    HEARTH_TRY(writeGroups(writer, sources));
     HEARTH_TRY(write(kChunkClusters, &PackView::clusters));
     HEARTH_TRY(write(kChunkPageTable, &PackView::pages));
     return write(kChunkPageParents, &PackView::pageParents);
+}
+
+/// Bounds of deformed meshes; no chunks where no source has any.
+Status writeDeformedMeshes(ContainerWriter& writer, std::span<const Source> sources)
+{
+    const auto write = [&]<typename T>(uint32_t type, std::span<const T> (PackView::*table)() const)
+    { return writeTable(writer, sources, type, &Source::skinning_part, table); };
+    const auto isDeformed = [](const Source& source)
+    { return !source.skinning_part.deformedMeshes().empty(); };
+    if (std::none_of(sources.begin(), sources.end(), isDeformed))
+        return success();
+    HEARTH_TRY(write(kChunkDeformedMeshes, &PackView::deformedMeshes));
+    HEARTH_TRY(write(kChunkDeformedClusters, &PackView::deformedClusters));
+    // joints are counted in their skin: nothing to move
+    std::vector<uint32_t> joints;
+    for (const Source& source : sources)
+        joints.insert(joints.end(), source.skinning_part.clusterJoints().begin(),
+                      source.skinning_part.clusterJoints().end());
+    return writer.addRecords<uint32_t>(kChunkClusterJoints, joints);
 }
 
 Status writePages(ContainerWriter& writer, std::span<const Source> sources)
@@ -226,6 +282,7 @@ Status writePack(const std::string& path, std::span<const Source> sources)
     HEARTH_TRY(writeStrings(writer, sources));
     HEARTH_TRY(writeScene(writer, sources));
     HEARTH_TRY(writeMeshes(writer, sources));
+    HEARTH_TRY(writeDeformedMeshes(writer, sources));
     HEARTH_TRY(writePages(writer, sources));
     for (const Source& source : sources)
         HEARTH_TRY(copyChunks(writer, source.clusters_part, kChunkDeformation, source.offsets.meshes));

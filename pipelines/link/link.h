@@ -16,11 +16,12 @@ struct SourceParts
     std::string import_part;
     std::string clusters_part;
     std::string textures_part;
+    std::string skinning_part;
 };
 
 /// Write the pack of all sources, their scenes side by side: the records of each source follow those of the one
 /// before it, with their indices moved. One source is the merge of one. Texels and pages are copied as they are
-/// stored, a piece at a time.
+/// stored, a piece at a time. Groups of deformed meshes get the spheres of the skinning part.
 /// The pack is checked as a whole before it appears under `output`; on an error nothing appears.
 /// errors: those of reading the parts; meaning_reference where parts do not belong together; input_too_large where
 /// the tables grow past 32-bit indices; cannot_write; those of checkPack.

@@ -1,4 +1,4 @@
-// hearth-link: merges import, clusters and textures parts into a pack.
+// hearth-link: merges import, clusters, textures and skinning parts into a pack.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "formats/program.h"
 #include "pipelines/link/link.h"
@@ -15,13 +15,13 @@ int program(int argc, char** argv)
     CLI::App app("Merge the parts of one or more sources into a pack.", "hearth-link");
     std::vector<std::string> parts;
     std::string output;
-    app.add_option("PARTS", parts, "import part, clusters part and textures part of each source")->required();
+    app.add_option("PARTS", parts, "import, clusters, textures and skinning part of each source")->required();
     app.add_option("-o,--output", output, "pack to write")->required();
     try
     {
         app.parse(argc, argv);
-        if (parts.size() % 3 != 0)
-            throw CLI::ValidationError("PARTS", "three parts are needed for each source");
+        if (parts.size() % 4 != 0)
+            throw CLI::ValidationError("PARTS", "four parts are needed for each source");
     }
     catch (const CLI::CallForHelp&)
     {
@@ -36,8 +36,8 @@ int program(int argc, char** argv)
     }
 
     std::vector<hearth::link::SourceParts> sources;
-    for (size_t i = 0; i < parts.size(); i += 3)
-        sources.push_back({parts[i], parts[i + 1], parts[i + 2]});
+    for (size_t i = 0; i < parts.size(); i += 4)
+        sources.push_back({parts[i], parts[i + 1], parts[i + 2], parts[i + 3]});
     const hearth::Status status = hearth::link::linkPack(sources, output);
     if (status.ok())
         return 0;

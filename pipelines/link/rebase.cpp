@@ -144,6 +144,18 @@ void rebase(PageRecord& page, const Offsets& offsets)
     shift(page.parents, offsets.page_parents);
 }
 
+void rebase(DeformedMeshRecord& mesh, const Offsets& offsets)
+{
+    shift(mesh.mesh, offsets.meshes);
+    shift(mesh.skin, offsets.skins);
+    shift(mesh.clusters, offsets.deformed_clusters);
+}
+
+void rebase(DeformedClusterRecord& cluster, const Offsets& offsets)
+{
+    shift(cluster.joints, offsets.cluster_joints);
+}
+
 void rebase(uint32_t& page_parent, const Offsets& offsets)
 {
     shift(page_parent, offsets.pages);

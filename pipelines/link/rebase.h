@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
+#include "formats/deformation.h"
 #include "formats/mesh.h"
 #include "formats/scene.h"
 
@@ -28,6 +29,8 @@ struct Offsets
     uint32_t clusters = 0;
     uint32_t pages = 0;
     uint32_t page_parents = 0;
+    uint32_t deformed_clusters = 0;
+    uint32_t cluster_joints = 0;
     uint64_t page_bytes = 0; ///< in chunk PAGE
 };
 
@@ -47,6 +50,8 @@ void rebase(formats::LevelRecord& level, const Offsets& offsets);
 void rebase(formats::GroupRecord& group, const Offsets& offsets);
 void rebase(formats::ClusterRecord& cluster, const Offsets& offsets);
 void rebase(formats::PageRecord& page, const Offsets& offsets);
+void rebase(formats::DeformedMeshRecord& mesh, const Offsets& offsets);
+void rebase(formats::DeformedClusterRecord& cluster, const Offsets& offsets);
 void rebase(uint32_t& page_parent, const Offsets& offsets);
 inline void rebase(float&, const Offsets&) {} ///< keys and morph weights refer to nothing
 

@@ -44,6 +44,10 @@ if [ "$4" = "--stats" ]; then echo '{"meshes": [{"name": "strip"}], "totals": {"
 cp "PARTS.clusters.part" "$3"
 )";
 
+constexpr const char* kSkinning = R"(#!/bin/sh
+cp "PARTS.skinning.part" "$4"
+)";
+
 std::string withParts(std::string script, const std::string& parts)
 {
     return script.replace(script.find("PARTS"), 5, parts);
@@ -62,6 +66,7 @@ protected:
         programs.write("hearth-import", withParts(kImport, parts), true);
         programs.write("hearth-textures", withParts(kTextures, parts), true);
         programs.write("hearth-clusters", withParts(kClusters, parts), true);
+        programs.write("hearth-skinning", withParts(kSkinning, parts), true);
         std::filesystem::copy(HEARTH_BIN "/hearth", programs / "hearth");
         std::filesystem::copy(HEARTH_BIN "/hearth-link", programs / "hearth-link");
     }
@@ -101,7 +106,7 @@ TEST_F(Cook, makesAPackAndLeavesNothingElse)
     EXPECT_EQ(end.out, "");
     EXPECT_EQ(folder.list(), std::vector<std::string>{"a.hearth"});
     EXPECT_TRUE(command::verifyFile(folder / "a.hearth").ok());
-    for (const char* stage : {"import", "textures", "clusters", "link", "cooked"})
+    for (const char* stage : {"import", "textures", "clusters", "skinning", "link", "cooked"})
         EXPECT_EQ(countOf(end.err, std::string(stage) + " "), 1u) << end.err;
     EXPECT_EQ(end.err.find('\033'), std::string::npos) << "colour without a terminal";
 }
@@ -263,7 +268,7 @@ TEST_F(Cook, reportsWhatItDid)
     EXPECT_EQ(report["totals"]["bytes_out"], folder.read("a.hearth").size());
     EXPECT_EQ(report["totals"]["bytes_in"], 100);
     EXPECT_EQ(report["assets"][0]["source"], "warning.gltf");
-    EXPECT_EQ(report["assets"][0]["stages"].size(), 3u);
+    EXPECT_EQ(report["assets"][0]["stages"].size(), 4u);
     EXPECT_EQ(report["assets"][0]["clusters"]["meshes"][0]["name"], "strip");
     EXPECT_EQ(report["assets"][0]["clusters"]["totals"]["triangles"], 8);
     EXPECT_EQ(report["link"]["stage"], "link");

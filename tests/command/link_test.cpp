@@ -26,7 +26,8 @@ protected:
     {
         writeParts(pack, sandbox.path(), prefix);
         const std::string path = sandbox / prefix;
-        sources.push_back({path + ".import.part", path + ".clusters.part", path + ".textures.part"});
+        sources.push_back({path + ".import.part", path + ".clusters.part", path + ".textures.part",
+                           path + ".skinning.part"});
     }
 
     /// The small pack as an asset of this name, with every reference that a record can have.
@@ -87,6 +88,9 @@ TEST_F(LinkPack, oneSourceKeepsEveryRecord)
     EXPECT_TRUE(sameBytes(pack.clusters(), model.clusters));
     EXPECT_TRUE(sameBytes(pack.pages(), model.pages));
     EXPECT_TRUE(sameBytes(pack.pageParents(), model.page_parents));
+    EXPECT_TRUE(sameBytes(pack.deformedMeshes(), model.deformed_meshes));
+    EXPECT_TRUE(sameBytes(pack.deformedClusters(), model.deformed_clusters));
+    EXPECT_TRUE(sameBytes(pack.clusterJoints(), model.cluster_joints));
     ASSERT_EQ(pack.meshes().size(), model.meshes.size());
     EXPECT_EQ(pack.text(pack.meshes()[0].name), "strip");
     EXPECT_EQ(pack.text(pack.meshes()[2].name), "triangle");
@@ -101,7 +105,59 @@ TEST_F(LinkPack, oneSourceKeepsEveryRecord)
 TEST_F(LinkPack, leavesOutWhatOnlyCookersNeed)
 {
     addParts(smallPack(), "a");
-    EXPECT_EQ(linked().container().find(kChunkSourceMesh), nullptr);
+    const PackView pack = linked();
+    EXPECT_EQ(pack.container().find(kChunkSourceMesh), nullptr);
+    EXPECT_EQ(pack.container().find(kChunkDeformedGroups), nullptr);
+}
+
+TEST_F(LinkPack, groupsOfDeformedMeshesGetTheirSpheres)
+{
+    PackModel model = smallPack();
+    model.deformed_groups = {{{7, 8, 9}, 5, 3}};
+    addParts(model, "a");
+    model.deformed_groups = {{{4, 5, 6}, 6, 3}};
+    addParts(model, "b");
+    const PackView pack = linked();
+    ASSERT_EQ(pack.groups().size(), 8u);
+    EXPECT_EQ(pack.groups()[3].sphere_center, (Float3{7, 8, 9}));
+    EXPECT_EQ(pack.groups()[3].sphere_radius, 5);
+    EXPECT_EQ(pack.groups()[7].sphere_center, (Float3{4, 5, 6}));
+    EXPECT_EQ(pack.groups()[7].sphere_radius, 6);
+    EXPECT_EQ(pack.groups()[2].sphere_center, model.groups[2].sphere_center);
+}
+
+TEST_F(LinkPack, boundsOfASecondSourceStandBehindTheFirst)
+{
+    addParts(smallPack(), "a");
+    addParts(smallPack(), "b");
+    const PackView pack = linked();
+    ASSERT_EQ(pack.deformedMeshes().size(), 2u);
+    EXPECT_EQ(pack.deformedMeshes()[1].mesh, 5u);
+    EXPECT_EQ(pack.deformedMeshes()[1].skin, 1u);
+    EXPECT_EQ(pack.deformedMeshes()[1].clusters.first, 1u);
+    EXPECT_EQ(pack.deformedClusters()[1].joints.first, 2u);
+    EXPECT_EQ(pack.clusterJoints()[2], 1u) << "joints count in their skin";
+}
+
+TEST_F(LinkPack, refusesASphereOfAGroupThatIsNotThere)
+{
+    PackModel model = smallPack();
+    model.deformed_groups[0].group = 4;
+    addParts(model, "a");
+    EXPECT_EQ(link().error().issue, Issue::meaning_reference);
+}
+
+TEST_F(LinkPack, sourceWithoutDeformedMeshesNeedsNoBounds)
+{
+    PackModel model = smallPack();
+    model.nodes[3].mesh = model.nodes[3].skin = kNone;
+    model.nodes[3].morph_weights = {};
+    model.deformed_meshes.clear();
+    model.deformed_clusters.clear();
+    model.cluster_joints.clear();
+    model.deformed_groups.clear();
+    addParts(model, "a");
+    EXPECT_EQ(linked().container().find(kChunkDeformedMeshes), nullptr);
 }
 
 TEST_F(LinkPack, secondSourceStandsBehindTheFirst)
@@ -190,7 +246,7 @@ TEST_F(LinkPack, sameBytesWhereverItIsDone)
     const auto parts = [&](const std::string& prefix)
     {
         return link::SourceParts{other / (prefix + ".import.part"), other / (prefix + ".clusters.part"),
-                                 other / (prefix + ".textures.part")};
+                                 other / (prefix + ".textures.part"), other / (prefix + ".skinning.part")};
     };
     const link::SourceParts again[] = {parts("x"), parts("y")};
     ASSERT_TRUE(link::linkPack(again, other / "elsewhere.hearth").ok());
@@ -225,7 +281,8 @@ TEST_F(LinkPack, refusesPartsOfDifferentSources)
     other.image_data.pop_back();
     other.materials[0].emissive_texture.image = kNone;
     addParts(other, "b");
-    sources = {{sources[0].import_part, sources[0].clusters_part, sources[1].textures_part}};
+    sources = {{sources[0].import_part, sources[0].clusters_part, sources[1].textures_part,
+                sources[0].skinning_part}};
     const Status status = link();
     ASSERT_FALSE(status.ok());
     EXPECT_EQ(status.error().issue, Issue::meaning_reference);

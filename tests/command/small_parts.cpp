@@ -17,6 +17,8 @@ namespace
 const uint32_t kClusterChunks[] = {kChunkMeshes,    kChunkLevels,      kChunkGroups, kChunkClusters,
                                    kChunkPageTable, kChunkPageParents, kChunkPages,  kChunkDeformation};
 
+const uint32_t kSkinningChunks[] = {kChunkDeformedMeshes, kChunkDeformedClusters, kChunkClusterJoints};
+
 bool isOneOf(uint32_t type, std::span<const uint32_t> types)
 {
     return std::find(types.begin(), types.end(), type) != types.end();
@@ -47,6 +49,7 @@ void writeParts(const PackModel& pack, const std::string& folder, const std::str
     std::vector<ChunkImage> import_chunks;
     std::vector<ChunkImage> clusters_chunks;
     std::vector<ChunkImage> textures_chunks;
+    std::vector<ChunkImage> skinning_chunks;
     const uint32_t shared[] = {kChunkStrings};
     const uint32_t textures[] = {kChunkImages, kChunkImageData};
     for (const ChunkImage& chunk : pack.chunks(true))
@@ -54,7 +57,9 @@ void writeParts(const PackModel& pack, const std::string& folder, const std::str
         const uint32_t type = chunk.entry.type;
         if (isOneOf(type, kClusterChunks) || isOneOf(type, shared))
             clusters_chunks.push_back(chunk);
-        if (!isOneOf(type, kClusterChunks))
+        if (isOneOf(type, kSkinningChunks))
+            skinning_chunks.push_back(chunk);
+        else if (!isOneOf(type, kClusterChunks))
             import_chunks.push_back(chunk);
         if (isOneOf(type, textures))
             textures_chunks.push_back(chunk);
@@ -63,10 +68,14 @@ void writeParts(const PackModel& pack, const std::string& folder, const std::str
     for (uint32_t i = 0; i < pack.meshes.size(); ++i)
         import_chunks.push_back(plainChunk(kChunkSourceMesh, i, 1, std::span(&mesh, 1)));
 
+    skinning_chunks.push_back(plainChunk(kChunkDeformedGroups, 0, sizeof(DeformedGroupRecord),
+                                         std::as_bytes(std::span(pack.deformed_groups))));
+
     const std::string path = folder + "/" + prefix;
     writeFile(path + ".import.part", assemble(ContainerKind::part, import_chunks));
     writeFile(path + ".clusters.part", assemble(ContainerKind::part, clusters_chunks));
     writeFile(path + ".textures.part", assemble(ContainerKind::part, textures_chunks));
+    writeFile(path + ".skinning.part", assemble(ContainerKind::part, skinning_chunks));
 }
 
 void writePackFile(const PackModel& pack, const std::string& path)

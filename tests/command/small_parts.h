@@ -9,8 +9,8 @@
 namespace hearth::test
 {
 
-/// Write import, clusters and textures parts of `pack` as FOLDER/PREFIX.{import,clusters,textures}.part. The string
-/// table stands in both import and clusters parts. Ends the test program where it cannot.
+/// Write import, clusters, textures and skinning parts of `pack` as FOLDER/PREFIX.{import,clusters,textures,skinning}.part.
+/// The string table stands in both import and clusters parts. Ends the test program where it cannot.
 void writeParts(const PackModel& pack, const std::string& folder, const std::string& prefix);
 
 /// A META text as hearth-import writes it, of an asset called `name`.

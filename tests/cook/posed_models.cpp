@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "tests/cook/posed_models.h"
 
+#include "cook/skinning/group_spheres.h"
+#include "cook/skinning/read_clusters.h"
 #include "formats/vertex_codec.h"
 
 #include <algorithm>
-#include <map>
-#include <numeric>
 
 #include <tbb/parallel_for.h>
 
@@ -20,94 +20,13 @@ using skinning::DeformedCluster;
 namespace
 {
 
-constexpr size_t kTriangles = 128;
-
-Float3 bindPosition(const mesh::SourceMesh& mesh, uint32_t vertex)
-{
-    return mesh.bind_pose.positions.empty() ? mesh.positions[vertex] : mesh.bind_pose.positions[vertex];
-}
-
-DeformedCluster clusterOf(const mesh::SourceMesh& mesh, std::span<const uint32_t> triangles)
-{
-    DeformedCluster cluster;
-    std::map<uint32_t, uint32_t> numbers;
-    std::vector<uint32_t> vertices;
-    for (const uint32_t triangle : triangles)
-        for (uint32_t corner = 0; corner < 3; ++corner)
-        {
-            const uint32_t vertex = mesh.indices[triangle * 3 + corner];
-            const auto [at, is_new] = numbers.emplace(vertex, static_cast<uint32_t>(vertices.size()));
-            if (is_new)
-                vertices.push_back(vertex);
-            cluster.indices.push_back(at->second);
-        }
-    cluster.influences = static_cast<uint32_t>(mesh.joint_sets.size() * 4);
-    for (const uint32_t vertex : vertices)
-    {
-        cluster.positions.push_back(bindPosition(mesh, vertex));
-        double sum = 0;
-        for (const auto& set : mesh.weight_sets)
-            sum +=
-                double{set[vertex].x} + double{set[vertex].y} + double{set[vertex].z} + double{set[vertex].w};
-        for (size_t set = 0; set < mesh.joint_sets.size(); ++set)
-        {
-            const Float4 w = mesh.weight_sets[set][vertex];
-            for (const uint16_t joint : mesh.joint_sets[set][vertex].joint)
-                cluster.joints.push_back(joint);
-            for (const float weight : {w.x, w.y, w.z, w.w})
-                cluster.weights.push_back(double{weight} / sum);
-        }
-    }
-    for (uint32_t target = 0; target < mesh.morph_targets.size(); ++target)
-    {
-        const std::vector<Float3>& deltas = mesh.morph_targets[target].positions;
-        if (deltas.empty() ||
-            std::all_of(vertices.begin(), vertices.end(), [&](uint32_t v) { return deltas[v] == Float3{}; }))
-            continue;
-        skinning::MorphDeltas morph{target, {}};
-        for (const uint32_t vertex : vertices)
-            morph.positions.push_back(deltas[vertex]);
-        cluster.morphs.push_back(std::move(morph));
-    }
-    return cluster;
-}
-
-void split(const mesh::SourceMesh& mesh, std::span<uint32_t> triangles,
-           std::vector<DeformedCluster>& clusters)
-{
-    if (triangles.size() <= kTriangles)
-    {
-        clusters.push_back(clusterOf(mesh, triangles));
-        return;
-    }
-    const auto center = [&](uint32_t t)
-    {
-        return bindPosition(mesh, mesh.indices[t * 3]) + bindPosition(mesh, mesh.indices[t * 3 + 1]) +
-               bindPosition(mesh, mesh.indices[t * 3 + 2]);
-    };
-    Box3 box;
-    for (const uint32_t t : triangles)
-        box.add(center(t));
-    const Float3 size = box.max - box.min;
-    const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-    const auto half = triangles.begin() + static_cast<std::ptrdiff_t>(triangles.size() / 2);
-    std::nth_element(triangles.begin(), half, triangles.end(),
-                     [&](uint32_t a, uint32_t b) { return center(a)[axis] < center(b)[axis]; });
-    split(mesh, triangles.first(triangles.size() / 2), clusters);
-    split(mesh, triangles.subspan(triangles.size() / 2), clusters);
-}
-
-struct Vertex
-{
-    Double3 bound;
-};
-
 /// A cluster with its bounds, and how far its vertices have come.
 struct Watched
 {
     const DeformedCluster* cluster;
-    skinning::DeformedBounds bounds;
-    Box3d tight;
+    const DeformedClusterRecord* bounds;
+    Sphere sphere;
+    Box3d tight; ///< in the main bone
     size_t violations = 0;
     double worst = 0;
     size_t facing_wrong = 0;
@@ -131,7 +50,7 @@ Double3 placeOf(const DeformedCluster& cluster, size_t v, std::span<const Affine
 /// Eyes from which the cone says that nothing is to be seen: right at its border.
 void lookAtCone(Watched& watched, std::span<const Double3> places, double angle)
 {
-    const DeformedClusterRecord& record = watched.bounds.record;
+    const DeformedClusterRecord& record = *watched.bounds;
     if (record.cone_cutoff == kNoCone)
         return;
     const Double3 axis = widen(NormalCode<8>::decode(record.cone_axis));
@@ -160,25 +79,44 @@ void lookAtCone(Watched& watched, std::span<const Double3> places, double angle)
     }
 }
 
-void watch(Watched& watched, std::span<const Affine3d> main_from_bind, const std::vector<double>& weights,
-           double angle)
+void note(Watched& watched, double out)
 {
-    const Box3 box{watched.bounds.record.box_min, watched.bounds.record.box_max};
+    if (out <= 0)
+        return;
+    ++watched.violations;
+    watched.worst = std::max(watched.worst, out);
+}
+
+double outside(const Box3& box, Double3 place)
+{
+    const Double3 below = widen(box.min) - place, above = place - widen(box.max);
+    return std::max({below.x, below.y, below.z, above.x, above.y, above.z});
+}
+
+void watchBox(Watched& watched, std::span<const Affine3d> main_from_bind, const std::vector<double>& weights,
+              double angle)
+{
+    const Box3 box{watched.bounds->box_min, watched.bounds->box_max};
     std::vector<Double3> places;
     for (size_t v = 0; v < watched.cluster->positions.size(); ++v)
     {
         const Double3 place = placeOf(*watched.cluster, v, main_from_bind, weights);
         add(watched.tight, place);
-        const Double3 below = widen(box.min) - place, above = place - widen(box.max);
-        const double out = std::max({below.x, below.y, below.z, above.x, above.y, above.z});
-        if (!(out <= 0))
-        {
-            ++watched.violations;
-            watched.worst = std::max(watched.worst, out);
-        }
+        note(watched, outside(box, place));
         places.push_back(place);
     }
     lookAtCone(watched, places, angle);
+}
+
+void watchSphere(Watched& watched, const Box3& mesh_box, std::span<const Affine3d> anchor_from_bind,
+                 const std::vector<double>& weights)
+{
+    for (size_t v = 0; v < watched.cluster->positions.size(); ++v)
+    {
+        const Double3 place = placeOf(*watched.cluster, v, anchor_from_bind, weights);
+        note(watched, length(place - widen(watched.sphere.center)) - double{watched.sphere.radius});
+        note(watched, outside(mesh_box, place));
+    }
 }
 
 /// All joints as one of them sees them; nothing where it is flat in this pose.
@@ -196,24 +134,14 @@ std::optional<std::vector<Affine3d>> seenFrom(std::span<const Affine3d> palette,
 double volumeRatio(const Watched& watched)
 {
     // flat clusters: a thousandth of their size counts as thick
-    const Double3 loose = widen(watched.bounds.record.box_max) - widen(watched.bounds.record.box_min);
+    const Double3 loose = widen(watched.bounds->box_max) - widen(watched.bounds->box_min);
     const double least = 1e-3 * std::max({loose.x, loose.y, loose.z});
     const auto side = [&](const Interval& axis) { return std::max(2 * axis.half(), least); };
     return std::max(loose.x, least) * std::max(loose.y, least) * std::max(loose.z, least) /
            (side(watched.tight[0]) * side(watched.tight[1]) * side(watched.tight[2]));
 }
 
-} // namespace
-
-std::vector<DeformedCluster> clustersOf(const mesh::SourceMesh& mesh)
-{
-    std::vector<uint32_t> triangles(mesh.triangleCount());
-    std::iota(triangles.begin(), triangles.end(), 0u);
-    std::vector<DeformedCluster> clusters;
-    split(mesh, triangles, clusters);
-    return clusters;
-}
-
+/// For each joint the box of the positions that it moves.
 std::vector<Box3d> reachOf(std::span<const DeformedCluster> clusters, uint32_t joints)
 {
     std::vector<Box3d> reach(joints);
@@ -222,6 +150,78 @@ std::vector<Box3d> reachOf(std::span<const DeformedCluster> clusters, uint32_t j
             if (cluster.weights[i] > 0)
                 add(reach[cluster.joints[i]], widen(cluster.positions[i / cluster.influences]));
     return reach;
+}
+
+size_t targetsOf(std::span<const DeformedCluster> clusters)
+{
+    size_t count = 0;
+    for (const DeformedCluster& cluster : clusters)
+        for (const skinning::MorphDeltas& morph : cluster.morphs)
+            count = std::max(count, size_t{morph.target} + 1);
+    return count;
+}
+
+} // namespace
+
+Result<std::vector<PosedMesh>> posedMeshes(const PackView& pack)
+{
+    std::vector<PosedMesh> meshes;
+    for (const DeformedMeshRecord& record : pack.deformedMeshes())
+    {
+        const uint32_t joints = record.skin == kNone ? 0 : pack.skins()[record.skin].joints.count;
+        PosedMesh mesh;
+        mesh.skin = record.skin;
+        mesh.anchor = record.anchor;
+        mesh.box = {record.box_min, record.box_max};
+        HEARTH_ASSIGN_OR_RETURN(mesh.clusters, skinning::readClusters(pack, record.mesh, joints));
+        const std::span<const DeformedClusterRecord> bounds =
+            pack.deformedClusters().subspan(record.clusters.first, record.clusters.count);
+        mesh.bounds.assign(bounds.begin(), bounds.end());
+        const Range clusters = pack.meshes()[record.mesh].clusters;
+        for (const ClusterRecord& cluster : pack.clusters().subspan(clusters.first, clusters.count))
+        {
+            const GroupRecord& group = pack.groups()[cluster.group];
+            mesh.spheres.push_back({group.sphere_center, group.sphere_radius});
+        }
+        for (uint32_t node = 0; node < pack.nodes().size(); ++node)
+            if (pack.nodes()[node].mesh == record.mesh)
+            {
+                mesh.node = node;
+                meshes.push_back(mesh);
+            }
+    }
+    return meshes;
+}
+
+void computeBounds(const MotionTables& tables, PosedMesh& mesh)
+{
+    const std::vector<motion::NodeMotion> nodes = motion::nodeMotions(tables);
+    const std::vector<Interval> morph_weights =
+        motion::morphWeightRanges(tables, mesh.node, targetsOf(mesh.clusters));
+    const uint32_t joints = mesh.skin == kNone ? 0 : tables.skins[mesh.skin].joints.count;
+    const std::vector<Box3d> reach = reachOf(mesh.clusters, joints);
+    std::optional<motion::SkinMotion> skin;
+    if (mesh.skin != kNone)
+        skin.emplace(tables, nodes, mesh.skin, reach);
+    const skinning::Deformation deformation{skin ? &*skin : nullptr, morph_weights};
+    std::vector<GroupRecord> groups;
+    std::vector<ClusterRecord> clusters;
+    for (uint32_t i = 0; i < mesh.clusters.size(); ++i)
+    {
+        mesh.bounds.push_back(boundsOf(mesh.clusters[i], deformation).record);
+        GroupRecord group{};
+        group.clusters = {i, 1};
+        groups.push_back(group);
+        ClusterRecord cluster{};
+        cluster.group = i;
+        cluster.refined_group = kNone;
+        clusters.push_back(cluster);
+    }
+    const skinning::AnchoredBounds anchored =
+        skinning::anchoredBounds({groups, clusters, 0, 0}, mesh.clusters, deformation, reach);
+    mesh.anchor = anchored.anchor;
+    mesh.box = anchored.box;
+    mesh.spheres = anchored.spheres;
 }
 
 PoseSource::PoseSource(const MotionTables& tables, uint32_t seed)
@@ -272,6 +272,9 @@ const ScenePose& PoseSource::next()
     // half of the poses are those of one clip alone
     const double weight = random_() % 2 == 0 ? 0.0 : std::uniform_real_distribution<double>(0, 1)(random_);
     blendPoses(from_, to_, weight, blend_);
+    if (random_() % 2 == 0)
+        for (double& morph_weight : blend_.morph_weights)
+            morph_weight = std::clamp(std::uniform_real_distribution<double>(-0.5, 1.5)(random_), 0.0, 1.0);
     return place();
 }
 
@@ -284,20 +287,23 @@ std::vector<Affine3d> PoseSource::palette(uint32_t skin, uint32_t node) const
     return palette;
 }
 
+BoundsFigures& operator+=(BoundsFigures& a, const BoundsFigures& b)
+{
+    a.clusters += b.clusters;
+    a.poses += b.poses;
+    a.violations += b.violations;
+    a.worst = std::max(a.worst, b.worst);
+    a.volume_ratio += b.volume_ratio;
+    a.cones += b.cones;
+    a.facing_wrong += b.facing_wrong;
+    return a;
+}
+
 BoundsFigures checkBounds(const MotionTables& tables, const PosedMesh& mesh, size_t poses, uint32_t seed)
 {
-    const std::vector<motion::NodeMotion> nodes = motion::nodeMotions(tables);
-    std::optional<motion::SkinMotion> skin;
-    if (mesh.skin != kNone)
-        skin.emplace(tables, nodes, mesh.skin, mesh.reach);
-    const skinning::Deformation deformation{skin ? &*skin : nullptr, mesh.morph_weights};
-    std::vector<Watched> watched(mesh.clusters.size());
-    tbb::parallel_for(size_t{0}, watched.size(),
-                      [&](size_t i)
-                      {
-                          watched[i].cluster = &mesh.clusters[i];
-                          watched[i].bounds = boundsOf(mesh.clusters[i], deformation);
-                      });
+    std::vector<Watched> watched;
+    for (size_t i = 0; i < mesh.clusters.size(); ++i)
+        watched.push_back({&mesh.clusters[i], &mesh.bounds[i], mesh.spheres[i], {}});
     PoseSource source(tables, seed);
     std::mt19937 random(seed + 1);
     for (size_t p = 0; p < poses; ++p)
@@ -305,31 +311,39 @@ BoundsFigures checkBounds(const MotionTables& tables, const PosedMesh& mesh, siz
         const ScenePose& pose = p == 0 ? source.rest() : source.next();
         const std::vector<Affine3d> palette = source.palette(mesh.skin, mesh.node);
         std::vector<std::optional<std::vector<Affine3d>>> seen(palette.size());
-        for (const Watched& w : watched)
-            if (const uint32_t main = w.bounds.record.joint; !seen[main])
+        const auto see = [&](uint32_t main)
+        {
+            if (!seen[main])
                 seen[main] = seenFrom(palette, main);
+        };
+        see(mesh.anchor);
+        for (const Watched& w : watched)
+            see(w.bounds->joint);
         const Range range = tables.nodes[mesh.node].morph_weights;
-        const std::vector<double> weights(pose.morph_weights.begin() + range.first,
-                                          pose.morph_weights.begin() + range.first + range.count);
+        std::vector<double> weights(pose.morph_weights.begin() + range.first,
+                                    pose.morph_weights.begin() + range.first + range.count);
+        weights.resize(std::max(weights.size(), targetsOf(mesh.clusters)));
         const double angle = std::uniform_real_distribution<double>(0, 6.283)(random);
         tbb::parallel_for(size_t{0}, watched.size(),
                           [&](size_t i)
                           {
-                              if (const auto& matrices = seen[watched[i].bounds.record.joint])
-                                  watch(watched[i], *matrices, weights, angle);
+                              if (const auto& matrices = seen[watched[i].bounds->joint])
+                                  watchBox(watched[i], *matrices, weights, angle);
+                              if (const auto& matrices = seen[mesh.anchor])
+                                  watchSphere(watched[i], mesh.box, *matrices, weights);
                           });
     }
     BoundsFigures figures;
+    figures.clusters = watched.size();
+    figures.poses = poses;
     for (const Watched& w : watched)
     {
         figures.violations += w.violations;
         figures.worst = std::max(figures.worst, w.worst);
-        if (getenv("DBG")) { auto&r=w.bounds.record; printf("  main %d joints", r.joint); for (auto j: w.bounds.joints) { double sum=0; for(size_t i=0;i<w.cluster->joints.size();++i) if(w.cluster->joints[i]==j) sum+=w.cluster->weights[i]; printf(" %u(%.0f)", j,sum);} printf(" ratio %.2f  axes", volumeRatio(w)); for(int a=0;a<3;++a) printf(" %.3f/%.3f", r.box_max[a]-r.box_min[a], 2*w.tight[size_t(a)].half()); printf("\n"); }
-        figures.volume_ratio += volumeRatio(w) / static_cast<double>(watched.size());
+        figures.volume_ratio += volumeRatio(w);
         figures.facing_wrong += w.facing_wrong;
-        figures.cones += w.bounds.record.cone_cutoff != kNoCone ? 1 : 0;
+        figures.cones += w.bounds->cone_cutoff != kNoCone ? 1 : 0;
     }
-    figures.clusters = watched.size();
     return figures;
 }
 

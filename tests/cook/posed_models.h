@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include "cook/mesh/source_mesh.h"
 #include "cook/skinning/cluster_bounds.h"
 #include "formats/animation.h"
 #include "formats/pack_view.h"
@@ -16,24 +15,26 @@
 namespace hearth::test
 {
 
-/// A mesh as one node of a scene deforms it.
+/// A mesh as one node of a scene deforms it, and the bounds that it is to keep.
 struct PosedMesh
 {
     uint32_t node = 0;
     uint32_t skin = formats::kNone;
     std::vector<skinning::DeformedCluster> clusters;
-    std::vector<motion::Interval> morph_weights;
-    std::vector<motion::Box3d> reach; ///< by joint
+    std::vector<formats::DeformedClusterRecord> bounds; ///< one for each cluster
+    uint32_t anchor = 0;
+    std::vector<Sphere> spheres; ///< in the anchor: of each cluster's group
+    Box3 box;                    ///< in the anchor
 };
 
-/// Clusters of at most 128 triangles that lie together, in the bind pose. morph targets that move none of a cluster's
-/// vertices are left out of it.
-std::vector<skinning::DeformedCluster> clustersOf(const mesh::SourceMesh& mesh);
+/// The deformed meshes of a pack, once for each node that draws one.
+Result<std::vector<PosedMesh>> posedMeshes(const formats::PackView& pack);
 
-/// For each joint the box of the positions that it moves.
-std::vector<motion::Box3d> reachOf(std::span<const skinning::DeformedCluster> clusters, uint32_t joints);
+/// Bounds of clusters that stand alone, each in a group of its own.
+void computeBounds(const formats::MotionTables& tables, PosedMesh& mesh);
 
-/// A pose of the scene: what its clips, or a blend of two of them, make of it at random times.
+/// Poses of a scene: the rest pose, then what its clips, or blends of two of them, make of it at random times, half of
+/// them with random morph weights from 0 to 1.
 class PoseSource
 {
 public:
@@ -59,15 +60,18 @@ private:
 /// What a test of a mesh's bounds found.
 struct BoundsFigures
 {
-    size_t violations = 0;
-    double worst = 0;        ///< metres outside of a box
-    double volume_ratio = 0; ///< of each box to the smallest around its vertices in all poses, on average
     size_t clusters = 0;
-    size_t cones = 0;        ///< that can cull
-    size_t facing_wrong = 0; ///< triangles that face an eye which their cone's cluster is culled for
+    size_t poses = 0;
+    size_t violations = 0; ///< vertices outside of a box or sphere
+    double worst = 0;      ///< metres outside of it
+    double volume_ratio =
+        0;            ///< of each cluster's box to the smallest around its vertices in all poses: the sum
+    size_t cones = 0; ///< that can cull
+    size_t facing_wrong = 0; ///< triangles that face an eye for which their cone says that none does
 };
+BoundsFigures& operator+=(BoundsFigures& a, const BoundsFigures& b);
 
-/// Hold the bounds of a mesh's clusters against `poses` poses.
+/// Hold the bounds of a mesh against `poses` poses, computed by the definition.
 BoundsFigures checkBounds(const formats::MotionTables& tables, const PosedMesh& mesh, size_t poses,
                           uint32_t seed);
 

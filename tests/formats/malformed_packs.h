@@ -34,4 +34,7 @@ const std::vector<MalformedPack>& malformedScenes();
 /// Wrong meshes, levels, groups, clusters, pages and geometry.
 const std::vector<MalformedPack>& malformedHierarchies();
 
+/// Wrong bounds of deformed meshes.
+const std::vector<MalformedPack>& malformedDeformations();
+
 } // namespace hearth::test

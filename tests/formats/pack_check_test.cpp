@@ -92,6 +92,8 @@ TEST_P(MalformedPackTest, isRefusedAsItsIssue)
 
 constexpr auto kCaseName = [](const testing::TestParamInfo<MalformedPack>& info) { return info.param.name; };
 INSTANTIATE_TEST_SUITE_P(Scene, MalformedPackTest, testing::ValuesIn(malformedScenes()), kCaseName);
+INSTANTIATE_TEST_SUITE_P(Deformation, MalformedPackTest, testing::ValuesIn(malformedDeformations()),
+                         kCaseName);
 INSTANTIATE_TEST_SUITE_P(Hierarchy, MalformedPackTest, testing::ValuesIn(malformedHierarchies()), kCaseName);
 
 TEST(MalformedPacks, haveOneForEveryIssueOfMeaning)

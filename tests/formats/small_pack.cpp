@@ -260,6 +260,26 @@ std::vector<std::byte> deformation()
     return bytes;
 }
 
+/// Bounds of the triangle, whose two joints never move.
+void addBounds(PackModel& pack)
+{
+    DeformedMeshRecord mesh{};
+    mesh.mesh = 2;
+    mesh.clusters = {0, 1};
+    mesh.box_max = {1.5f, 0.5f, 1};
+    pack.deformed_meshes.push_back(mesh);
+    DeformedClusterRecord cluster{};
+    cluster.joint = 1;
+    cluster.box_max = mesh.box_max;
+    cluster.cone_cutoff = kNoCone;
+    cluster.joints = {0, 2};
+    pack.deformed_clusters.push_back(cluster);
+    pack.cluster_joints = {1, 0};
+    const GroupRecord& group = pack.groups.back();
+    pack.deformed_groups.push_back(
+        {group.sphere_center, group.sphere_radius, static_cast<uint32_t>(pack.groups.size() - 1)});
+}
+
 void addNodes(PackModel& pack)
 {
     NodeRecord node{};
@@ -451,12 +471,9 @@ std::vector<ChunkImage> PackModel::chunks(bool compressed) const
     table(kChunkClusters, clusters);
     table(kChunkPageTable, pages);
     table(kChunkPageParents, page_parents);
-    if (!deformed_meshes.empty())
-    {
-        table(kChunkDeformedMeshes, deformed_meshes);
-        table(kChunkDeformedClusters, deformed_clusters);
-        table(kChunkClusterJoints, cluster_joints);
-    }
+    table(kChunkDeformedMeshes, deformed_meshes);
+    table(kChunkDeformedClusters, deformed_clusters);
+    table(kChunkClusterJoints, cluster_joints);
     list.push_back(plainChunk(kChunkPages, 0, 1, page_bytes));
     for (uint32_t i = 0; i < deformations.size(); ++i)
         if (!deformations[i].empty())
@@ -477,6 +494,7 @@ PackModel smallPack()
     beginMesh(pack, "empty", 0);
     endMesh(pack, 0);
     addTriangle(pack);
+    addBounds(pack);
     pack.deformations = {{}, {}, deformation()};
     pack.sealPages();
     return pack;

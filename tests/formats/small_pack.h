@@ -39,11 +39,12 @@ struct PackModel
     std::vector<formats::PageRecord> pages;
     std::vector<uint32_t> page_parents;
     std::vector<std::vector<std::byte>> decoded_pages;
-    std::vector<std::byte> page_bytes;                ///< chunk PAGE
+    std::vector<std::byte> page_bytes; ///< chunk PAGE
     std::vector<formats::DeformedMeshRecord> deformed_meshes;
     std::vector<formats::DeformedClusterRecord> deformed_clusters;
     std::vector<uint32_t> cluster_joints;
-    std::vector<std::vector<std::byte>> deformations; ///< chunk DEFM of each mesh; none where empty
+    std::vector<formats::DeformedGroupRecord> deformed_groups; ///< in parts alone
+    std::vector<std::vector<std::byte>> deformations;          ///< chunk DEFM of each mesh; none where empty
 
     /// Encode decoded_pages into page_bytes again, and set offset, size and hash of the page records.
     /// The second page is stored as it is, the others by zstd.

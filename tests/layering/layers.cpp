@@ -19,15 +19,16 @@ struct Layer
     Folders may_include; ///< besides itself
 };
 
-// The first line that a path starts with holds. A folder of cook/ that is not named sees formats, cook/tools and
-// cook/mesh only.
+// The first line that a path starts with holds. A folder of cook/ that is not named sees formats, cook/tools, cook/mesh
+// and cook/motion only.
 const std::vector<Layer>& layers()
 {
     static const std::vector<Layer> list = {
         {"formats/", {}},
         {"cook/tools/", {"formats/"}},
         {"cook/mesh/", {"formats/"}},
-        {"cook/", {"formats/", "cook/tools/", "cook/mesh/"}},
+        {"cook/motion/", {"formats/"}},
+        {"cook/", {"formats/", "cook/tools/", "cook/mesh/", "cook/motion/"}},
         // extract draws the cut that the runtime would draw
         {"pipelines/command/", {"formats/", "cook/", "pipelines/", "runtime/pack/"}},
         {"pipelines/", {"formats/", "cook/", "pipelines/"}},

@@ -29,6 +29,8 @@ const char* pathOf(Program program)
         return HEARTH_CLUSTERS_PROGRAM;
     case Program::textures:
         return HEARTH_TEXTURES_PROGRAM;
+    case Program::skinning:
+        return HEARTH_SKINNING_PROGRAM;
     case Program::link:
         return HEARTH_LINK_PROGRAM;
     case Program::hearth:
@@ -109,6 +111,7 @@ CookedSample::CookedSample(const SampleSpec& spec)
 {
     const std::string source = folder_.path("sample.glb"), part = folder_.path("import.part");
     const std::string clusters = folder_.path("clusters.part"), textures = folder_.path("textures.part");
+    const std::string skinning = folder_.path("skinning.part");
     pack_path_ = folder_.path("sample.hearth");
     std::vector<std::string> arguments{spec.kind, "-o", source, "--texture-size",
                                        std::to_string(spec.texture_size)};
@@ -118,7 +121,8 @@ CookedSample::CookedSample(const SampleSpec& spec)
     mustRun(Program::import, {source, "-o", part});
     mustRun(Program::clusters, {part, "-o", clusters});
     mustRun(Program::textures, {part, "-o", textures});
-    mustRun(Program::link, {part, clusters, textures, "-o", pack_path_});
+    mustRun(Program::skinning, {part, clusters, "-o", skinning});
+    mustRun(Program::link, {part, clusters, textures, skinning, "-o", pack_path_});
 
     pack_ = std::make_unique<pack::Pack>(must(pack::Pack::open(pack_path_)));
     geometry_ =

@@ -26,6 +26,7 @@ enum class Program
     import,
     clusters,
     textures,
+    skinning,
     link,
     hearth,
     render,
