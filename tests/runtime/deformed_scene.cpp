@@ -302,7 +302,7 @@ DeformedScene::DeformedScene(const DeformedSceneOptions& options, uint32_t seed)
     addDeformed(test_.addMesh(blob), kNone, 1, options.pose_count, random);
     addInstances(meshes_.back(), options.blobs, random);
 
-    const PackView unbounded = test_.build();
+    const PackView unbounded = test_.assemble();
     {
         auto geometry = reference::PackGeometry::decode(unbounded);
         HEARTH_ASSERT(geometry.ok());
