@@ -121,6 +121,9 @@ void appendVertex(mesh::SourceMesh& to, const mesh::SourceMesh& from, uint32_t v
 
 void appendVertices(mesh::SourceMesh& to, const mesh::SourceMesh& from)
 {
+    // one without vertices does not say how many sets and targets there are
+    if (from.positions.empty())
+        return;
     forEachArray(to, from,
                  [](auto& target, const auto& source)
                  { target.insert(target.end(), source.begin(), source.end()); });

@@ -188,12 +188,13 @@ HEARTH_FUNCTION Float3 clusterBoxMax(HEARTH_IN(Cluster) cluster, float grid_step
     return corner;
 }
 
-/// The axis of the cluster's normal cone, 127 times as long as its octahedral code's point: whole numbers.
-HEARTH_FUNCTION Float3 coneRay(HEARTH_IN(Cluster) cluster)
+/// The axis of a normal cone, 127 times as long as its octahedral code's point: whole numbers.
+/// axis  two signed bytes, in the low half
+HEARTH_FUNCTION Float3 coneRay(uint axis)
 {
     // the sign of each byte comes down with the shift
-    float x = float(int(cluster.cone << 24) >> 24);
-    float y = float(int(cluster.cone << 16) >> 24);
+    float x = float(int(axis << 24) >> 24);
+    float y = float(int(axis << 16) >> 24);
     HEARTH_PRECISE float z = 127.0f - abs(x) - abs(y);
     if (z >= 0.0f)
         return Float3(x, y, z);
@@ -202,32 +203,65 @@ HEARTH_FUNCTION Float3 coneRay(HEARTH_IN(Cluster) cluster)
     return Float3(folded_x, folded_y, z);
 }
 
-/// True where every triangle of the cluster faces away from the eye. In object space, where any affine matrix,
-/// mirrored or sheared, leaves the facing as it is. Not for double-sided materials.
-HEARTH_FUNCTION bool coneFacesAway(HEARTH_IN(InstanceState) state, HEARTH_IN(Cluster) cluster)
+/// Where the eye is in the space of what a matrix carries.
+struct ObjectEye
 {
-    uint cutoff_code = cluster.cone >> 16;
+    Float3 position;
+    float slack; ///< how far it may be off through rounding
+};
+
+/// offset  of the eye from where the matrix carries the origin, world axes
+HEARTH_FUNCTION ObjectEye objectEye(HEARTH_IN(InstanceInverse) inverse, Float3 offset)
+{
+    Float3 row_x = row3(inverse.object_from_world_x);
+    Float3 row_y = row3(inverse.object_from_world_y);
+    Float3 row_z = row3(inverse.object_from_world_z);
+    Float3 size = abs3(offset);
+    HEARTH_PRECISE float magnitude =
+        sum3(Float3(dot3(abs3(row_x), size), dot3(abs3(row_y), size), dot3(abs3(row_z), size)));
+    ObjectEye eye;
+    eye.position = Float3(dot3(row_x, offset), dot3(row_y, offset), dot3(row_z, offset));
+    eye.slack = magnitude * kRoundingSlack;
+    return eye;
+}
+
+/// True where every triangle in the box faces away from the eye. In object space, where any affine matrix,
+/// mirrored or sheared, leaves the facing as it is. Not for double-sided materials.
+/// cone  the code of the axis in the low half, above it the sine of the half-angle in 1/65536; 65535: no cone
+/// back  how far behind the middle of the box the apex is, against the axis
+HEARTH_FUNCTION bool boxFacesAway(HEARTH_IN(ObjectEye) eye, uint cone, float back, Float3 box_min,
+                                  Float3 box_max)
+{
+    uint cutoff_code = cone >> 16;
     if (cutoff_code == 65535u)
         return false;
-    Float3 box_min = clusterBoxMin(cluster, state.grid_step);
-    Float3 box_max = clusterBoxMax(cluster, state.grid_step);
     HEARTH_PRECISE Float3 center = (box_min + box_max) * 0.5f;
     HEARTH_PRECISE Float3 half_size = (box_max - box_min) * 0.5f;
-    HEARTH_PRECISE float back =
-        float((cluster.cone_back & 65535u) << extentShift(cluster)) * 16.0f * state.grid_step;
 
     // everything times the length of the ray: no division, whose last bits differ between devices
-    Float3 ray = coneRay(cluster);
+    Float3 ray = coneRay(cone);
     HEARTH_PRECISE float ray2 = dot3(ray, ray);
     HEARTH_PRECISE float ray_length = sqrt(ray2);
-    HEARTH_PRECISE Float3 to_center = center - state.eye_object;
+    HEARTH_PRECISE Float3 to_center = center - eye.position;
     HEARTH_PRECISE Float3 to_apex = to_center * ray_length - ray * back;
     HEARTH_PRECISE float reach = sqrt(dot3(half_size, half_size)) + back;
     HEARTH_PRECISE float position_slack =
-        (2.0f * state.eye_slack + (sum3(abs3(center)) + 2.0f * back) * kRoundingSlack) + reach * kApexMargin;
+        (2.0f * eye.slack + (sum3(abs3(center)) + 2.0f * back) * kRoundingSlack) + reach * kApexMargin;
     HEARTH_PRECISE float sine = float(cutoff_code) * 1.52587890625e-5f + kConeMargin;
     HEARTH_PRECISE float needed = (sine * sqrt(dot3(to_apex, to_apex))) * ray_length + position_slack * ray2;
     return dot3(to_apex, ray) >= needed;
+}
+
+/// The same of a cluster of a rigid instance.
+HEARTH_FUNCTION bool coneFacesAway(HEARTH_IN(InstanceState) state, HEARTH_IN(Cluster) cluster)
+{
+    ObjectEye eye;
+    eye.position = state.eye_object;
+    eye.slack = state.eye_slack;
+    HEARTH_PRECISE float back =
+        float((cluster.cone_back & 65535u) << extentShift(cluster)) * 16.0f * state.grid_step;
+    return boxFacesAway(eye, cluster.cone, back, clusterBoxMin(cluster, state.grid_step),
+                        clusterBoxMax(cluster, state.grid_step));
 }
 
 /// Whether a view of casters is not meant for an instance.
@@ -244,16 +278,11 @@ HEARTH_FUNCTION InstanceState decideInstance(HEARTH_IN(FrameView) view, HEARTH_I
     HEARTH_PRECISE Float3 offset =
         Float3(view.eye.x - instance.world_from_object_x.w, view.eye.y - instance.world_from_object_y.w,
                view.eye.z - instance.world_from_object_z.w);
-    Float3 row_x = row3(inverse.object_from_world_x);
-    Float3 row_y = row3(inverse.object_from_world_y);
-    Float3 row_z = row3(inverse.object_from_world_z);
-    Float3 size = abs3(offset);
-    HEARTH_PRECISE float magnitude =
-        sum3(Float3(dot3(abs3(row_x), size), dot3(abs3(row_y), size), dot3(abs3(row_z), size)));
+    ObjectEye eye = objectEye(inverse, offset);
 
     InstanceState state;
-    state.eye_object = Float3(dot3(row_x, offset), dot3(row_y, offset), dot3(row_z, offset));
-    state.eye_slack = magnitude * kRoundingSlack;
+    state.eye_object = eye.position;
+    state.eye_slack = eye.slack;
     state.visible = kInstanceVisible;
     if ((view.flags & kCullInstances) != 0u &&
         boxOutsideFrustum(view, instance, bounds.box_min, bounds.box_max))

@@ -153,7 +153,7 @@ struct FrameCounters
 struct ClusterDraw
 {
     uint address;       ///< of its first vertex, in words of the geometry pool; the UV bases stand before it
-    uint counts;        ///< vertices | triangles << 9 | level << 17
+    uint counts;        ///< vertices | triangles << 9 | level << 17 | kDrawMorphs
     uint vertex_layout; ///< formats::VertexAttributes
     uint material;      ///< 1 + row of the material table; 0 is the sky
     int base_x;         ///< positions are (base + offset) * grid_step
@@ -161,6 +161,9 @@ struct ClusterDraw
     int base_z;
     float grid_step;
 };
+
+/// Of ClusterDraw::counts: morph targets stand behind the triangles.
+HEARTH_CONSTANT uint kDrawMorphs = 0x80000000u;
 
 /// Knots of the LOD curve (lod_curve.h).
 HEARTH_CONSTANT uint kLodKnots = 8;

@@ -83,6 +83,7 @@ HEARTH_CONSTANT uint kViewError = 7;
 HEARTH_CONSTANT uint kViewCones = 8;
 HEARTH_CONSTANT uint kViewOverdraw = 9;
 HEARTH_CONSTANT uint kViewShadowMaps = 10;
+HEARTH_CONSTANT uint kViewBones = 11; ///< main bones of clusters; grey: rigid
 
 /// What one fragment adds to the overdraw view, linear: brown at first; red is full at 4, green at 8, all at 16.
 HEARTH_CONSTANT Float3 kOverdrawStep = Float3(0.25f, 0.125f, 0.0625f);

@@ -6,6 +6,8 @@
 
 #include "runtime/gpu/scene.h"
 
+#include <optional>
+
 namespace hearth::gpu
 {
 
@@ -20,6 +22,9 @@ public:
     static Result<BinPass> createCasters(const Device& device, const DrawLayouts& layouts,
                                          VkRenderPass render_pass);
 
+    /// The pipelines of deformed bins, which a scene with deformed meshes needs; once. errors: device_failed.
+    Status prepareDeformed(const Device& device);
+
     /// Inside the subpass, with viewport and scissor set. Clobbers the graphics state.
     /// phase  whose clusters are drawn
     /// push   the bin is set for each draw
@@ -33,12 +38,19 @@ private:
     {
         std::span<const uint32_t> vertex, fragment;
     };
-    Status createPipelines(const Device& device, GraphicsDescription opaque, const Stages& alpha_tested);
+    struct Variants
+    {
+        // [0] for scenes whose geometry lies in one slice of the pool, [1] for all others
+        Pipelines opaque[2];
+        Pipelines alpha_tested[2];
+    };
+    Status createPipelines(const Device& device, uint32_t deformed, Variants& variants) const;
 
     bool casters_ = false; ///< unlit bins are not drawn, all others as Facing::doubleSided
-    // [0] for scenes whose geometry lies in one slice of the pool, [1] for all others
-    Pipelines opaque_[2];
-    Pipelines alpha_tested_[2];
+    GraphicsDescription description_{};
+    Stages alpha_tested_{};
+    Variants rigid_;
+    std::optional<Variants> deformed_; ///< once a scene has deformed meshes
 };
 
 } // namespace hearth::gpu

@@ -22,6 +22,7 @@ struct EmitPush
 
 struct CullPush
 {
+    uint32_t first_item;
     uint32_t item_count;
     uint32_t phase;
 };
@@ -106,11 +107,12 @@ void writeView(const Device& device, VkCommandBuffer commands, const Scene& scen
 
 void CullPass::recordConstants(const Device& device, VkCommandBuffer commands, const Scene& scene,
                                const FrameTargets& targets, const shared::FrameView& view,
-                               std::span<const InstanceMove> moves) const
+                               std::span<const InstanceMove> moves, std::span<const InstancePose> poses) const
 {
     beginChanges(device, commands);
     writeView(device, commands, scene, targets, view);
     recordMoves(device, commands, scene, moves);
+    recordPoses(device, commands, scene, poses);
     if (scene.stream != nullptr)
         scene.stream->recordChanges(commands, scene.buffers);
     endChanges(device, commands);
@@ -150,6 +152,19 @@ Result<CullPass> CullPass::create(const Device& device, const DrawLayouts& layou
     return pass;
 }
 
+Status CullPass::prepareDeformed(const Device& device, const DrawLayouts& layouts)
+{
+    if (!deformed_clusters_)
+    {
+        HEARTH_ASSIGN_OR_RETURN(deformed_clusters_,
+                                createComputePipeline(device, shaders::cull_clusters_deformed_comp,
+                                                      {kUniform, kStorage, kStorage, kStorage, kStorage,
+                                                       kStorage, kStorage, kStorage},
+                                                      sizeof(CullPush), layouts.occlusion.get()));
+    }
+    return success();
+}
+
 Status CullPass::createSets(const Device& device, Scene& scene) const
 {
     const SceneBuffers& b = scene.buffers;
@@ -171,6 +186,10 @@ Status CullPass::createSets(const Device& device, Scene& scene) const
         create(sets.instances, instances_, &b.frame, {&b.instances, &b.inverses, &b.bounds, &b.states}));
     HEARTH_TRY(create(sets.clusters, clusters_, &b.frame,
                       {&b.instances, &b.states, &b.items, &b.order, &b.clusters, &b.groups, &b.results}));
+    if (scene.deformation != nullptr)
+        HEARTH_TRY(create(scene.deformation->cull_set, *deformed_clusters_, &b.frame,
+                          {&b.instances, &b.states, &b.items, &b.order, &scene.deformation->buffer, &b.groups,
+                           &b.results}));
     HEARTH_TRY(create(sets.scan_blocks, scan_blocks_, nullptr, {&b.results, &b.totals}));
     HEARTH_TRY(create(sets.scan_totals, scan_totals_, nullptr, {&b.totals, &b.counters}));
     HEARTH_TRY(
@@ -195,8 +214,12 @@ void CullPass::record(const Device& device, VkCommandBuffer commands, const Scen
     dispatch(device, commands, instances_, {sets.instances, targets.occlusionSet()},
              groupsOf(scene.instance_count, 64), phase);
     computeBarrier(device, commands);
-    dispatch(device, commands, clusters_, {sets.clusters, targets.occlusionSet()}, items,
-             CullPush{items, phase});
+    const uint32_t rigid = rigidItems(scene);
+    dispatch(device, commands, clusters_, {sets.clusters, targets.occlusionSet()}, rigid,
+             CullPush{0, rigid, phase});
+    if (scene.deformation != nullptr)
+        dispatch(device, commands, *deformed_clusters_, {scene.deformation->cull_set, targets.occlusionSet()},
+                 items - rigid, CullPush{rigid, items - rigid, phase});
     computeBarrier(device, commands);
     dispatch(device, commands, scan_blocks_, {sets.scan_blocks}, blocks, items);
     computeBarrier(device, commands);

@@ -8,6 +8,8 @@
 #include "runtime/gpu/instance_motion.h"
 #include "runtime/gpu/scene.h"
 
+#include <optional>
+
 namespace hearth::gpu
 {
 
@@ -16,6 +18,9 @@ class CullPass
 public:
     static Result<CullPass> create(const Device& device, const DrawLayouts& layouts);
 
+    /// What scenes with deformed meshes need beside; once.
+    Status prepareDeformed(const Device& device, const DrawLayouts& layouts);
+
     /// The descriptor sets of this pass for a scene.
     Status createSets(const Device& device, Scene& scene) const;
 
@@ -23,7 +28,7 @@ public:
     /// the scene on the same queue.
     void recordConstants(const Device& device, VkCommandBuffer commands, const Scene& scene,
                          const FrameTargets& targets, const shared::FrameView& view,
-                         std::span<const InstanceMove> moves) const;
+                         std::span<const InstanceMove> moves, std::span<const InstancePose> poses) const;
 
     /// The same frame from elsewhere: other constants, and cleared counters. After recordConstants.
     void recordView(const Device& device, VkCommandBuffer commands, const Scene& scene,
@@ -38,6 +43,7 @@ public:
 private:
     ComputePipeline instances_;
     ComputePipeline clusters_;
+    std::optional<ComputePipeline> deformed_clusters_; ///< once a scene has them
     ComputePipeline scan_blocks_;
     ComputePipeline scan_totals_;
     ComputePipeline emit_visible_;

@@ -8,37 +8,65 @@
 namespace hearth::gpu
 {
 
+namespace
+{
+
+struct CountingPush
+{
+    uint32_t first_item;
+    uint32_t item_count;
+    uint32_t instance_count;
+};
+
+} // namespace
+
 Result<CullStatisticsPass> CullStatisticsPass::create(const Device& device, const Scene& scene)
 {
-    constexpr VkDescriptorType kUniform = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
-    constexpr VkDescriptorType kStorage = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
     CullStatisticsPass pass(device);
     HEARTH_ASSIGN_OR_RETURN(pass.statistics_, pass.arena_.createBuffer(sizeof(shared::CullStatistics),
                                                                        VK_BUFFER_USAGE_STORAGE_BUFFER_BIT |
                                                                            VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
                                                                            VK_BUFFER_USAGE_TRANSFER_DST_BIT,
                                                                        MemoryKind::device));
-    HEARTH_ASSIGN_OR_RETURN(pass.pipeline_,
-                            createComputePipeline(device, shaders::cull_statistics_comp,
-                                                  {kUniform, kStorage, kStorage, kStorage, kStorage, kStorage,
-                                                   kStorage, kStorage, kStorage},
-                                                  sizeof(uint32_t)));
-    HEARTH_ASSIGN_OR_RETURN(pass.pool_, createDescriptorPool(device, 1, {.uniforms = 1, .storages = 8}));
-    HEARTH_ASSIGN_OR_RETURN(pass.set_,
-                            allocateSet(device, pass.pool_.get(), pass.pipeline_.set_layout.get()));
+    HEARTH_ASSIGN_OR_RETURN(pass.pool_, createDescriptorPool(device, 2, {.uniforms = 2, .storages = 16}));
+    HEARTH_ASSIGN_OR_RETURN(pass.rigid_, pass.createCounting(device, scene, shaders::cull_statistics_comp,
+                                                             scene.buffers.clusters));
+    if (scene.deformation != nullptr)
+    {
+        HEARTH_ASSIGN_OR_RETURN(pass.deformed_,
+                                pass.createCounting(device, scene, shaders::cull_statistics_deformed_comp,
+                                                    scene.deformation->buffer));
+    }
+    return pass;
+}
+
+Result<CullStatisticsPass::Counting> CullStatisticsPass::createCounting(const Device& device,
+                                                                        const Scene& scene,
+                                                                        std::span<const uint32_t> shader,
+                                                                        const Buffer& clusters) const
+{
+    constexpr VkDescriptorType kStorage = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+    Counting counting;
+    HEARTH_ASSIGN_OR_RETURN(
+        counting.pipeline, createComputePipeline(device, shader,
+                                                 {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, kStorage, kStorage,
+                                                  kStorage, kStorage, kStorage, kStorage, kStorage, kStorage},
+                                                 sizeof(CountingPush)));
+    HEARTH_ASSIGN_OR_RETURN(counting.set,
+                            allocateSet(device, pool_.get(), counting.pipeline.set_layout.get()));
     const SceneBuffers& b = scene.buffers;
-    DescriptorWriter(pass.set_)
+    DescriptorWriter(counting.set)
         .uniform(0, b.frame)
         .storage(1, b.instances)
         .storage(2, b.states)
         .storage(3, b.bounds)
         .storage(4, b.items)
         .storage(5, b.order)
-        .storage(6, b.clusters)
+        .storage(6, clusters)
         .storage(7, b.groups)
-        .storage(8, pass.statistics_)
+        .storage(8, statistics_)
         .write(device);
-    return pass;
+    return counting;
 }
 
 void CullStatisticsPass::record(const Device& device, VkCommandBuffer commands, const Scene& scene) const
@@ -51,15 +79,23 @@ void CullStatisticsPass::record(const Device& device, VkCommandBuffer commands, 
     device.vk.vkCmdFillBuffer(commands, statistics_.handle.get(), 0, VK_WHOLE_SIZE, 0);
     barrier(device, commands, kTransfer, VK_ACCESS_TRANSFER_WRITE_BIT, kCompute,
             VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT);
-    device.vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline_.pipeline.get());
-    device.vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline_.layout.get(), 0, 1,
-                                      &set_, 0, nullptr);
-    device.vk.vkCmdPushConstants(commands, pipeline_.layout.get(), VK_SHADER_STAGE_COMPUTE_BIT, 0,
-                                 sizeof(scene.item_count), &scene.item_count);
-    const uint32_t groups = std::max(scene.item_count, (scene.instance_count + 63) / 64);
-    if (groups > 0)
-        device.vk.vkCmdDispatch(commands, std::min(groups, shared::kDispatchRow),
-                                (groups + shared::kDispatchRow - 1) / shared::kDispatchRow, 1);
+    const auto count = [&](const Counting& counting, const CountingPush& push)
+    {
+        const VkPipelineLayout layout = counting.pipeline.layout.get();
+        device.vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE,
+                                    counting.pipeline.pipeline.get());
+        device.vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, layout, 0, 1,
+                                          &counting.set, 0, nullptr);
+        device.vk.vkCmdPushConstants(commands, layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(push), &push);
+        const uint32_t groups = std::max(push.item_count, (push.instance_count + 63) / 64);
+        if (groups > 0)
+            device.vk.vkCmdDispatch(commands, std::min(groups, shared::kDispatchRow),
+                                    (groups + shared::kDispatchRow - 1) / shared::kDispatchRow, 1);
+    };
+    const uint32_t rigid = rigidItems(scene);
+    count(rigid_, {0, rigid, scene.instance_count});
+    if (deformed_)
+        count(*deformed_, {rigid, scene.item_count - rigid, 0});
     barrier(device, commands, kCompute, VK_ACCESS_SHADER_WRITE_BIT, kTransfer, VK_ACCESS_TRANSFER_READ_BIT);
 }
 

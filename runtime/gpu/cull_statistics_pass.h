@@ -6,6 +6,8 @@
 #include "formats/shared/cull_statistics.h"
 #include "runtime/gpu/scene.h"
 
+#include <optional>
+
 namespace hearth::gpu
 {
 
@@ -27,9 +29,17 @@ private:
 
     MemoryArena arena_;
     Buffer statistics_;
-    ComputePipeline pipeline_;
+    struct Counting
+    {
+        ComputePipeline pipeline;
+        VkDescriptorSet set = VK_NULL_HANDLE;
+    };
+    Result<Counting> createCounting(const Device& device, const Scene& scene,
+                                    std::span<const uint32_t> shader, const Buffer& clusters) const;
+
     UniqueDescriptorPool pool_;
-    VkDescriptorSet set_ = VK_NULL_HANDLE;
+    Counting rigid_;
+    std::optional<Counting> deformed_;
 };
 
 } // namespace hearth::gpu

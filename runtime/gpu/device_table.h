@@ -27,6 +27,7 @@
     X(vkCmdCopyBufferToImage)                                                                                \
     X(vkCmdCopyImage)                                                                                        \
     X(vkCmdDispatch)                                                                                         \
+    X(vkCmdDispatchIndirect)                                                                                 \
     X(vkCmdDraw)                                                                                             \
     X(vkCmdDrawIndirect)                                                                                     \
     X(vkCmdEndRenderPass)                                                                                    \

@@ -9,10 +9,12 @@ namespace hearth::gpu
 Result<DrawLayouts> DrawLayouts::create(const Device& device)
 {
     constexpr VkShaderStageFlags kBoth = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
-    std::vector<SetBinding> scene(kSceneBindingCount, {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, kBoth});
+    // the skinning pass reads the scene as the vertex shaders do
+    std::vector<SetBinding> scene(kSceneBindingCount,
+                                  {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, kBoth | VK_SHADER_STAGE_COMPUTE_BIT});
     scene[kSceneFrame] = {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, kBoth};
     scene[kSceneLighting].stages = VK_SHADER_STAGE_FRAGMENT_BIT;
-    scene[kSceneShadows].type = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
+    scene[kSceneShadows] = {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, kBoth};
     scene[kSceneShadowMaps] = {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_SHADER_STAGE_FRAGMENT_BIT};
 
     std::vector<SetBinding> material(

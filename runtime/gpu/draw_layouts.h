@@ -16,7 +16,7 @@ enum SceneBinding : uint32_t
     kSceneInstances = 1,
     kSceneVisible = 2,
     kSceneDraws = 3,
-    kScenePool = 4, ///< and the three after it
+    kScenePool = 4, ///< and the three after it, of which the last holds the poses of deformed meshes
     kSceneLighting = 8,
     kSceneShadows = 9, ///< of scenes with shadows, as the next one
     kSceneShadowMaps = 10,
@@ -68,6 +68,15 @@ struct DrawPush
     float depth_scale = 1;
     uint32_t light_row = 0; ///< casters: of the ShadowBlock
     uint32_t map_index = 0;
+};
+
+/// Specialization constant 4 of the drawing pipelines: where the vertices of deformed meshes come from
+/// (runtime/shaders/drawn_vertex.glsl).
+enum DeformedVertices : uint32_t
+{
+    kRigid = 0,             ///< there are none
+    kDeformedHere = 1,      ///< skinned where they are drawn
+    kDeformedInScratch = 2, ///< skinned before, as far as there was room
 };
 
 inline constexpr VkShaderStageFlags kDrawPushStages =

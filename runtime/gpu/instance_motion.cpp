@@ -31,6 +31,8 @@ Result<InstanceMove> moveInstance(const Scene& scene, uint32_t instance, const A
     };
     if (instance >= scene.instances.size())
         return fail("there are " + std::to_string(scene.instances.size()));
+    if (scene.deformation != nullptr && findDeformed(scene.deformation->layout, instance) != nullptr)
+        return fail("it is deformed: its pose says where it is");
     if (!isFinite(world_from_object))
         return fail("its new transform is not finite");
     formats::InstanceRecord record = scene.instances[instance];

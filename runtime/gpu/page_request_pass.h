@@ -4,6 +4,8 @@
 
 #include "runtime/gpu/scene.h"
 
+#include <optional>
+
 namespace hearth::gpu
 {
 
@@ -11,6 +13,9 @@ class PageRequestPass
 {
 public:
     static Result<PageRequestPass> create(const Device& device);
+
+    /// What scenes with deformed meshes need beside; once.
+    Status prepareDeformed(const Device& device);
 
     /// The descriptor set of this pass for a streamed scene.
     Status createSet(const Device& device, Scene& scene) const;
@@ -20,7 +25,10 @@ public:
     void record(const Device& device, VkCommandBuffer commands, const Scene& scene) const;
 
 private:
+    static void writeSet(const Device& device, const Scene& scene, VkDescriptorSet set);
+
     ComputePipeline pipeline_;
+    std::optional<ComputePipeline> deformed_; ///< once a scene has deformed meshes
 };
 
 } // namespace hearth::gpu

@@ -17,6 +17,26 @@ Result<UniqueShaderModule> createModule(const Device& device, std::span<const ui
     return UniqueShaderModule(device, module);
 }
 
+/// Specialization constant i has value i.
+class ConstantValues
+{
+public:
+    explicit ConstantValues(std::span<const uint32_t> values)
+    {
+        for (uint32_t i = 0; i < values.size(); ++i)
+            entries_.push_back({i, i * uint32_t{sizeof(uint32_t)}, sizeof(uint32_t)});
+        info_ = {static_cast<uint32_t>(entries_.size()), entries_.data(), values.size_bytes(), values.data()};
+    }
+    ConstantValues(const ConstantValues&) = delete;
+    ConstantValues& operator=(const ConstantValues&) = delete;
+
+    const VkSpecializationInfo* info() const { return &info_; }
+
+private:
+    std::vector<VkSpecializationMapEntry> entries_;
+    VkSpecializationInfo info_{};
+};
+
 VkPipelineShaderStageCreateInfo stageInfo(VkShaderStageFlagBits stage, VkShaderModule module,
                                           const VkSpecializationInfo* constants)
 {
@@ -62,7 +82,7 @@ namespace
 
 Status finishComputePipeline(const Device& device, std::span<const uint32_t> spirv,
                              std::span<const VkDescriptorSetLayout> sets, uint32_t push_bytes,
-                             ComputePipeline& result)
+                             std::span<const uint32_t> constants, ComputePipeline& result)
 {
     HEARTH_ASSIGN_OR_RETURN(result.layout,
                             createPipelineLayout(device, sets, VK_SHADER_STAGE_COMPUTE_BIT, push_bytes));
@@ -70,7 +90,8 @@ Status finishComputePipeline(const Device& device, std::span<const uint32_t> spi
 
     VkComputePipelineCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO;
-    info.stage = stageInfo(VK_SHADER_STAGE_COMPUTE_BIT, module.get(), nullptr);
+    const ConstantValues values(constants);
+    info.stage = stageInfo(VK_SHADER_STAGE_COMPUTE_BIT, module.get(), values.info());
     info.layout = result.layout.get();
     VkPipeline pipeline;
     HEARTH_TRY_VK(device.vk.vkCreateComputePipelines(device.handle, device.pipeline_cache, 1, &info,
@@ -93,15 +114,17 @@ Result<ComputePipeline> createComputePipeline(const Device& device, std::span<co
     HEARTH_ASSIGN_OR_RETURN(result.set_layout, createSetLayout(device, bindings));
     const VkDescriptorSetLayout sets[] = {result.set_layout.get(), shared_set};
     const size_t set_count = shared_set == VK_NULL_HANDLE ? 1 : 2;
-    HEARTH_TRY(finishComputePipeline(device, spirv, std::span(sets).first(set_count), push_bytes, result));
+    HEARTH_TRY(
+        finishComputePipeline(device, spirv, std::span(sets).first(set_count), push_bytes, {}, result));
     return result;
 }
 
 Result<ComputePipeline> createComputePipeline(const Device& device, std::span<const uint32_t> spirv,
-                                              uint32_t push_bytes, VkDescriptorSetLayout shared_set)
+                                              uint32_t push_bytes, VkDescriptorSetLayout shared_set,
+                                              std::span<const uint32_t> constants)
 {
     ComputePipeline result;
-    HEARTH_TRY(finishComputePipeline(device, spirv, {&shared_set, 1}, push_bytes, result));
+    HEARTH_TRY(finishComputePipeline(device, spirv, {&shared_set, 1}, push_bytes, constants, result));
     return result;
 }
 
@@ -109,14 +132,10 @@ Result<UniquePipeline> createGraphicsPipeline(const Device& device, const Graphi
 {
     HEARTH_ASSIGN_OR_RETURN(const UniqueShaderModule vertex, createModule(device, description.vertex));
     HEARTH_ASSIGN_OR_RETURN(const UniqueShaderModule fragment, createModule(device, description.fragment));
-    std::vector<VkSpecializationMapEntry> entries;
-    for (uint32_t i = 0; i < description.constants.size(); ++i)
-        entries.push_back({i, i * uint32_t{sizeof(uint32_t)}, sizeof(uint32_t)});
-    const VkSpecializationInfo constants{static_cast<uint32_t>(entries.size()), entries.data(),
-                                         description.constants.size_bytes(), description.constants.data()};
+    const ConstantValues constants(description.constants);
     const VkPipelineShaderStageCreateInfo stages[] = {
-        stageInfo(VK_SHADER_STAGE_VERTEX_BIT, vertex.get(), &constants),
-        stageInfo(VK_SHADER_STAGE_FRAGMENT_BIT, fragment.get(), &constants)};
+        stageInfo(VK_SHADER_STAGE_VERTEX_BIT, vertex.get(), constants.info()),
+        stageInfo(VK_SHADER_STAGE_FRAGMENT_BIT, fragment.get(), constants.info())};
     VkPipelineVertexInputStateCreateInfo vertex_input{};
     vertex_input.sType = VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO;
     VkPipelineInputAssemblyStateCreateInfo assembly{};

@@ -36,8 +36,10 @@ Result<ComputePipeline> createComputePipeline(const Device& device, std::span<co
                                               uint32_t push_bytes,
                                               VkDescriptorSetLayout shared_set = VK_NULL_HANDLE);
 /// One with no set but a shared one, which is its set 0; `set_layout` stays empty.
+/// constants  value of specialization constant i
 Result<ComputePipeline> createComputePipeline(const Device& device, std::span<const uint32_t> spirv,
-                                              uint32_t push_bytes, VkDescriptorSetLayout shared_set);
+                                              uint32_t push_bytes, VkDescriptorSetLayout shared_set,
+                                              std::span<const uint32_t> constants = {});
 
 struct GraphicsDescription
 {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/gpu/pool_layout.h"
 
+#include "formats/shared/deformation.h"
+
 #include <algorithm>
 #include <numeric>
 #include <optional>
@@ -13,8 +15,14 @@ namespace
 {
 
 constexpr uint64_t kSliceWords = uint64_t{1} << shared::kPoolSliceBits;
-constexpr uint64_t kPoolBytes = shared::kPoolSlices * kSliceWords * 4;
 constexpr uint32_t kSlotAlignment = 64;
+
+/// The last slice of a scene with deformed meshes holds their poses.
+uint64_t poolBytes(const formats::PackView& pack)
+{
+    const uint32_t slices = pack.deformedMeshes().empty() ? shared::kPoolSlices : shared::kDeformationSlice;
+    return slices * kSliceWords * 4;
+}
 
 /// Hands out words of the pool from its start; nothing crosses the border of a slice.
 class Placer
@@ -52,14 +60,15 @@ uint64_t PoolLayout::bytes() const
 Result<PoolLayout> placeAllPages(const formats::PackView& pack)
 {
     PoolLayout layout;
-    Placer placer(layout, kPoolBytes);
+    const uint64_t pool_bytes = poolBytes(pack);
+    Placer placer(layout, pool_bytes);
     layout.page_addresses.reserve(pack.pages().size());
     for (const formats::PageRecord& page : pack.pages())
     {
         const auto address = placer.place(page.size);
         if (!address)
             return Error{Issue::device_limit, pack.name(), "",
-                         "the geometry is larger than the " + std::to_string(kPoolBytes >> 20) +
+                         "the geometry is larger than the " + std::to_string(pool_bytes >> 20) +
                              " MiB that are drawn without streaming"};
         layout.page_addresses.push_back(*address);
     }
@@ -70,17 +79,18 @@ Result<PoolLayout> placePinnedPages(const formats::PackView& pack, const pack::P
                                     uint64_t budget_bytes)
 {
     PoolLayout layout;
-    Placer placer(layout, std::min(budget_bytes, kPoolBytes));
+    const uint64_t pool_bytes = poolBytes(pack);
+    Placer placer(layout, std::min(budget_bytes, pool_bytes));
     layout.page_addresses.assign(graph.pageCount(), kNoAddress);
     for (const uint32_t page : graph.pinned())
     {
         const auto address = placer.place(graph.sizeBytes(page));
         if (!address)
             return Error{
-                budget_bytes < kPoolBytes ? Issue::streaming_budget : Issue::device_limit, pack.name(), "",
+                budget_bytes < pool_bytes ? Issue::streaming_budget : Issue::device_limit, pack.name(), "",
                 "the " + std::to_string(graph.pinned().size()) + " pages that are always resident take " +
                     std::to_string(graph.pinnedBytes()) + " bytes, the geometry pool is to have " +
-                    std::to_string(std::min(budget_bytes, kPoolBytes))};
+                    std::to_string(std::min(budget_bytes, pool_bytes))};
         layout.page_addresses[page] = *address;
     }
     layout.slot_bytes = kSlotAlignment;

@@ -59,6 +59,11 @@ Result<std::unique_ptr<Scene>> Renderer::upload(const formats::PackView& pack, V
 {
     HEARTH_ASSIGN_OR_RETURN(std::unique_ptr<Scene> scene,
                             uploadScene(device_, layouts_, pack, commands, options));
+    if (scene->deformation != nullptr)
+    {
+        HEARTH_TRY(prepareDeformed());
+        HEARTH_TRY(skinning_->createSet(device_, *scene));
+    }
     HEARTH_TRY(cull_.createSets(device_, *scene));
     HEARTH_TRY(material_tiles_.createSet(device_, *scene));
     if (scene->stream != nullptr)
@@ -69,6 +74,8 @@ Result<std::unique_ptr<Scene>> Renderer::upload(const formats::PackView& pack, V
         {
             HEARTH_ASSIGN_OR_RETURN(shadows_, ShadowPass::create(device_, layouts_));
         }
+        if (scene->deformation != nullptr)
+            HEARTH_TRY(shadows_->prepareDeformed(device_));
         HEARTH_TRY(shadows_->createMaps(device_, pack, options.shadows, commands, *scene));
     }
     for (SceneMaterial& material : scene->materials)
@@ -83,13 +90,25 @@ Result<std::unique_ptr<Scene>> Renderer::upload(const formats::PackView& pack, V
     return scene;
 }
 
+/// What scenes with deformed meshes need beside.
+Status Renderer::prepareDeformed()
+{
+    if (!skinning_)
+    {
+        HEARTH_ASSIGN_OR_RETURN(skinning_, SkinningPass::create(device_, layouts_));
+    }
+    HEARTH_TRY(cull_.prepareDeformed(device_, layouts_));
+    HEARTH_TRY(page_requests_.prepareDeformed(device_));
+    return visibility_.prepareDeformed(device_);
+}
+
 Status Renderer::prepareOverdraw()
 {
     if (!overdraw_)
     {
         HEARTH_ASSIGN_OR_RETURN(overdraw_, BinPass::createOverdraw(device_, layouts_, passes_.whole.get()));
     }
-    return success();
+    return skinning_ ? overdraw_->prepareDeformed(device_) : success();
 }
 
 void Renderer::record(VkCommandBuffer commands, const Scene& scene, FrameTargets& targets,
@@ -119,13 +138,14 @@ void Renderer::recordCull(VkCommandBuffer commands, const Scene& scene, const Fr
     writeTimestamp(device_, commands, input.timestamps, kTimestampBegin);
     const shared::FrameView view = scene.stream == nullptr ? input.view : scene.stream->scaled(input.view);
     trackShadows(scene, input.moves);
-    cull_.recordConstants(device_, commands, scene, targets, view, input.moves);
+    cull_.recordConstants(device_, commands, scene, targets, view, input.moves, input.poses);
     if (scene.shadows != nullptr)
         recordShadows(commands, scene, targets, view, input.shadow_spheres);
     writeTimestamp(device_, commands, input.timestamps, kTimestampShadows);
     const DebugLabel label(device_, commands, "cull");
     cull_.record(device_, commands, scene, targets,
                  inPhases(input) ? shared::kPhaseEarly : shared::kPhaseWhole);
+    recordSkinning(commands, scene, inPhases(input) ? shared::kPhaseEarly : shared::kPhaseWhole);
     if (scene.stream != nullptr)
         recordRequests(commands, scene);
     writeTimestamp(device_, commands, input.timestamps, kTimestampCull);
@@ -156,11 +176,12 @@ void Renderer::recordMaterials(VkCommandBuffer commands, const Scene& scene, con
 }
 
 void Renderer::recordPrefetch(VkCommandBuffer commands, const Scene& scene, const FrameTargets& targets,
-                              const shared::FrameView& view) const
+                              const shared::FrameView& view, std::span<const InstanceMove> moves,
+                              std::span<const InstancePose> poses) const
 {
     HEARTH_ASSERT(scene.stream != nullptr && view.instance_count == scene.instance_count);
-    trackShadows(scene, {});
-    cull_.recordConstants(device_, commands, scene, targets, scene.stream->scaled(view), {});
+    trackShadows(scene, moves);
+    cull_.recordConstants(device_, commands, scene, targets, scene.stream->scaled(view), moves, poses);
     cull_.record(device_, commands, scene, targets, shared::kPhaseWhole);
     recordRequests(commands, scene);
 }
@@ -181,6 +202,15 @@ void Renderer::recordShadows(VkCommandBuffer commands, const Scene& scene, const
     }
     if (!stale.empty())
         cull_.recordView(device_, commands, scene, targets, view);
+}
+
+/// After a culling phase of the picture.
+void Renderer::recordSkinning(VkCommandBuffer commands, const Scene& scene, uint32_t phase) const
+{
+    if (scene.deformation == nullptr)
+        return;
+    const DebugLabel label(device_, commands, "skinning");
+    skinning_->record(device_, commands, scene, phase);
 }
 
 /// After the first culling phase.
@@ -236,6 +266,7 @@ void Renderer::recordEarly(VkCommandBuffer commands, const Scene& scene, FrameTa
     {
         const DebugLabel label(device_, commands, "late cull");
         cull_.record(device_, commands, scene, targets, shared::kPhaseLate);
+        recordSkinning(commands, scene, shared::kPhaseLate);
     }
     writeTimestamp(device_, commands, input.timestamps, kTimestampLateCull);
 }

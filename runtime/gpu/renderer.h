@@ -12,6 +12,7 @@
 #include "runtime/gpu/pyramid_pass.h"
 #include "runtime/gpu/shading_pass.h"
 #include "runtime/gpu/shadow_pass.h"
+#include "runtime/gpu/skinning_pass.h"
 
 #include <memory>
 #include <optional>
@@ -23,8 +24,8 @@ namespace hearth::gpu
 enum FrameTimestamp : uint32_t
 {
     kTimestampBegin,
-    kTimestampShadows, ///< no time without shadow maps to draw
-    kTimestampCull,
+    kTimestampShadows,         ///< no time without shadow maps to draw
+    kTimestampCull,            ///< with the skinning of what is found, as the late one
     kTimestampEarlyVisibility, ///< this one and the two after it take no time without occlusion culling
     kTimestampPyramid,
     kTimestampLateCull,
@@ -40,6 +41,9 @@ struct FrameInput
     shared::FrameView view; ///< from shared::makeFrameView, with the size of the targets
     ShadingView shading{};
     std::span<const InstanceMove> moves{}; ///< from this frame on; read while recording
+    /// Of deformed instances, which start at rest: from this frame on; read while recording. What checkPose refuses is left
+    /// out.
+    std::span<const InstancePose> poses{};
     /// Of a scene with shadows, where they are finer, beside the spheres of its pack: all of this frame, read while
     /// recording.
     std::span<const ShadowSphere> shadow_spheres{};
@@ -85,10 +89,13 @@ public:
     /// The same without drawing: asks for what a frame with this view asks for. For a streamed scene, in place of record.
     /// Clobbers compute state, and leaves the depth pyramid as it is.
     void recordPrefetch(VkCommandBuffer commands, const Scene& scene, const FrameTargets& targets,
-                        const shared::FrameView& view) const;
+                        const shared::FrameView& view, std::span<const InstanceMove> moves = {},
+                        std::span<const InstancePose> poses = {}) const;
 
 private:
     Renderer() = default;
+    Status prepareDeformed();
+    void recordSkinning(VkCommandBuffer commands, const Scene& scene, uint32_t phase) const;
     void recordShadows(VkCommandBuffer commands, const Scene& scene, const FrameTargets& targets,
                        const shared::FrameView& view, std::span<const ShadowSphere> spheres) const;
     void recordRequests(VkCommandBuffer commands, const Scene& scene) const;
@@ -107,7 +114,8 @@ private:
     CullPass cull_;
     PageRequestPass page_requests_;
     PyramidPass pyramid_;
-    std::optional<ShadowPass> shadows_; ///< once a scene has them
+    std::optional<ShadowPass> shadows_;    ///< once a scene has them
+    std::optional<SkinningPass> skinning_; ///< once a scene has deformed meshes
     BinPass visibility_;
     std::optional<BinPass> overdraw_;
     MaterialTilesPass material_tiles_;

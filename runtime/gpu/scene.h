@@ -4,6 +4,7 @@
 #pragma once
 
 #include "runtime/gpu/draw_layouts.h"
+#include "runtime/gpu/scene_deformation.h"
 #include "runtime/gpu/scene_layout.h"
 #include "runtime/gpu/scene_stream.h"
 #include "runtime/gpu/shadow_plan.h"
@@ -28,6 +29,8 @@ struct SceneOptions
     StreamOptions stream{};
 
     ShadowOptions shadows{}; ///< none unless max_maps is set (README.md, "Shadows")
+
+    DeformationOptions deformation{}; ///< of a scene that has deformed meshes
 };
 
 class SceneShadows;
@@ -58,7 +61,8 @@ struct ShadingVariant
     uint32_t textures = 0;                      ///< as shared::Material
     uint32_t uv_sets = 0;                       ///< as shared::Material
     uint32_t unlit = 0;
-    uint32_t shadows = 0; ///< 1: lights have shadow maps
+    uint32_t deformed = 0; ///< 1: it is on deformed meshes
+    uint32_t shadows = 0;  ///< 1: lights have shadow maps
     friend auto operator<=>(const ShadingVariant&, const ShadingVariant&) = default;
 };
 
@@ -98,8 +102,9 @@ struct Scene
     VkDescriptorSet tile_set = VK_NULL_HANDLE;         ///< of the material-tiles pass
     VkDescriptorSet page_request_set = VK_NULL_HANDLE; ///< of a streamed scene
 
-    std::unique_ptr<SceneStream> stream;   ///< of a streamed scene
-    std::unique_ptr<SceneShadows> shadows; ///< of a scene with shadows
+    std::unique_ptr<SceneStream> stream;           ///< of a streamed scene
+    std::unique_ptr<SceneDeformation> deformation; ///< of a scene with deformed meshes
+    std::unique_ptr<SceneShadows> shadows;         ///< of a scene with shadows
     std::vector<SceneBin> bins;
     std::vector<formats::InstanceRecord> instances; ///< as they were loaded
     uint32_t instance_count = 0;
@@ -110,6 +115,12 @@ struct Scene
     uint32_t dropped_lights = 0;                ///< lights of the pack beyond shared::kMaxLights
     Box3 bounds;                                ///< world space, empty where there is nothing to draw
 };
+
+/// The first ones of the work list.
+inline uint32_t rigidItems(const Scene& scene)
+{
+    return scene.deformation == nullptr ? scene.item_count : scene.deformation->rigid_items;
+}
 
 /// Work items that the scan takes together.
 inline uint32_t blockCount(const Scene& scene)

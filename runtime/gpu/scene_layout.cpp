@@ -2,6 +2,7 @@
 #include "runtime/gpu/scene_layout.h"
 
 #include <algorithm>
+#include <cstring>
 #include <map>
 #include <string>
 #include <tuple>
@@ -15,9 +16,10 @@ namespace
 // material numbers are told apart by a 16-bit depth buffer, and 0 is the sky
 constexpr uint32_t kMaxMaterialRows = 65535;
 
-/// What of a bin follows from the material alone.
+/// What of a bin follows from the mesh and the material.
 struct BinKey
 {
+    bool deformed; // first: their bins are the last
     bool alpha_tested;
     uint32_t material_row;
     Facing facing;
@@ -38,25 +40,34 @@ Error limitError(const formats::PackView& pack, const std::string& detail)
     return {Issue::device_limit, pack.name(), "", detail};
 }
 
-BinKey keyOfMaterial(const formats::PackView& pack, uint32_t material)
+BinKey keyOfMaterial(const formats::PackView& pack, bool deformed, uint32_t material)
 {
     if (material == formats::kNone)
-        return {false, 0, Facing::culled, false};
+        return {deformed, false, 0, Facing::culled, false};
     const formats::MaterialRecord& record = pack.materials()[material];
     const bool tested = record.alpha_mode != static_cast<uint32_t>(formats::AlphaMode::opaque);
     const bool two_sided = (record.flags & formats::kMaterialDoubleSided) != 0;
-    return {tested, tested ? materialRow(pack, material) : 0,
+    return {deformed, tested, tested ? materialRow(pack, material) : 0,
             two_sided ? Facing::doubleSided : Facing::culled, (record.flags & formats::kMaterialUnlit) != 0};
+}
+
+/// For each mesh, 1 where the chunk DMSH describes it.
+std::vector<uint8_t> findDeformedMeshes(const formats::PackView& pack)
+{
+    std::vector<uint8_t> deformed(pack.meshes().size(), 0);
+    for (const formats::DeformedMeshRecord& mesh : pack.deformedMeshes())
+        deformed[mesh.mesh] = 1;
+    return deformed;
 }
 
 /// Append the clusters of a mesh to the order, sorted by key and otherwise as they are.
 std::vector<ClusterRun> orderMesh(const formats::PackView& pack, const formats::MeshRecord& mesh,
-                                  std::vector<uint32_t>& order)
+                                  bool deformed, std::vector<uint32_t>& order)
 {
     std::vector<std::pair<BinKey, uint32_t>> clusters;
     clusters.reserve(mesh.clusters.count);
     for (uint32_t c = mesh.clusters.first; c < mesh.clusters.first + mesh.clusters.count; ++c)
-        clusters.emplace_back(keyOfMaterial(pack, pack.clusters()[c].material), c);
+        clusters.emplace_back(keyOfMaterial(pack, deformed, pack.clusters()[c].material), c);
     std::stable_sort(clusters.begin(), clusters.end(),
                      [](const auto& a, const auto& b) { return a.first < b.first; });
 
@@ -86,8 +97,9 @@ Status makeWorkList(const formats::PackView& pack, SceneLayout& layout)
 {
     std::vector<std::vector<ClusterRun>> runs_of_mesh;
     runs_of_mesh.reserve(pack.meshes().size());
-    for (const formats::MeshRecord& mesh : pack.meshes())
-        runs_of_mesh.push_back(orderMesh(pack, mesh, layout.order));
+    const std::vector<uint8_t> deformed = findDeformedMeshes(pack);
+    for (size_t mesh = 0; mesh < deformed.size(); ++mesh)
+        runs_of_mesh.push_back(orderMesh(pack, pack.meshes()[mesh], deformed[mesh] != 0, layout.order));
 
     // an item and its result are 16 and 20 bytes, and every device can bind 128 MiB
     constexpr uint64_t kMaxItems = uint64_t{6} << 20;
@@ -118,7 +130,9 @@ Status makeWorkList(const formats::PackView& pack, SceneLayout& layout)
              key.material_row,
              key.facing,
              key.unlit,
+             key.deformed,
              {static_cast<uint32_t>(layout.items.size()), static_cast<uint32_t>(items.size())}});
+        layout.rigid_items += key.deformed ? 0 : static_cast<uint32_t>(items.size());
         layout.items.insert(layout.items.end(), items.begin(), items.end());
     }
     return success();
@@ -137,7 +151,7 @@ shared::ClusterDraw makeClusterDraw(const formats::PackView& pack, uint32_t clus
     const formats::MeshRecord& mesh = pack.meshes()[pack.pages()[record.page].mesh];
     return {.address = page_address + record.page_word + formats::uvBaseWords(mesh.attributes),
             .counts = uint32_t{record.vertex_count} | uint32_t{record.triangle_count} << 9 |
-                      uint32_t{record.level} << 17,
+                      uint32_t{record.level} << 17 | (mesh.morph_target_count > 0 ? shared::kDrawMorphs : 0u),
             .vertex_layout = formats::layoutOf(record, mesh.attributes),
             .material = 1 + materialRow(pack, record.material),
             .base_x = record.base[0],
@@ -146,18 +160,26 @@ shared::ClusterDraw makeClusterDraw(const formats::PackView& pack, uint32_t clus
             .grid_step = mesh.grid_step};
 }
 
-std::vector<shared::GroupItem> makeGroupItems(const formats::PackView& pack)
+GroupItems makeGroupItems(const formats::PackView& pack)
 {
-    std::vector<shared::GroupItem> items;
-    for (uint32_t i = 0; i < pack.instances().size(); ++i)
+    GroupItems result;
+    const std::vector<uint8_t> deformed = findDeformedMeshes(pack);
+    for (const uint8_t which : {uint8_t{0}, uint8_t{1}})
     {
-        const formats::Range groups = pack.meshes()[pack.instances()[i].mesh].groups;
-        for (uint32_t done = 0; done < groups.count; done += shared::kWorkItemClusters)
-            items.push_back({.instance = i,
-                             .first = groups.first + done,
-                             .count = std::min(groups.count - done, shared::kWorkItemClusters)});
+        for (uint32_t i = 0; i < pack.instances().size(); ++i)
+        {
+            const uint32_t mesh = pack.instances()[i].mesh;
+            const formats::Range groups = pack.meshes()[mesh].groups;
+            for (uint32_t done = 0; done < groups.count && deformed[mesh] == which;
+                 done += shared::kWorkItemClusters)
+                result.items.push_back({.instance = i,
+                                        .first = groups.first + done,
+                                        .count = std::min(groups.count - done, shared::kWorkItemClusters)});
+        }
+        if (which == 0)
+            result.rigid_items = static_cast<uint32_t>(result.items.size());
     }
-    return items;
+    return result;
 }
 
 Result<SceneLayout> makeSceneLayout(const formats::PackView& pack)
@@ -178,9 +200,17 @@ Result<SceneLayout> makeSceneLayout(const formats::PackView& pack, PoolLayout po
         layout.draws.push_back(makeClusterDraw(pack, c, layout.pool.page_addresses[pack.clusters()[c].page]));
     HEARTH_TRY(makeWorkList(pack, layout));
     layout.bounds = shared::makeMeshBounds(pack.meshes(), pack.clusters());
+    layout.instances.resize(pack.instances().size());
+    if (!layout.instances.empty())
+        std::memcpy(static_cast<void*>(layout.instances.data()), pack.instances().data(),
+                    pack.instances().size_bytes());
+    layout.deformation = makeDeformationLayout(pack, layout.bounds, layout.instances);
     layout.inverses.reserve(pack.instances().size());
     for (const formats::InstanceRecord& instance : pack.instances())
         layout.inverses.push_back(shared::makeInstanceInverse(instance));
+    // the joints of deformed ones have inverses of their own
+    for (const DeformedInstance& deformed : layout.deformation.instances)
+        layout.inverses[deformed.instance] = {};
     return layout;
 }
 

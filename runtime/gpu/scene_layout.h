@@ -5,6 +5,7 @@
 
 #include "formats/pack_view.h"
 #include "formats/shared/frame.h"
+#include "runtime/gpu/deformation_layout.h"
 #include "runtime/gpu/pool_layout.h"
 
 #include <vector>
@@ -25,18 +26,22 @@ struct SceneBin
     bool alpha_tested = false; ///< the material decides which pixels are there
     uint32_t material_row = 0; ///< of the alpha-tested material; 0 where it does not matter
     Facing facing = Facing::culled;
-    bool unlit = false; ///< casts no shadow: a dome with the sky on it would leave no sun
+    bool unlit = false;    ///< casts no shadow: a dome with the sky on it would leave no sun
+    bool deformed = false; ///< its clusters are those of deformed instances
     shared::Bin items{};
 };
 
 struct SceneLayout
 {
     std::vector<shared::WorkItem> items; ///< sorted by bin, then instance, then cluster
+    uint32_t rigid_items = 0;            ///< the first ones: the bins of deformed instances are the last
     std::vector<uint32_t> order;         ///< cluster numbers; of each mesh, those of one bin together
     std::vector<SceneBin> bins;
     std::vector<shared::ClusterDraw> draws;        ///< for each cluster
-    std::vector<shared::MeshBounds> bounds;        ///< for each mesh
+    std::vector<shared::MeshBounds> bounds;        ///< for each mesh, then for each deformed instance
+    std::vector<shared::Instance> instances;       ///< those of the pack, deformed ones at rest
     std::vector<shared::InstanceInverse> inverses; ///< for each instance
+    DeformationLayout deformation;
     PoolLayout pool;
     uint64_t instanced_clusters =
         0;                      ///< over all instances, all clusters of the mesh: what a frame draws at most
@@ -49,8 +54,13 @@ uint32_t materialRow(const formats::PackView& pack, uint32_t material);
 /// What drawing needs of a cluster whose page lies at `page_address` of the geometry pool.
 shared::ClusterDraw makeClusterDraw(const formats::PackView& pack, uint32_t cluster, uint32_t page_address);
 
-/// The groups of every instance, mesh by mesh: what the page requests look at.
-std::vector<shared::GroupItem> makeGroupItems(const formats::PackView& pack);
+/// The groups of every instance, mesh by mesh: what the page requests look at. Rigid instances first.
+struct GroupItems
+{
+    std::vector<shared::GroupItem> items;
+    uint32_t rigid_items = 0; ///< the first ones
+};
+GroupItems makeGroupItems(const formats::PackView& pack);
 
 /// Clusters of pages without a place get an address that means nothing.
 /// errors: device_limit, where the scene is larger than any device of Vulkan 1.1 must be able to take.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/gpu/scene_shading.h"
 
+#include "runtime/gpu/scene_boxes.h"
 #include "runtime/gpu/shadow_plan.h"
 
 #include <algorithm>
@@ -108,23 +109,6 @@ shared::Material makeMaterial(const formats::MaterialRecord& record)
         material.uv_rows[2 * slot + 1] = {m[3], m[4], m[5], 0};
     }
     return material;
-}
-
-Box3 sceneBounds(const formats::PackView& pack)
-{
-    Box3 bounds;
-    for (const formats::InstanceRecord& instance : pack.instances())
-    {
-        const formats::MeshRecord& mesh = pack.meshes()[instance.mesh];
-        if (mesh.clusters.count == 0)
-            continue;
-        for (int corner = 0; corner < 8; ++corner)
-            bounds.add(
-                transformPoint(instance.world_from_object, {(corner & 1) ? mesh.box_max.x : mesh.box_min.x,
-                                                            (corner & 2) ? mesh.box_max.y : mesh.box_min.y,
-                                                            (corner & 4) ? mesh.box_max.z : mesh.box_min.z}));
-    }
-    return bounds;
 }
 
 shared::Lighting makeLighting(const formats::PackView& pack)

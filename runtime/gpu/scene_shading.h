@@ -19,9 +19,6 @@ formats::MaterialRecord defaultMaterial();
 
 shared::Material makeMaterial(const formats::MaterialRecord& record);
 
-/// World-space box of all instances that have triangles; empty where nothing is drawn.
-Box3 sceneBounds(const formats::PackView& pack);
-
 /// Lights and sky. A scene without lights gets one sun. The exposure rule: the light that the scene's lights send
 /// together to a point in the middle of the scene is estimated; where it is more than shared::kKeyIlluminance, all lights are
 /// scaled down to it, so that lamps in candela and suns in lux are shown by the same camera. Never scaled up: a dim

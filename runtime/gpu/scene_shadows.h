@@ -33,6 +33,9 @@ public:
     /// What moves and streams in with a frame, whether it is drawn or only prefetched.
     void track(std::span<const InstanceMove> moves, std::span<const pack::ResidentGroups::Change> groups);
 
+    /// A new pose, from this frame on.
+    void pose(const DeformedInstance& instance, const PosedRows& rows) { cache_.pose(instance, rows); }
+
     /// Decide the maps of a frame; returns those that it must draw.
     ///
     /// spheres  beside those of the pack

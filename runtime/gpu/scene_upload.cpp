@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "formats/shared/material_tiles.h"
 #include "runtime/gpu/scene.h"
+#include "runtime/gpu/scene_boxes.h"
 #include "runtime/gpu/scene_shading.h"
 #include "runtime/gpu/scene_shadows.h"
 #include "runtime/pack/cut.h"
@@ -54,6 +55,14 @@ private:
     Status status_ = success();
 };
 
+/// All of it, with the scratch.
+uint64_t deformationWords(const DeformationLayout& layout)
+{
+    shared::DeformationHeader header;
+    std::memcpy(&header, layout.words.data(), sizeof(header));
+    return layout.words.size() + uint64_t{header.block_count} * header.block_words;
+}
+
 Status createBuffers(const Device& device, const formats::PackView& pack, const SceneLayout& layout,
                      Scene& scene)
 {
@@ -73,7 +82,7 @@ Status createBuffers(const Device& device, const formats::PackView& pack, const 
     f.make(b.lighting, "lights", 1, sizeof(shared::Lighting), kTable);
     f.make(b.instances, "instances", pack.instances().size(), sizeof(shared::Instance), kTable);
     f.make(b.inverses, "instances", pack.instances().size(), sizeof(shared::InstanceInverse), kTable);
-    f.make(b.bounds, "mesh bounds", pack.meshes().size(), sizeof(shared::MeshBounds), kTable);
+    f.make(b.bounds, "mesh bounds", layout.bounds.size(), sizeof(shared::MeshBounds), kTable);
     f.make(b.items, "work items", layout.items.size(), sizeof(shared::WorkItem), kTable);
     f.make(b.order, "cluster numbers", layout.order.size(), sizeof(uint32_t), kTable);
     f.make(b.clusters, "clusters", pack.clusters().size(), sizeof(shared::Cluster), kTable);
@@ -92,6 +101,9 @@ Status createBuffers(const Device& device, const formats::PackView& pack, const 
            sizeof(VkDrawIndirectCommand), kIndirect);
     f.make(b.tile_draws, "material draws", uint64_t{layout.material_rows} + 1, sizeof(shared::TileDraw),
            kIndirect);
+    if (scene.deformation != nullptr)
+        f.make(scene.deformation->buffer, "poses of deformed meshes", deformationWords(layout.deformation),
+               sizeof(uint32_t), kIndirect);
     if (scene.stream != nullptr)
     {
         f.make(b.group_items, "group items", scene.group_item_count, sizeof(shared::GroupItem), kTable);
@@ -120,7 +132,7 @@ Status uploadTables(const formats::PackView& pack, const SceneLayout& layout, Up
                     Scene& scene)
 {
     const SceneBuffers& b = scene.buffers;
-    HEARTH_TRY(uploader.uploadRecords(b.instances, pack.instances()));
+    HEARTH_TRY(uploader.uploadRecords(b.instances, layout.instances));
     HEARTH_TRY(uploader.uploadRecords(b.inverses, layout.inverses));
     HEARTH_TRY(uploader.uploadRecords(b.bounds, layout.bounds));
     HEARTH_TRY(uploader.uploadRecords(b.items, layout.items));
@@ -132,6 +144,8 @@ Status uploadTables(const formats::PackView& pack, const SceneLayout& layout, Up
     for (const SceneBin& bin : layout.bins)
         bins.push_back(bin.items);
     HEARTH_TRY(uploader.uploadRecords(b.bins, bins));
+    if (scene.deformation != nullptr)
+        HEARTH_TRY(uploader.uploadRecords(scene.deformation->buffer, layout.deformation.words));
 
     const shared::Lighting lighting = makeLighting(pack);
     scene.dropped_lights = static_cast<uint32_t>(pack.lights().size() -
@@ -165,12 +179,12 @@ Status uploadGeometry(const formats::PackView& pack, const SceneLayout& layout, 
 
 Status createSets(const Device& device, const DrawLayouts& layouts, Scene& scene, uint32_t material_rows)
 {
-    // three sets for drawing (one with the shadow maps), six of the culling pass, those of the material tiles and of the page requests, with room
-    // for what each binds
-    const DescriptorPoolSizes sizes{.uniforms = 16 + material_rows,
-                                    .storages = 80,
+    // three sets for drawing (one with the shadow maps), six of the culling pass, those of the material tiles and of the
+    // page requests; three more where meshes are deformed; with room for what each binds
+    const DescriptorPoolSizes sizes{.uniforms = 18 + material_rows,
+                                    .storages = 96,
                                     .textures = material_rows * shared::kTextureCount + 1};
-    HEARTH_ASSIGN_OR_RETURN(scene.pool, createDescriptorPool(device, 11 + material_rows, sizes));
+    HEARTH_ASSIGN_OR_RETURN(scene.pool, createDescriptorPool(device, 14 + material_rows, sizes));
     HEARTH_ASSIGN_OR_RETURN(scene.draw_set, allocateSet(device, scene.pool.get(), layouts.scene.get()));
     const SceneBuffers& b = scene.buffers;
     DescriptorWriter writer(scene.draw_set);
@@ -180,7 +194,9 @@ Status createSets(const Device& device, const DrawLayouts& layouts, Scene& scene
         .storage(kSceneDraws, b.cluster_draws)
         .storage(kSceneLighting, b.lighting);
     for (uint32_t slice = 0; slice < shared::kPoolSlices; ++slice)
-        writer.storage(kScenePool + slice, b.pool[slice]);
+        writer.storage(kScenePool + slice, scene.deformation != nullptr && slice == shared::kDeformationSlice
+                                               ? scene.deformation->buffer
+                                               : b.pool[slice]);
     writer.write(device);
     HEARTH_ASSIGN_OR_RETURN(scene.bins_set, allocateSet(device, scene.pool.get(), layouts.bins.get()));
     DescriptorWriter(scene.bins_set).storage(0, b.bin_draws).write(device);
@@ -194,6 +210,36 @@ Status createSets(const Device& device, const DrawLayouts& layouts, Scene& scene
         .storage(kInspectionGroups, b.groups)
         .write(device);
     return success();
+}
+
+/// Its scratch is as large as it may be, and the device binds at once.
+std::unique_ptr<SceneDeformation> makeDeformation(const Device& device, const DeformationOptions& options,
+                                                  SceneLayout& layout, uint32_t rigid_group_items)
+{
+    auto deformation = std::make_unique<SceneDeformation>();
+    const uint64_t table_bytes = layout.deformation.words.size() * 4;
+    const uint64_t most_bytes = device.limits.maxStorageBufferRange;
+    placeScratch(layout.deformation,
+                 std::min(options.scratch_bytes, most_bytes - std::min(most_bytes, table_bytes)));
+    const auto first = std::find_if(layout.bins.begin(), layout.bins.end(),
+                                    [](const SceneBin& bin) { return bin.deformed; });
+    deformation->first_bin = static_cast<uint32_t>(first - layout.bins.begin());
+    deformation->rigid_items = layout.rigid_items;
+    deformation->rigid_group_items = rigid_group_items;
+    return deformation;
+}
+
+/// What frames still need of it, and the materials that are drawn in poses.
+void keepLayout(const formats::PackView& pack, DeformationLayout layout, Scene& scene)
+{
+    for (const formats::DeformedMeshRecord& mesh : pack.deformedMeshes())
+        for (const formats::ClusterRecord& cluster :
+             recordsOf(pack.clusters(), pack.meshes()[mesh.mesh].clusters))
+            scene.materials[materialRow(pack, cluster.material)].variant.deformed = 1;
+    SceneDeformation& deformation = *scene.deformation;
+    deformation.rows.words.reserve(size_t{layout.most_rows} * 4);
+    deformation.layout = std::move(layout);
+    deformation.layout.words = {};
 }
 
 /// No shader of a scene without shadows looks at their bindings, but lavapipe (Mesa 22.3) reads what they are; so they
@@ -229,27 +275,30 @@ Result<std::unique_ptr<Scene>> uploadScene(const Device& device, const DrawLayou
         HEARTH_ASSIGN_OR_RETURN(pool, placeAllPages(pack));
     }
     HEARTH_ASSIGN_OR_RETURN(SceneLayout layout, makeSceneLayout(pack, std::move(pool)));
-    const std::vector<shared::GroupItem> group_items =
-        options.geometry_budget > 0 ? makeGroupItems(pack) : std::vector<shared::GroupItem>();
+    const GroupItems group_items = options.geometry_budget > 0 ? makeGroupItems(pack) : GroupItems{};
     scene->staging = std::make_unique<Uploader>(device, commands);
     scene->instances.assign(pack.instances().begin(), pack.instances().end());
     scene->instance_count = static_cast<uint32_t>(pack.instances().size());
     scene->item_count = static_cast<uint32_t>(layout.items.size());
-    scene->group_item_count = static_cast<uint32_t>(group_items.size());
+    scene->group_item_count = static_cast<uint32_t>(group_items.items.size());
     scene->slot_capacity = static_cast<uint32_t>(std::min<uint64_t>(
         layout.instanced_clusters, std::min(options.max_visible_clusters, shared::kMaxSlots)));
     scene->used_slices = layout.pool.slice_words[1] == 0 ? 1 : shared::kPoolSlices;
     scene->bounds = sceneBounds(pack);
 
+    if (!layout.deformation.words.empty())
+        scene->deformation = makeDeformation(device, options.deformation, layout, group_items.rigid_items);
     HEARTH_TRY(createBuffers(device, pack, layout, *scene));
     HEARTH_TRY(createSets(device, layouts, *scene, layout.material_rows));
     HEARTH_TRY(uploadTables(pack, layout, *scene->staging, *scene));
-    HEARTH_TRY(scene->staging->uploadRecords(scene->buffers.group_items, group_items));
+    HEARTH_TRY(scene->staging->uploadRecords(scene->buffers.group_items, group_items.items));
     HEARTH_TRY(uploadGeometry(pack, layout, *scene->staging, *scene));
     HEARTH_TRY(uploadMaterials(device, layouts, pack, *scene->staging, *scene));
     fillShadowBindings(device, *scene);
     scene->staging->finish();
     scene->bins = std::move(layout.bins);
+    if (scene->deformation != nullptr)
+        keepLayout(pack, std::move(layout.deformation), *scene);
     return scene;
 }
 

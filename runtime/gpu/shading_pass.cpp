@@ -3,6 +3,8 @@
 
 #include "runtime/shaders/shaders.h"
 
+#include <algorithm>
+
 namespace hearth::gpu
 {
 
@@ -20,6 +22,11 @@ GraphicsDescription describe(std::span<const uint32_t> fragment, VkPipelineLayou
             .depth_compare = VK_COMPARE_OP_EQUAL,
             .depth_write = false,
             .color = true};
+}
+
+uint32_t deformedVertices(const ShadingVariant& variant)
+{
+    return variant.deformed != 0 ? kDeformedInScratch : kRigid;
 }
 
 } // namespace
@@ -43,19 +50,23 @@ Result<ShadingPass> ShadingPass::create(const Device& device, const DrawLayouts&
 Result<ShadingPipelines> ShadingPass::prepare(const Device& device, const DrawLayouts& layouts,
                                               const ShadingVariant& variant)
 {
-    if (variant.shadows != 0 && shadow_maps_.get() == VK_NULL_HANDLE)
+    UniquePipeline& shadow_maps = shadow_maps_[variant.deformed];
+    if (variant.shadows != 0 && shadow_maps.get() == VK_NULL_HANDLE)
     {
+        const uint32_t constants[] = {shared::kPoolSlices, 0, 0, 0, deformedVertices(variant)};
         GraphicsDescription maps =
             describe(shaders::inspect_shadows_frag, layouts.picture.get(), render_pass_);
         maps.vertex = shaders::fullscreen_vert;
+        maps.constants = constants;
         maps.depth_compare = VK_COMPARE_OP_LESS; // as clusters_
-        HEARTH_ASSIGN_OR_RETURN(shadow_maps_, createGraphicsPipeline(device, maps));
+        HEARTH_ASSIGN_OR_RETURN(shadow_maps, createGraphicsPipeline(device, maps));
     }
     const auto [entry, fresh] = variants_.try_emplace(variant);
     Variant& pipelines = entry->second;
     if (fresh)
     {
-        const uint32_t constants[] = {variant.used_slices, variant.textures, variant.uv_sets, variant.unlit};
+        const uint32_t constants[] = {variant.used_slices, variant.textures, variant.uv_sets, variant.unlit,
+                                      deformedVertices(variant)};
         GraphicsDescription description =
             describe(variant.shadows != 0 ? shaders::shading_shadowed_frag : shaders::shading_frag,
                      layouts.picture.get(), render_pass_);
@@ -119,7 +130,10 @@ void ShadingPass::recordShadowMaps(const Device& device, VkCommandBuffer command
     HEARTH_ASSERT(scene.shadows != nullptr);
     const DrawPush push{.depth = 0, .shown_view = view.shown};
     device.vk.vkCmdPushConstants(commands, layouts.picture.get(), kDrawPushStages, 0, sizeof(push), &push);
-    device.vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, shadow_maps_.get());
+    const bool deformed = std::any_of(scene.materials.begin(), scene.materials.end(),
+                                      [](const SceneMaterial& m) { return m.variant.deformed != 0; });
+    device.vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS,
+                                shadow_maps_[deformed ? 1 : 0].get());
     device.vk.vkCmdDraw(commands, 3, 1, 0, 0);
 }
 

@@ -69,7 +69,7 @@ private:
     VkRenderPass render_pass_ = VK_NULL_HANDLE;
     UniquePipeline sky_;
     UniquePipeline clusters_;
-    UniquePipeline shadow_maps_; ///< once a scene has them
+    UniquePipeline shadow_maps_[2]; ///< once a scene has them: [1] one with deformed meshes
     std::map<ShadingVariant, Variant> variants_;
 };
 

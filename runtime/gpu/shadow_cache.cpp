@@ -47,6 +47,8 @@ std::vector<Box3> makeReaches(const formats::PackView& pack)
     std::vector<Box3> reaches;
     for (const shared::MeshBounds& bounds : shared::makeMeshBounds(pack.meshes(), pack.clusters()))
         reaches.push_back({bounds.box_min, bounds.box_max});
+    for (const formats::DeformedMeshRecord& mesh : pack.deformedMeshes())
+        reaches[mesh.mesh] = {mesh.box_min, mesh.box_max};
     for (size_t mesh = 0; mesh < reaches.size(); ++mesh)
         for (const formats::GroupRecord& group :
              formats::recordsOf(pack.groups(), pack.meshes()[mesh].groups))
@@ -129,19 +131,34 @@ ShadowCache::ShadowCache(const formats::PackView& pack, const ShadowOptions& opt
 void ShadowCache::move(std::span<const InstanceMove> moves)
 {
     for (const InstanceMove& move : moves)
+        place(move.instance,
+              worldBox(reach_of_mesh_[mesh_of_instance_[move.instance]], transformOf(move.record)),
+              move.record.scale_max);
+}
+
+void ShadowCache::pose(const DeformedInstance& instance, const PosedRows& rows)
+{
+    Box3 reach = reach_of_mesh_[mesh_of_instance_[instance.instance]];
+    if (const auto sphere = freeSphere(rows))
     {
-        const uint32_t instance = move.instance;
-        Box3& box = box_of_instance_[instance];
-        touch(box, moves_[instance] != 0);
-        if (moving_layers_ && moves_[instance] == 0)
-        {
-            moves_[instance] = 1;
-            movers_.push_back(instance);
-        }
-        box = worldBox(reach_of_mesh_[mesh_of_instance_[instance]], transformOf(move.record));
-        touch(box, moves_[instance] != 0);
-        scale_of_instance_[instance] = move.record.scale_max;
+        const Float3 radius = Float3{1, 1, 1} * sphere->radius;
+        reach = {sphere->center - radius, sphere->center + radius};
     }
+    place(instance.instance, worldBox(reach, transformOf(rows.record)), rows.record.scale_max);
+}
+
+/// Something of the instance is elsewhere now.
+void ShadowCache::place(uint32_t instance, const Box3& box, float scale)
+{
+    touch(box_of_instance_[instance], moves_[instance] != 0);
+    if (moving_layers_ && moves_[instance] == 0)
+    {
+        moves_[instance] = 1;
+        movers_.push_back(instance);
+    }
+    box_of_instance_[instance] = box;
+    touch(box, moves_[instance] != 0);
+    scale_of_instance_[instance] = scale;
 }
 
 void ShadowCache::publish(std::span<const pack::ResidentGroups::Change> groups)

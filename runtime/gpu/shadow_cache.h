@@ -28,6 +28,9 @@ public:
     /// Instances that have new transforms from this frame on.
     void move(std::span<const InstanceMove> moves);
 
+    /// A deformed instance that has a new pose from this frame on.
+    void pose(const DeformedInstance& instance, const PosedRows& rows);
+
     /// Groups that came or went with this frame.
     void publish(std::span<const pack::ResidentGroups::Change> groups);
 
@@ -61,13 +64,15 @@ private:
         shared::FrameView casters{};
     };
 
+    void place(uint32_t instance, const Box3& box, float scale);
     void touch(const Box3& box, bool moves);
     void touchFiner(size_t instance, float error_object);
     bool isMoverIn(const shared::FrameView& casters) const;
     void planMoving(uint32_t map, const shared::FrameView& casters, Layer& layer, ShadowPlan& plan);
 
     const formats::PackView& pack_;
-    std::vector<Box3> reach_of_mesh_; ///< object space: its clusters and the spheres of its groups
+    /// Object space, or where the anchor of a deformed mesh carries it: its clusters and the spheres of its groups.
+    std::vector<Box3> reach_of_mesh_;
     std::vector<uint32_t> mesh_of_instance_;
     std::vector<float> scale_of_instance_;
     std::vector<Box3> box_of_instance_;  ///< world

@@ -120,6 +120,13 @@ Status ShadowPass::createMaps(const Device& device, const formats::PackView& pac
     HEARTH_ASSIGN_OR_RETURN(scene.shadows,
                             SceneShadows::create(device, from_nothing_.get(), pack, scene.bounds, options));
     const SceneShadows& shadows = *scene.shadows;
+    if (scene.deformation != nullptr)
+    {
+        const DeformationLayout& deformed = scene.deformation->layout;
+        const std::vector<PosedRows> poses = posesAtRest(pack, deformed);
+        for (size_t i = 0; i < poses.size(); ++i)
+            scene.shadows->pose(deformed.instances[i], poses[i]);
+    }
     makeSampleable(device, commands, shadows.image());
     DescriptorWriter(scene.draw_set)
         .uniform(kSceneShadows, shadows.block())

@@ -16,6 +16,9 @@ class ShadowPass
 public:
     static Result<ShadowPass> create(const Device& device, const DrawLayouts& layouts);
 
+    /// What scenes with deformed meshes need beside; once.
+    Status prepareDeformed(const Device& device) { return casters_.prepareDeformed(device); }
+
     /// The maps of a scene, and their places in its descriptor set. Records that their layers can be sampled.
     /// errors: those of SceneShadows::create.
     Status createMaps(const Device& device, const formats::PackView& pack, const ShadowOptions& options,

@@ -1,6 +1,7 @@
 // What the two vertex shaders of the casters share.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "shadow_block.glsl"
+#include "drawn_vertex.glsl"
 
 layout(set = 2, binding = 0, std430) readonly buffer BinDraws { BinDraw bin_draws[]; };
 layout(push_constant) uniform Push
@@ -31,15 +32,16 @@ CasterCorner casterCorner()
     if (triangle >= triangleCount(corner.draw))
         return corner;
     Instance instance = instances[visible[slot].instance];
+    DrawnPose pose = drawnPose(visible[slot].instance, slot);
     ShadowLight light = shadows.lights[light_row];
     uint turn = gl_VertexIndex % 3u;
     vec3 points[3]; // the corner itself, then the other two in their order
     for (uint i = 0u; i < 3u; ++i)
     {
-        uint vertex = cornerAddress(corner.draw, triangle, (turn + i) % 3u);
+        uint index = cornerVertex(corner.draw, triangle, (turn + i) % 3u);
         if (i == 0u)
-            corner.vertex = vertex;
-        points[i] = relativePoint(instance, light.origin, vertexPosition(corner.draw, vertex));
+            corner.vertex = vertexAddress(corner.draw, index);
+        points[i] = drawnPosition(instance, corner.draw, pose, index, light.origin);
     }
     vec3 across = cross(points[1] - points[0], points[2] - points[0]);
     float area2 = dot(across, across);

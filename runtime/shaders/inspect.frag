@@ -1,4 +1,4 @@
-// Shows what is drawn instead of how it looks: clusters, levels, triangles, materials, normals, depth.
+// Shows what is drawn instead of how it looks: clusters, levels, triangles, materials, bones, normals, depth.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #version 450
 #extension GL_GOOGLE_include_directive : require
@@ -38,6 +38,13 @@ vec3 colorOfLevel(uint level)
     return clamp(abs(fract(hue + vec3(0.0, 2.0 / 3.0, 1.0 / 3.0)) * 6.0 - 3.0) - 1.0, 0.0, 1.0);
 }
 
+vec3 colorOfBone(Surface s)
+{
+    if (!isDeformed(s))
+        return vec3(0.4);
+    return colorOfNumber(loadDeformedCluster(loadPose(s.pose.row), s.slot.cluster).joint + 1u);
+}
+
 void main()
 {
     Surface s = resolveSurface(subpassLoad(visibility).x, gl_FragCoord.xy);
@@ -52,6 +59,8 @@ void main()
         color = facing * colorOfNumber((s.slot.cluster * 128u + s.triangle) * 31u + s.slot.instance);
     else if (shown_view == kViewMaterials)
         color = facing * colorOfNumber(s.draw.material);
+    else if (shown_view == kViewBones)
+        color = facing * colorOfBone(s);
     else if (shown_view == kViewNormals)
         color = shadingNormal(surfacePoint(s), surfaceUvs(s)) * 0.5 + 0.5;
     else

@@ -2,13 +2,16 @@
 // by homogeneous edge functions, without a division by w, so that triangles may cross the near plane.
 // M. Olano, T. Greer, "Triangle scan conversion using 2D homogeneous coordinates", 1997.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "drawn_vertex.glsl"
 
 struct Surface
 {
     VisibleCluster slot;
     Instance instance;
     ClusterDraw draw;
+    DrawnPose pose;
     uint triangle;
+    uint indices[3];   // of the vertices, in their cluster
     uint vertices[3];  // addresses
     vec3 corners[3];   // relative to the eye
     vec3 position;     // relative to the eye
@@ -29,14 +32,16 @@ Surface resolveSurface(uint id, vec2 pixel)
     s.triangle = id & ((1u << kTriangleBits) - 1u);
     s.instance = instances[s.slot.instance];
     s.draw = cluster_draws[s.slot.cluster];
+    s.pose = drawnPose(s.slot.instance, id >> kTriangleBits);
 
     vec2 ndc = pixel * 2.0 / vec2(view.width, view.height) - 1.0;
     vec2 p[3]; // clip positions with the pixel moved to the origin: small numbers, little cancellation
     float w[3];
     for (uint i = 0u; i < 3u; ++i)
     {
-        s.vertices[i] = cornerAddress(s.draw, s.triangle, i);
-        s.corners[i] = relativePoint(s.instance, view.eye, vertexPosition(s.draw, s.vertices[i]));
+        s.indices[i] = cornerVertex(s.draw, s.triangle, i);
+        s.vertices[i] = vertexAddress(s.draw, s.indices[i]);
+        s.corners[i] = drawnPosition(s.instance, s.draw, s.pose, s.indices[i], view.eye);
         vec4 clip = clipPosition(view, s.corners[i]);
         p[i] = clip.xy - ndc * clip.w;
         w[i] = clip.w;
@@ -127,6 +132,8 @@ vec3 worldNormal(Instance instance, vec3 n)
     return isMirrored(instance) ? -r : r;
 }
 
+bool isDeformed(Surface s) { return kDeformed != 0u && s.pose.row != 0u; }
+
 vec3 geometricNormal(Surface s)
 {
     vec3 n = cross(s.corners[1] - s.corners[0], s.corners[2] - s.corners[0]);
@@ -140,6 +147,12 @@ vec3 smoothNormal(Surface s)
     if ((s.draw.vertex_layout & kVertexNormal) == 0u)
         return flat_normal;
     vec3 n = vec3(0.0);
+    if (isDeformed(s))
+    {
+        for (uint i = 0u; i < 3u; ++i)
+            n += drawnNormal(s.draw, s.pose, s.indices[i]) * s.weights[i];
+        return normalizeOr(n, flat_normal);
+    }
     for (uint i = 0u; i < 3u; ++i)
         n += vertexNormal(s.draw, s.vertices[i]) * s.weights[i];
     return normalizeOr(worldNormal(s.instance, n), flat_normal);
@@ -155,11 +168,12 @@ void tangentFrame(Surface s, vec3 normal, uint uv_set, out vec3 tangent, out vec
         for (uint i = 0u; i < 3u; ++i)
         {
             vec4 at_vertex = vertexTangent(s.draw, s.vertices[i], vertexNormal(s.draw, s.vertices[i]));
-            t += at_vertex.xyz * s.weights[i];
+            t += (isDeformed(s) ? drawnTangent(s.draw, s.pose, s.indices[i]) : at_vertex.xyz) * s.weights[i];
             if (i == 0u)
                 side *= at_vertex.w;
         }
-        t = worldVector(s.instance, t);
+        if (!isDeformed(s))
+            t = worldVector(s.instance, t);
     }
     else
     {

@@ -54,28 +54,39 @@ uint uvEnd(uint layout_bits, uint sets)
            uint(bitCount(layout_bits & sets & (wide ? kVertexUvs : layout_bits >> 7)));
 }
 
-uint vertexWords(uint layout_bits)
+// Of a vertex: where its joints and weights stand.
+uint influenceWord(uint layout_bits)
 {
     uint words = uvEnd(layout_bits, kVertexUvs);
     if ((layout_bits & kVertexColor) != 0u)
         words += (layout_bits & kVertexFineColor) != 0u ? 2u : 1u;
-    if ((layout_bits & kVertexInfluences) != 0u)
-        words += (layout_bits & kVertexMoreInfluences) != 0u ? 8u : 4u;
     return words;
 }
 
+// Joints of a vertex that have weights, with which they take a word each.
+uint influenceCount(uint layout_bits)
+{
+    if ((layout_bits & kVertexInfluences) == 0u)
+        return 0u;
+    return (layout_bits & kVertexMoreInfluences) != 0u ? 8u : 4u;
+}
+
+uint vertexWords(uint layout_bits) { return influenceWord(layout_bits) + influenceCount(layout_bits); }
+
 uint vertexCount(ClusterDraw draw) { return draw.counts & 0x1FFu; }
 uint triangleCount(ClusterDraw draw) { return draw.counts >> 9 & 0xFFu; }
-uint levelOf(ClusterDraw draw) { return draw.counts >> 17; }
+uint levelOf(ClusterDraw draw) { return draw.counts >> 17 & 0xFFu; }
 
-// Address of the first word of a corner's vertex. Indices are bytes behind the vertices.
-uint cornerAddress(ClusterDraw draw, uint triangle, uint corner)
+// The vertex of a corner, counted in its cluster. Indices are bytes behind the vertices.
+uint cornerVertex(ClusterDraw draw, uint triangle, uint corner)
 {
-    uint words = vertexWords(draw.vertex_layout);
     uint index = triangle * 3u + corner;
-    uint word = poolWord(draw.address + vertexCount(draw) * words + (index >> 2));
-    return draw.address + (word >> ((index & 3u) * 8u) & 0xFFu) * words;
+    uint word = poolWord(draw.address + vertexCount(draw) * vertexWords(draw.vertex_layout) + (index >> 2));
+    return word >> ((index & 3u) * 8u) & 0xFFu;
 }
+
+// Address of the first word of a vertex of a cluster.
+uint vertexAddress(ClusterDraw draw, uint vertex) { return draw.address + vertex * vertexWords(draw.vertex_layout); }
 
 // In object space. Whole numbers of at most 24 bits times a power of two: exact.
 vec3 vertexPosition(ClusterDraw draw, uint vertex)

@@ -10,12 +10,17 @@ namespace hearth::shaders
 
 extern const std::span<const uint32_t> cull_instances_comp;
 extern const std::span<const uint32_t> cull_clusters_comp;
+extern const std::span<const uint32_t> cull_clusters_deformed_comp;
 extern const std::span<const uint32_t> scan_blocks_comp;
 extern const std::span<const uint32_t> scan_totals_comp;
 extern const std::span<const uint32_t> emit_visible_comp;
 extern const std::span<const uint32_t> emit_draws_comp;
 extern const std::span<const uint32_t> cull_statistics_comp;
+extern const std::span<const uint32_t> cull_statistics_deformed_comp;
 extern const std::span<const uint32_t> page_requests_comp;
+extern const std::span<const uint32_t> page_requests_deformed_comp;
+extern const std::span<const uint32_t> plan_skinning_comp;
+extern const std::span<const uint32_t> skin_vertices_comp;
 extern const std::span<const uint32_t> pyramid_tiles_comp;
 extern const std::span<const uint32_t> pyramid_top_comp;
 extern const std::span<const uint32_t> tile_materials_comp;

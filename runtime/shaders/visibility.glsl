@@ -1,5 +1,6 @@
 // What the two vertex shaders of the visibility pass share.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "drawn_vertex.glsl"
 
 layout(set = 2, binding = 0, std430) readonly buffer BinDraws { BinDraw bin_draws[]; };
 layout(push_constant) uniform Push { uint bin_index; };
@@ -24,8 +25,10 @@ CornerOfSlot cornerOfSlot()
     if (triangle < triangleCount(corner.draw))
     {
         Instance instance = instances[visible[slot].instance];
-        corner.vertex = cornerAddress(corner.draw, triangle, gl_VertexIndex % 3u);
-        corner.position = clipPosition(view, relativePoint(instance, view.eye, vertexPosition(corner.draw, corner.vertex)));
+        uint index = cornerVertex(corner.draw, triangle, gl_VertexIndex % 3u);
+        corner.vertex = vertexAddress(corner.draw, index);
+        DrawnPose pose = drawnPose(visible[slot].instance, slot);
+        corner.position = clipPosition(view, drawnPosition(instance, corner.draw, pose, index, view.eye));
     }
     return corner;
 }

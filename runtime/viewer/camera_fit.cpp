@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/viewer/camera_fit.h"
 
-#include "formats/cluster_bounds.h"
-#include "runtime/gpu/scene_shading.h"
+#include "runtime/gpu/scene_boxes.h"
 
 #include <algorithm>
 #include <cmath>
@@ -20,15 +19,6 @@ constexpr Float3 kFrom{0.55f, 0.42f, 0.8f};
 // Where there are more, the boxes of whole instances must do.
 constexpr size_t kMostClusterBoxes = size_t{1} << 18;
 
-template <typename Visitor>
-void visitCorners(const Box3& box, const Affine3& world_from_object, const Visitor& visit)
-{
-    for (int corner = 0; corner < 8; ++corner)
-        visit(transformPoint(world_from_object,
-                             {(corner & 1) ? box.max.x : box.min.x, (corner & 2) ? box.max.y : box.min.y,
-                              (corner & 4) ? box.max.z : box.min.z}));
-}
-
 size_t countClusters(const formats::PackView& pack)
 {
     size_t count = 0;
@@ -40,23 +30,15 @@ size_t countClusters(const formats::PackView& pack)
 /// Calls `visit` with world-space points around all that is drawn: the corners of the finest clusters' boxes, which lie
 /// closer to round things than the corners of whole ones.
 template <typename Visitor>
-void forEachCorner(const formats::PackView& pack, const Visitor& visit)
+void forEachCorner(const formats::PackView& pack, const pack::PosePlayer& player, const Visitor& visit)
 {
     const bool by_clusters = countClusters(pack) <= kMostClusterBoxes;
-    for (const formats::InstanceRecord& instance : pack.instances())
-    {
-        const formats::MeshRecord& mesh = pack.meshes()[instance.mesh];
-        if (mesh.clusters.count == 0)
-            continue;
-        if (!by_clusters)
-        {
-            visitCorners({mesh.box_min, mesh.box_max}, instance.world_from_object, visit);
-            continue;
-        }
-        for (const formats::ClusterRecord& cluster : recordsOf(pack.clusters(), mesh.clusters))
-            if (cluster.level == 0)
-                visitCorners(formats::boxOf(cluster, mesh.grid_step), instance.world_from_object, visit);
-    }
+    for (const auto& [box, world_from_box] :
+         by_clusters ? gpu::clusterBoxes(pack, player) : gpu::instanceBoxes(pack, player))
+        for (int corner = 0; corner < 8; ++corner)
+            visit(transformPoint(world_from_box,
+                                 {(corner & 1) ? box.max.x : box.min.x, (corner & 2) ? box.max.y : box.min.y,
+                                  (corner & 4) ? box.max.z : box.min.z}));
 }
 
 } // namespace
@@ -68,9 +50,14 @@ float nearPlane(float distance)
 
 shared::Camera fitCamera(const formats::PackView& pack, float aspect)
 {
+    return fitCamera(pack, pack::PosePlayer(pack), aspect);
+}
+
+shared::Camera fitCamera(const formats::PackView& pack, const pack::PosePlayer& player, float aspect)
+{
     shared::Camera camera;
     camera.y_fov_rad = kFieldOfView;
-    const Box3 bounds = gpu::sceneBounds(pack);
+    const Box3 bounds = gpu::sceneBounds(pack, player);
     if (bounds.empty())
     {
         camera.position = kFrom * 3.0f;
@@ -88,7 +75,7 @@ shared::Camera fitCamera(const formats::PackView& pack, float aspect)
     // bind at once. Each side plane of the frustum gives one bound; p . side <= eye . side for all points.
     const Float3 center = bounds.center();
     float left = 0, rightmost = 0, bottom = 0, top = 0;
-    forEachCorner(pack,
+    forEachCorner(pack, player,
                   [&](Float3 corner)
                   {
                       const Float3 p = corner - center;

@@ -4,12 +4,16 @@
 
 #include "formats/pack_view.h"
 #include "formats/shared/frame.h"
+#include "runtime/pack/pose_player.h"
 
 namespace hearth::viewer
 {
 
 /// Three-quarter view from the right, front and above, as close as all that is drawn fits into the picture with a
-/// small margin. A scene without triangles gets a view of the origin.
+/// small margin: deformed instances wherever clips can bring them from where their bones stand now. A scene without triangles gets a view of the origin.
+shared::Camera fitCamera(const formats::PackView& pack, const pack::PosePlayer& player, float aspect);
+
+/// The same at rest.
 shared::Camera fitCamera(const formats::PackView& pack, float aspect);
 
 /// Camera `index` of the pack, which must exist and be a perspective one.

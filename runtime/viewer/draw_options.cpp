@@ -22,8 +22,8 @@ const char* const kDrawHelp =
     "                          the distance. Example: 0:1,50:1,500:0.4\n"
     "      --view VIEW         final, clusters, lod, triangles, materials, normals, depth, error (yellow: "
     "as\n"
-    "                          large as allowed), cones (red: none), overdraw (white: 16) or shadow-maps "
-    "(grey:\n"
+    "                          large as allowed), cones (red: none), bones (of\n"
+    "                          characters; grey: none), overdraw (white: 16) or shadow-maps (grey:\n"
     "                          none)\n"
     "      --shadows SETTINGS  off (default), on, or some of maps=N (16 at most), texels=N (1024), kernel=N "
     "(1:\n"
@@ -234,12 +234,14 @@ Status parseFrames(std::string_view text, uint32_t& frames)
     return success();
 }
 
-Result<shared::Camera> chooseCamera(const DrawOptions& options, const formats::PackView& pack)
+Result<shared::Camera> chooseCamera(const DrawOptions& options, const formats::PackView& pack,
+                                    const pack::PosePlayer& player)
 {
     if (options.camera)
         return *options.camera;
     if (!options.scene_camera)
-        return fitCamera(pack, static_cast<float>(options.width) / static_cast<float>(options.height));
+        return fitCamera(pack, player,
+                         static_cast<float>(options.width) / static_cast<float>(options.height));
     const std::span<const formats::CameraRecord> cameras = pack.cameras();
     if (*options.scene_camera >= cameras.size())
         return Error{Issue::usage, pack.name(), "",

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "formats/pack_view.h"
+#include "runtime/pack/pose_player.h"
 #include "runtime/viewer/command_line.h"
 #include "runtime/viewer/frame_settings.h"
 #include "runtime/viewer/shadow_options.h"
@@ -41,7 +42,9 @@ Status checkDrawOptions(const DrawOptions& options);
 /// 1 to 10000 frames. errors: usage, naming the option --frames.
 Status parseFrames(std::string_view text, uint32_t& frames);
 
-/// Where the options put the camera. errors: usage, where the pack has no such camera.
-Result<shared::Camera> chooseCamera(const DrawOptions& options, const formats::PackView& pack);
+/// Where the options put the camera, in a scene that stands as the player has it. errors: usage, where the pack has no such
+/// camera.
+Result<shared::Camera> chooseCamera(const DrawOptions& options, const formats::PackView& pack,
+                                    const pack::PosePlayer& player);
 
 } // namespace hearth::viewer

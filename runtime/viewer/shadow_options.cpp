@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/viewer/shadow_options.h"
 
-#include "runtime/gpu/scene_shading.h"
+#include "runtime/gpu/scene_boxes.h"
 #include "runtime/viewer/text.h"
 
 #include <algorithm>

@@ -134,6 +134,7 @@ Picture GpuTest::draw(const gpu::Scene& scene, gpu::FrameTargets& targets, const
     const gpu::FrameInput input{.view = viewOf(scene, camera, options),
                                 .shading = {.shown = options.shown, .area = options.area},
                                 .moves = options.moves,
+                                .poses = options.poses,
                                 .shadow_spheres = options.shadow_spheres};
     const Status status = host().run(
         [&](VkCommandBuffer commands)

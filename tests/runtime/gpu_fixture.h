@@ -43,6 +43,7 @@ struct DrawOptions
     gpu::ShadedArea area = gpu::ShadedArea::automatic;
     std::vector<shared::LodKnot> lod_curve{};
     std::span<const gpu::InstanceMove> moves{};
+    std::span<const gpu::InstancePose> poses{};
     std::span<const gpu::ShadowSphere> shadow_spheres{};
 };
 

@@ -162,14 +162,20 @@ void TestScene::addLight(const LightRecord& light)
 
 PackView TestScene::build()
 {
+    PackView view = assemble();
+    const Status status = checkPack(view);
+    EXPECT_TRUE(status.ok()) << (status.ok() ? "" : formatMessage(status.error()));
+    return view;
+}
+
+PackView TestScene::assemble()
+{
     model_.meta = R"({"schema":"hearth.meta/1"})";
     bytes_ = model_.bytes();
     auto reader = ContainerReader::fromBytes(bytes_.span(), "test");
     HEARTH_ASSERT(reader.ok());
     auto view = PackView::read(std::move(*reader));
     HEARTH_ASSERT(view.ok());
-    const Status status = checkPack(*view);
-    EXPECT_TRUE(status.ok()) << (status.ok() ? "" : formatMessage(status.error()));
     return std::move(*view);
 }
 

@@ -37,6 +37,9 @@ public:
     /// The pack, which has passed the checker. The scene must outlive it and not change.
     formats::PackView build();
 
+    /// The same, where something is still missing that the checker would miss.
+    formats::PackView assemble();
+
     PackModel& model() { return model_; }
 
 private:

@@ -3,6 +3,7 @@
 #include "formats/program.h"
 #include "runtime/gpu/cull_statistics_pass.h"
 #include "runtime/pack/pack.h"
+#include "runtime/viewer/animation.h"
 #include "runtime/viewer/camera_path.h"
 #include "runtime/viewer/file_output.h"
 #include "runtime/viewer/frame_report.h"
@@ -32,11 +33,12 @@ Result<std::vector<std::byte>> readPicture(VulkanHost& host, const gpu::Renderer
 }
 
 /// One for each frame.
-Result<std::vector<shared::Camera>> chooseCameras(const RenderOptions& options, const formats::PackView& pack)
+Result<std::vector<shared::Camera>> chooseCameras(const RenderOptions& options, const formats::PackView& pack,
+                                                  const pack::PosePlayer& player)
 {
     if (!options.camera_path.empty())
         return readCameraPath(options.camera_path);
-    HEARTH_ASSIGN_OR_RETURN(const shared::Camera camera, chooseCamera(options, pack));
+    HEARTH_ASSIGN_OR_RETURN(const shared::Camera camera, chooseCamera(options, pack, player));
     return std::vector<shared::Camera>(options.frames, camera);
 }
 
@@ -76,11 +78,12 @@ void warnAboutShadows(const ShadowCounts& counts, const std::string& name)
 class Run
 {
 public:
-    Run(const RenderOptions& options, const formats::PackView& pack, VulkanHost& host,
+    Run(const RenderOptions& options, const formats::PackView& pack, Animation& animation, VulkanHost& host,
         const gpu::Renderer& renderer, const gpu::Scene& scene, gpu::FrameTargets& targets,
         VkQueryPool timestamps)
         : options_(options),
           pack_(pack),
+          animation_(animation),
           host_(host),
           renderer_(renderer),
           scene_(scene),
@@ -97,13 +100,15 @@ public:
         constexpr uint64_t kMostFrames = 1000;
         const shared::FrameView view = frameOf(camera).view;
         const uint64_t first = serial_ + 1;
+        HEARTH_TRY(animation_.update(scene_));
         while (scene_.stream->settledSerial() < first && serial_ < first + kMostFrames)
         {
             beginFrame();
             HEARTH_TRY(host_.run(
                 [&](VkCommandBuffer commands)
                 {
-                    renderer_.recordPrefetch(commands, scene_, targets_, view);
+                    renderer_.recordPrefetch(commands, scene_, targets_, view, animation_.moves(),
+                                             animation_.poses());
                     return success();
                 }));
         }
@@ -114,6 +119,10 @@ public:
     {
         gpu::FrameInput frame = frameOf(camera);
         frame.timestamps = timestamps_;
+        animation_.goTo(number);
+        HEARTH_TRY(animation_.update(scene_));
+        frame.moves = animation_.moves();
+        frame.poses = animation_.poses();
         beginFrame();
         if (options_.pyramid == PyramidStart::none)
             targets_.setPyramidView({});
@@ -234,6 +243,7 @@ private:
 
     const RenderOptions& options_;
     const formats::PackView& pack_;
+    Animation& animation_;
     VulkanHost& host_;
     const gpu::Renderer& renderer_;
     const gpu::Scene& scene_;
@@ -266,7 +276,10 @@ gpu::SceneOptions sceneOptions(const RenderOptions& options, const formats::Pack
 
 Status drawPack(const RenderOptions& options, const formats::PackView& pack, VulkanHost& host)
 {
-    HEARTH_ASSIGN_OR_RETURN(const std::vector<shared::Camera> cameras, chooseCameras(options, pack));
+    HEARTH_ASSIGN_OR_RETURN(Animation animation, Animation::create(options.animation, pack));
+    animation.goTo(0);
+    HEARTH_ASSIGN_OR_RETURN(const std::vector<shared::Camera> cameras,
+                            chooseCameras(options, pack, animation.player()));
     HEARTH_ASSIGN_OR_RETURN(const std::unique_ptr<gpu::Renderer> renderer,
                             gpu::Renderer::create(host.description()));
     if (options.settings.view == shared::kViewOverdraw)
@@ -285,7 +298,7 @@ Status drawPack(const RenderOptions& options, const formats::PackView& pack, Vul
     HEARTH_ASSIGN_OR_RETURN(gpu::FrameTargets targets,
                             renderer->createTargets({options.width * scale, options.height * scale}));
     HEARTH_ASSIGN_OR_RETURN(const VkQueryPool timestamps, host.createTimestamps(gpu::kTimestampCount));
-    Run run(options, pack, host, *renderer, *scene, targets, timestamps);
+    Run run(options, pack, animation, host, *renderer, *scene, targets, timestamps);
     if (scene->stream != nullptr && options.camera_path.empty())
         HEARTH_TRY(run.prefetch(cameras.front()));
     for (size_t i = 0; i < cameras.size(); ++i)

@@ -49,6 +49,11 @@ std::string renderHelp()
            "\n"
            "      --camera-path FILE  a picture for each line of FILE, written as for --camera: "
            "IMAGE-0000.png, ...\n"
+           "      --animation CLIP    in the pose of a clip, by its name or number\n"
+           "      --time SECONDS      of the clip, default 0; beyond its keys it rests\n"
+           "      --blend CLIP,SECONDS,WEIGHT\n"
+           "                          a second clip, and how much of it, 0 to 1\n"
+           "      --time-step SECONDS by which both go on from frame to frame of --camera-path or --frames\n"
            "      --samples N         1, or 4 for a smoother picture\n"
            "      --stats FILE        counts and times of the passes as JSON\n"
            "      --frames N          draw N times; the times are medians\n"
@@ -75,6 +80,7 @@ Result<RenderOptions> parseRenderOptions(std::span<const char* const> arguments)
     for (const char* name : {"-o", "--output"})
         command_line.addText(name, options.output);
     command_line.addText("--camera-path", options.camera_path);
+    addAnimationOptions(command_line, options.animation);
     command_line.addValue("--samples", [&](std::string_view text) { return parseSamples(text, options); });
     command_line.addText("--stats", options.stats);
     command_line.addValue("--frames",
@@ -89,6 +95,8 @@ Result<RenderOptions> parseRenderOptions(std::span<const char* const> arguments)
     HEARTH_TRY(checkDrawOptions(options));
     if (options.output.empty())
         return usageError("no output is named (-o IMAGE.png)");
+    if (!options.animation.clip && (options.animation.blended || options.animation.step_seconds != 0))
+        return usageError("--blend and --time-step need --animation");
     if (!options.camera_path.empty() && options.frames != 1)
         return usageError("--frames and --camera-path exclude each other");
     return options;

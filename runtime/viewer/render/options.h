@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
+#include "runtime/viewer/animation.h"
 #include "runtime/viewer/draw_options.h"
 
 namespace hearth::viewer
@@ -19,6 +20,7 @@ struct RenderOptions : DrawOptions
 {
     std::string output;
     std::string camera_path; ///< a file; empty: one picture
+    AnimationSettings animation;
     uint32_t samples = 1;
     uint32_t frames = 1;
     PyramidStart pyramid = PyramidStart::previous;

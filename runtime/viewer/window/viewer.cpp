@@ -79,7 +79,7 @@ Viewer::Viewer(const DrawOptions& options, const formats::PackView& pack, const 
 
 Result<std::unique_ptr<Viewer>> Viewer::create(const DrawOptions& options, const formats::PackView& pack)
 {
-    HEARTH_ASSIGN_OR_RETURN(const shared::Camera start, chooseCamera(options, pack));
+    HEARTH_ASSIGN_OR_RETURN(const shared::Camera start, chooseCamera(options, pack, pack::PosePlayer(pack)));
     std::unique_ptr<Viewer> viewer(new Viewer(options, pack, start));
     HEARTH_TRY(viewer->open(options));
     return viewer;

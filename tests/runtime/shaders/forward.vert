@@ -37,7 +37,7 @@ void main()
     if (triangle >= triangleCount(draw) || draw.material != material_number)
         return;
     Instance instance = instances[slot.instance];
-    uint vertex = cornerAddress(draw, triangle, gl_VertexIndex % 3u);
+    uint vertex = vertexAddress(draw, cornerVertex(draw, triangle, gl_VertexIndex % 3u));
     vec3 normal = vertexNormal(draw, vertex);
     out_position = relativePoint(instance, view.eye, vertexPosition(draw, vertex));
     gl_Position = clipPosition(view, out_position);

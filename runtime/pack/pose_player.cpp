@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "runtime/pack/pose_player.h"
+
+#include <algorithm>
+#include <charconv>
+
+namespace hearth::pack
+{
+
+namespace
+{
+
+/// For each node, 1 where a clip moves it or what it hangs from.
+std::vector<uint8_t> findAnimatedNodes(const formats::MotionTables& tables,
+                                       std::span<const uint32_t> parents_first)
+{
+    std::vector<uint8_t> animated(tables.nodes.size(), 0);
+    for (const formats::AnimationChannelRecord& channel : tables.channels)
+        if (channel.path != static_cast<uint32_t>(formats::AnimationPath::weights))
+            animated[channel.node] = 1;
+    for (const uint32_t node : parents_first)
+        if (const uint32_t parent = tables.nodes[node].parent;
+            parent != formats::kNone && animated[parent] != 0)
+            animated[node] = 1;
+    return animated;
+}
+
+} // namespace
+
+PosePlayer::PosePlayer(const formats::PackView& pack)
+    : tables_(formats::motionTables(pack)),
+      instances_(pack.instances()),
+      rest_(formats::restPose(tables_)),
+      from_(rest_),
+      to_(rest_),
+      parents_first_(formats::parentsFirst(tables_.nodes)),
+      world_from_node_(tables_.nodes.size())
+{
+    formats::poseNodes(tables_, rest_, parents_first_, world_from_node_);
+    const std::vector<uint8_t> animated = findAnimatedNodes(tables_, parents_first_);
+    for (uint32_t i = 0; i < instances_.size(); ++i)
+        if (const auto* mesh = findDeformedMesh(pack, instances_[i].mesh))
+            addDeformed(i, *mesh, pack.meshes()[mesh->mesh].morph_target_count);
+        else if (animated[instances_[i].node] != 0)
+            addRigid(i);
+    moved_.resize(rigid_.size());
+    for (const Deformed& d : deformed_)
+        posed_.push_back({d.instance, std::span(palettes_).subspan(d.first_joint, d.joint_count),
+                          std::span(weights_).subspan(d.first_weight, d.target_count)});
+    take(rest_);
+}
+
+/// What instancing puts between the node and its instance: nothing where they stand at the same place.
+Affine3d PosePlayer::nodeFromObject(const formats::InstanceRecord& instance) const
+{
+    const Affine3d& world_from_node = world_from_node_[instance.node];
+    const auto narrow = narrowed(world_from_node);
+    if (narrow && *narrow == instance.world_from_object)
+        return {};
+    const auto node_from_world = inverted(world_from_node);
+    return node_from_world ? *node_from_world * widened(instance.world_from_object) : Affine3d{};
+}
+
+void PosePlayer::addRigid(uint32_t instance)
+{
+    const formats::InstanceRecord& record = instances_[instance];
+    rigid_.push_back({record.node, nodeFromObject(record)});
+    places_.push_back({instance, record.world_from_object});
+}
+
+void PosePlayer::addDeformed(uint32_t instance, const formats::DeformedMeshRecord& mesh, uint32_t targets)
+{
+    const formats::InstanceRecord& record = instances_[instance];
+    const bool skinned = mesh.skin != formats::kNone;
+    deformed_.push_back({.instance = instance,
+                         .skin = mesh.skin,
+                         .node = record.node,
+                         .node_from_object = skinned ? Affine3d{} : nodeFromObject(record),
+                         .morph_weights = tables_.nodes[record.node].morph_weights,
+                         .first_joint = palettes_.size(),
+                         .joint_count = skinned ? tables_.skins[mesh.skin].joints.count : 1,
+                         .first_weight = weights_.size(),
+                         .target_count = targets});
+    palettes_.resize(palettes_.size() + deformed_.back().joint_count);
+    weights_.resize(weights_.size() + targets, 0.0f);
+}
+
+void PosePlayer::resetTo(formats::ScenePose& pose) const
+{
+    std::copy(rest_.nodes.begin(), rest_.nodes.end(), pose.nodes.begin());
+    std::copy(rest_.morph_weights.begin(), rest_.morph_weights.end(), pose.morph_weights.begin());
+}
+
+void PosePlayer::rest()
+{
+    take(rest_);
+}
+
+void PosePlayer::play(ClipTime clip)
+{
+    resetTo(from_);
+    formats::sampleAnimation(tables_, tables_.animations[clip.animation], clip.seconds, from_);
+    take(from_);
+}
+
+void PosePlayer::blend(ClipTime from, ClipTime to, double weight)
+{
+    resetTo(from_);
+    resetTo(to_);
+    formats::sampleAnimation(tables_, tables_.animations[from.animation], from.seconds, from_);
+    formats::sampleAnimation(tables_, tables_.animations[to.animation], to.seconds, to_);
+    formats::blendPoses(from_, to_, weight, from_);
+    take(from_);
+}
+
+void PosePlayer::take(const formats::ScenePose& pose)
+{
+    formats::poseNodes(tables_, pose, parents_first_, world_from_node_);
+    moved_count_ = 0;
+    for (size_t i = 0; i < rigid_.size(); ++i)
+        placeRigid(i);
+    for (const Deformed& deformed : deformed_)
+        poseDeformed(deformed, pose);
+}
+
+void PosePlayer::poseDeformed(const Deformed& deformed, const formats::ScenePose& pose)
+{
+    const auto palette = std::span(palettes_).subspan(deformed.first_joint, deformed.joint_count);
+    if (deformed.skin != formats::kNone)
+        formats::skinPalette(tables_, tables_.skins[deformed.skin], world_from_node_, palette);
+    else
+        palette[0] = world_from_node_[deformed.node] * deformed.node_from_object;
+    const uint32_t targets = std::min(deformed.target_count, deformed.morph_weights.count);
+    for (uint32_t target = 0; target < targets; ++target)
+        weights_[deformed.first_weight + target] =
+            static_cast<float>(pose.morph_weights[deformed.morph_weights.first + target]);
+}
+
+/// Where the place does not fit into floats, the instance stays.
+void PosePlayer::placeRigid(size_t rigid)
+{
+    MovedInstance& place = places_[rigid];
+    const auto now = narrowed(world_from_node_[rigid_[rigid].node] * rigid_[rigid].node_from_object);
+    if (!now || *now == place.world_from_object)
+        return;
+    place.world_from_object = *now;
+    moved_[moved_count_++] = place;
+}
+
+const formats::DeformedMeshRecord* findDeformedMesh(const formats::PackView& pack, uint32_t mesh)
+{
+    const auto meshes = pack.deformedMeshes();
+    const auto found = std::lower_bound(meshes.begin(), meshes.end(), mesh,
+                                        [](const formats::DeformedMeshRecord& record, uint32_t number)
+                                        { return record.mesh < number; });
+    return found != meshes.end() && found->mesh == mesh ? &*found : nullptr;
+}
+
+std::optional<uint32_t> findAnimation(const formats::PackView& pack, std::string_view name)
+{
+    for (uint32_t i = 0; i < pack.animations().size(); ++i)
+        if (pack.text(pack.animations()[i].name) == name)
+            return i;
+    uint32_t number = 0;
+    const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), number);
+    if (error != std::errc() || end != name.data() + name.size() || number >= pack.animations().size())
+        return std::nullopt;
+    return number;
+}
+
+} // namespace hearth::pack

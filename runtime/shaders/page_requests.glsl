@@ -1,0 +1,60 @@
+// What asking for the pages of rigid and of deformed instances shares. One workgroup an item, one thread a group: which
+// pages the frame wants, whether or not they are resident, and how much. What is asked depends on the view alone, not on
+// what has been loaded or drawn so far.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+
+layout(local_size_x = 64) in;
+
+layout(set = 0, binding = 0, std140) uniform Frame { FrameView view; };
+layout(set = 0, binding = 1, std430) readonly buffer Instances { Instance instances[]; };
+layout(set = 0, binding = 2, std430) readonly buffer States { InstanceState states[]; };
+layout(set = 0, binding = 3, std430) readonly buffer Items { GroupItem items[]; };
+layout(set = 0, binding = 4, std430) readonly buffer Clusters { Cluster clusters[]; };
+layout(set = 0, binding = 5, std430) readonly buffer Groups { Group groups[]; };
+layout(set = 0, binding = 6, std430) buffer Requests { uint requests[]; };
+layout(push_constant) uniform Push
+{
+    uint first_item;
+    uint item_count;
+};
+
+// The group as the cut looks at it; whether the frustum test leaves a cluster.
+Group placedGroup(uint instance, uint group);
+bool inFrustum(uint instance, uint cluster);
+
+// The first page of a set stands for all of it.
+void ask(uint group, uint request)
+{
+    if (request != 0u)
+        atomicMax(requests[groups[group - groups[group].set_offset].page], request);
+}
+
+void main()
+{
+    uint item_index = gl_WorkGroupID.y * kDispatchRow + gl_WorkGroupID.x;
+    if (item_index >= item_count)
+        return;
+    GroupItem item = items[first_item + item_index];
+    // what the last frame's depth hides is in the frustum as well
+    if (gl_LocalInvocationIndex >= item.count || states[item.instance].visible == kInstanceHidden)
+        return;
+    uint own = item.first + gl_LocalInvocationIndex;
+    Group group = placedGroup(item.instance, own);
+    uint request = groupRequest(view, instances[item.instance], group);
+    // errors do not grow towards the source: nothing finer is wanted either
+    if (request == 0u && group.error <= kLargestError)
+        return;
+    bool seen = false;
+    for (uint c = group.first_cluster; c < group.first_cluster + group.cluster_count; ++c)
+    {
+        if (!inFrustum(item.instance, c))
+            continue;
+        seen = true;
+        // what refines it may lie outside of the frustum and is wanted all the same, or the coarser cluster would stay
+        uint refined = clusters[c].refined_group;
+        if (refined != kNoGroup)
+            ask(refined, groupRequest(view, instances[item.instance], placedGroup(item.instance, refined)));
+    }
+    if (seen)
+        ask(own, request);
+}

@@ -1,0 +1,120 @@
+// Vertices of deformed meshes in their pose, from the geometry pool: morphed, then skinned. The skinning pass, the vertex
+// shaders and the resolve run these lines, and get the same bits. glTF 2.0, 3.7.2.2 (morph targets), 3.7.3.3 (skins).
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+
+// Rows of a 3x4 matrix.
+struct BlendedJoints
+{
+    vec4 x;
+    vec4 y;
+    vec4 z;
+};
+
+uint vertexHalf(uint word, uint half_index)
+{
+    uint pair = poolWord(word + (half_index >> 1));
+    return (half_index & 1u) == 0u ? pair & 0xFFFFu : pair >> 16;
+}
+
+BlendedJoints blendedJoints(ClusterDraw draw, Pose pose, uint vertex)
+{
+    uint layout_bits = draw.vertex_layout;
+    uint count = influenceCount(layout_bits);
+    if (count == 0u)
+    {
+        PaletteRow node = loadJoint(pose, 0u);
+        return BlendedJoints(node.world_from_bind_x, node.world_from_bind_y, node.world_from_bind_z);
+    }
+    uint joints = vertex + influenceWord(layout_bits);
+    uint weights = joints + (count >> 1);
+    precise BlendedJoints blended = BlendedJoints(vec4(0.0), vec4(0.0), vec4(0.0));
+    for (uint i = 0u; i < count; ++i)
+    {
+        uint code = vertexHalf(weights, i);
+        // the largest come first
+        if (code == 0u)
+            break;
+        precise float weight = float(code) * (1.0 / 65535.0);
+        uint row = pose.palette_row + vertexHalf(joints, i) * kPaletteRows;
+        blended.x += deformationFloats(row) * weight;
+        blended.y += deformationFloats(row + 1u) * weight;
+        blended.z += deformationFloats(row + 2u) * weight;
+    }
+    return blended;
+}
+
+// What the morph targets add to a vertex.
+struct MorphDelta
+{
+    vec3 position;
+    vec3 normal;
+};
+
+// Behind the triangles: n, n times { target, step }, then for each of the n three words for each vertex: 20 bits of the
+// position's delta, 12 of the normal's.
+MorphDelta morphDelta(ClusterDraw draw, Pose pose, uint index)
+{
+    precise MorphDelta delta = MorphDelta(vec3(0.0), vec3(0.0));
+    if ((draw.counts & kDrawMorphs) == 0u)
+        return delta;
+    uint section = draw.address + vertexCount(draw) * vertexWords(draw.vertex_layout) + (triangleCount(draw) * 3u + 3u) / 4u;
+    uint count = poolWord(section);
+    uint deltas = section + 1u + 2u * count;
+    for (uint i = 0u; i < count; ++i)
+    {
+        precise float weight = uintBitsToFloat(deformationWord(pose.morph_word + poolWord(section + 1u + 2u * i)));
+        if (weight == 0.0)
+            continue;
+        precise float step_weight = poolFloat(section + 2u + 2u * i) * weight;
+        precise float normal_weight = weight * (1.0 / 1024.0);
+        uint word = deltas + (i * vertexCount(draw) + index) * 3u;
+        ivec3 codes = ivec3(poolWord(word), poolWord(word + 1u), poolWord(word + 2u));
+        // the signs come down with the shifts
+        delta.position += vec3(codes << 12 >> 12) * step_weight;
+        delta.normal += vec3(codes >> 20) * normal_weight;
+    }
+    return delta;
+}
+
+vec3 crossOf(vec3 a, vec3 b)
+{
+    precise vec3 c = vec3(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
+    return c;
+}
+
+vec3 carried(BlendedJoints joints, vec3 v) { return vec3(dot3(joints.x.xyz, v), dot3(joints.y.xyz, v), dot3(joints.z.xyz, v)); }
+
+// World axes, from the instance's origin. index: the vertex's in its cluster.
+vec3 posedPosition(ClusterDraw draw, Pose pose, uint index)
+{
+    uint vertex = vertexAddress(draw, index);
+    precise vec3 bind = vertexPosition(draw, vertex) + morphDelta(draw, pose, index).position;
+    BlendedJoints joints = blendedJoints(draw, pose, vertex);
+    precise vec3 position = carried(joints, bind) + vec3(joints.x.w, joints.y.w, joints.z.w);
+    return position;
+}
+
+// Unit, world axes; of a vertex that has one. Normals move with the inverse transpose: the cofactor matrix, and the sign of
+// the determinant.
+vec3 posedNormal(ClusterDraw draw, Pose pose, uint index)
+{
+    uint vertex = vertexAddress(draw, index);
+    precise vec3 bind = vertexNormal(draw, vertex) + morphDelta(draw, pose, index).normal;
+    BlendedJoints joints = blendedJoints(draw, pose, vertex);
+    vec3 cofactor_x = crossOf(joints.y.xyz, joints.z.xyz);
+    vec3 cofactor_y = crossOf(joints.z.xyz, joints.x.xyz);
+    vec3 cofactor_z = crossOf(joints.x.xyz, joints.y.xyz);
+    precise vec3 normal = vec3(dot3(cofactor_x, bind), dot3(cofactor_y, bind), dot3(cofactor_z, bind));
+    if (dot3(joints.x.xyz, cofactor_x) < 0.0)
+        normal = -normal;
+    precise float size = sqrt(dot3(normal, normal));
+    return size > 0.0 ? normal / size : vec3(0.0);
+}
+
+// World axes; of a vertex that has one.
+vec3 posedTangent(ClusterDraw draw, Pose pose, uint index)
+{
+    uint vertex = vertexAddress(draw, index);
+    vec3 bind = vertexTangent(draw, vertex, vertexNormal(draw, vertex)).xyz;
+    return carried(blendedJoints(draw, pose, vertex), bind);
+}
