@@ -64,7 +64,7 @@ void JointMotion::addPlaces(Double3 point, Double3 half, double weight, Box3d& b
 
 SkinMotion::SkinMotion(const MotionTables& tables, std::span<const NodeMotion> nodes, uint32_t skin,
                        std::span<const Box3d> reach)
-    : nodes_(nodes)
+    : records_(tables.nodes), nodes_(nodes)
 {
     const ScenePose rest = restPose(tables);
     for (size_t i = 0; i < nodes.size(); ++i)
@@ -190,6 +190,14 @@ const JointMotion* SkinMotion::relative(uint32_t main, uint32_t joint) const
     Entry& found = entry(main, joint);
     std::call_once(found.once, [&] { found.motion = measured(main, joint); });
     return found.motion.get();
+}
+
+RegionChain SkinMotion::regionChain(uint32_t main, std::span<const uint32_t> joints) const
+{
+    std::vector<uint32_t> nodes;
+    for (const uint32_t joint : joints)
+        nodes.push_back(joints_[joint].nodes.front());
+    return RegionChain(records_, joints_[main].nodes.front(), nodes);
 }
 
 bool SkinMotion::canMirror(uint32_t joint) const

@@ -182,6 +182,7 @@ Result<std::vector<PosedMesh>> posedMeshes(const PackView& pack)
         {
             const GroupRecord& group = pack.groups()[cluster.group];
             mesh.spheres.push_back({group.sphere_center, group.sphere_radius});
+            mesh.levels.push_back(cluster.level);
         }
         for (uint32_t node = 0; node < pack.nodes().size(); ++node)
             if (pack.nodes()[node].mesh == record.mesh)
@@ -203,12 +204,14 @@ void computeBounds(const MotionTables& tables, PosedMesh& mesh)
     std::optional<motion::SkinMotion> skin;
     if (mesh.skin != kNone)
         skin.emplace(tables, nodes, mesh.skin, reach);
-    const skinning::Deformation deformation{skin ? &*skin : nullptr, morph_weights};
+    const motion::PoseRegions regions(tables, nodes);
+    const skinning::Deformation deformation{skin ? &*skin : nullptr, morph_weights, &regions};
+    for (const skinning::DeformedBounds& bounds : boundsOf(mesh.clusters, deformation))
+        mesh.bounds.push_back(bounds.record);
     std::vector<GroupRecord> groups;
     std::vector<ClusterRecord> clusters;
     for (uint32_t i = 0; i < mesh.clusters.size(); ++i)
     {
-        mesh.bounds.push_back(boundsOf(mesh.clusters[i], deformation).record);
         GroupRecord group{};
         group.clusters = {i, 1};
         groups.push_back(group);
@@ -219,6 +222,7 @@ void computeBounds(const MotionTables& tables, PosedMesh& mesh)
     }
     const skinning::AnchoredBounds anchored =
         skinning::anchoredBounds({groups, clusters, 0, 0}, mesh.clusters, deformation, reach);
+    mesh.levels.assign(mesh.clusters.size(), 0);
     mesh.anchor = anchored.anchor;
     mesh.box = anchored.box;
     mesh.spheres = anchored.spheres;
@@ -294,6 +298,8 @@ BoundsFigures& operator+=(BoundsFigures& a, const BoundsFigures& b)
     a.violations += b.violations;
     a.worst = std::max(a.worst, b.worst);
     a.volume_ratio += b.volume_ratio;
+    a.finest_clusters += b.finest_clusters;
+    a.finest_volume_ratio += b.finest_volume_ratio;
     a.cones += b.cones;
     a.facing_wrong += b.facing_wrong;
     return a;
@@ -336,8 +342,14 @@ BoundsFigures checkBounds(const MotionTables& tables, const PosedMesh& mesh, siz
     BoundsFigures figures;
     figures.clusters = watched.size();
     figures.poses = poses;
-    for (const Watched& w : watched)
+    for (size_t i = 0; i < watched.size(); ++i)
     {
+        const Watched& w = watched[i];
+        if (mesh.levels[i] == 0)
+        {
+            ++figures.finest_clusters;
+            figures.finest_volume_ratio += volumeRatio(w);
+        }
         figures.violations += w.violations;
         figures.worst = std::max(figures.worst, w.worst);
         figures.volume_ratio += volumeRatio(w);
