@@ -6,6 +6,7 @@
 #include "pipelines/command/explain.h"
 #include "pipelines/command/extract.h"
 #include "pipelines/command/inspect.h"
+#include "pipelines/command/inspect_bounds.h"
 #include "pipelines/command/open_pack.h"
 #include "pipelines/command/verify.h"
 
@@ -92,6 +93,16 @@ void addCook(CLI::App& app, Work& run)
         });
 }
 
+int inspect(const std::string& file, const std::string& format)
+{
+    const auto pack = command::openContainer(file);
+    if (!pack.ok())
+        return fail(pack.error());
+    const command::PackSummary summary = command::summarize(*pack);
+    return printResult(format == "json" ? command::inspectJson(*pack, summary)
+                                        : command::inspectText(*pack, summary));
+}
+
 void addInspect(CLI::App& app, Work& run)
 {
     CLI::App* verb = app.add_subcommand("inspect", "Say what is in a pack");
@@ -99,22 +110,37 @@ void addInspect(CLI::App& app, Work& run)
     {
         std::string file;
         std::string format = "text";
+        bool bounds = false;
+        std::string animation;
+        double time = 0;
     };
     auto options = std::make_shared<Options>();
     verb->add_option("FILE", options->file, "pack or part")->required();
     addFormat(*verb, options->format);
-    verb->footer("Example: hearth inspect village.hearth --format json");
+    verb->add_flag("--bounds", options->bounds,
+                   "the boxes of all clusters of a pack in a pose, with --format json");
+    const CLI::Option* animation = verb->add_option("--animation", options->animation,
+                                                    "clip of the pose: its name, or its index if it has none")
+                                       ->needs("--bounds");
+    verb->add_option("--time", options->time, "seconds from the start of the clip")->needs("--animation");
+    verb->footer("Examples:\n"
+                 "  hearth inspect village.hearth --format json\n"
+                 "  hearth inspect fox.hearth --bounds --animation Run --time 0.5 --format json");
     verb->callback(
-        [options, &run]
+        [options, animation, &run]
         {
-            run = [options]
+            run = [options, animation]
             {
-                const auto pack = command::openContainer(options->file);
-                if (!pack.ok())
-                    return fail(pack.error());
-                const command::PackSummary summary = command::summarize(*pack);
-                return printResult(options->format == "json" ? command::inspectJson(*pack, summary)
-                                                             : command::inspectText(*pack, summary));
+                if (!options->bounds)
+                    return inspect(options->file, options->format);
+                if (options->format != "json")
+                    return usageError("--bounds needs --format json");
+                if (!std::isfinite(options->time))
+                    return usageError("--time must be a number");
+                std::optional<command::ClipTime> clip;
+                if (animation->count() > 0)
+                    clip = command::ClipTime{options->animation, options->time};
+                return printResult(command::boundsJson(options->file, clip));
             };
         });
 }

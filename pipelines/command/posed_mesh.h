@@ -37,6 +37,9 @@ public:
     /// The cluster is one of the mesh.
     PosedVertex vertex(const formats::ClusterGeometry& geometry, uint32_t vertex) const;
 
+    /// For each joint of the skin, scene from bind pose; one for a mesh without a skin.
+    std::span<const Affine3d> palette() const { return palette_; }
+
 private:
     Affine3d worldFromVertex(const formats::ClusterGeometry& geometry, uint32_t vertex) const;
 
