@@ -136,13 +136,6 @@ ClusterStore splitSimplified(const GroupMesh& group, const Simplified& simplifie
     return out;
 }
 
-/// A deformed mesh of which nobody says how it moves stays as it is bound, but for its morph targets.
-const MeshMotion& motionOf(const PreparedMesh& mesh)
-{
-    static const MeshMotion none;
-    return mesh.motion != nullptr ? *mesh.motion : none;
-}
-
 } // namespace
 
 Reduced reduceGroup(const PreparedMesh& mesh, const ClusterStore& store, std::span<const uint32_t> members,

@@ -108,7 +108,7 @@ public:
             const auto clips = static_cast<uint32_t>(model_->scene().animations().size());
             for (size_t i = 0; i < kTimes && clips > 0; ++i)
             {
-                const uint32_t clip = random() % clips;
+                const auto clip = static_cast<uint32_t>(random() % clips);
                 std::uniform_real_distribution<double> time(
                     -0.1, 1.1 * double{model_->scene().animations()[clip].duration});
                 const double seconds = time(random);
