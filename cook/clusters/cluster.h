@@ -25,8 +25,7 @@ struct PreparedMesh
     uint32_t attributes = 0;
     uint32_t degenerate_count = 0;
     uint32_t position_count = 0;
-    float normal_bend =
-        0; ///< rms length of the difference of normals along edges where they bend; 0: nowhere
+    bool bends_gently = false;                ///< 8 bits are too few for its normals
     std::vector<uint32_t> corners;            ///< three vertices for each triangle
     std::vector<uint32_t> materials;          ///< for each triangle
     std::vector<uint32_t> position_of_vertex; ///< for each vertex

@@ -107,8 +107,8 @@ void DeformedSurface::add(Float3 place, const mesh::SourceMesh& source, uint32_t
         deltas_.push_back(widen(target.positions[vertex]) * (1 / scale));
 }
 
-DeformationMetric::DeformationMetric(const GroupMesh& group, const MeshMotion& motion)
-    : center_{group.center[0], group.center[1], group.center[2]}, scale_(group.scale), motion_(motion)
+DeformationMetric::DeformationMetric(Double3 center, double scale, const MeshMotion& motion)
+    : center_(center), scale_(scale), motion_(motion)
 {
 }
 

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include "cook/clusters/group_mesh.h"
 #include "cook/clusters/mesh_motion.h"
+#include "cook/mesh/source_mesh.h"
 #include "formats/double3.h"
 
 #include <array>
@@ -16,7 +16,7 @@
 namespace hearth::clusters
 {
 
-/// What deforms the vertices of one surface of a group, in units of the group's mesh.
+/// What deforms the vertices of one surface.
 class DeformedSurface
 {
 public:
@@ -27,9 +27,8 @@ public:
     };
 
     /// Append a vertex.
-    /// place    in units of the group's mesh
+    /// place    in units of `scale`
     /// source   has its joints, weights and morph deltas as number `vertex`
-    /// scale    GroupMesh::scale
     void add(Float3 place, const mesh::SourceMesh& source, uint32_t vertex, double scale);
 
     Double3 place(uint32_t vertex) const { return places_[vertex]; }
@@ -67,18 +66,19 @@ struct DeformedPoint
 class DeformationMetric
 {
 public:
-    DeformationMetric(const GroupMesh& group, const MeshMotion& motion);
+    /// center, scale  of the surfaces' places: object = center + scale * place
+    DeformationMetric(Double3 center, double scale, const MeshMotion& motion);
 
     /// A joint against which the motion of all joints of these triangles has a bound: of those of the point's triangle that
     /// have one the one with the most weight there, else any of the skin; nothing where there is none.
     std::optional<uint32_t> mainJoint(const DeformedPoint& point, std::span<const DeformedPoint> others);
 
-    /// In units of the group's mesh, for a scale of 1 of the main joint's transform. All joints of both points have a bound
+    /// In units of the places, for a scale of 1 of the main joint's transform. All joints of both points have a bound
     /// against the main joint.
     double between(const DeformedPoint& a, const DeformedPoint& b, uint32_t main);
 
 private:
-    /// motion::Departure in units of the group's mesh.
+    /// motion::Departure in units of the places.
     struct Departure
     {
         enum class State : uint8_t

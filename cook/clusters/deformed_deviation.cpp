@@ -3,7 +3,9 @@
 
 #include "cook/clusters/facet_index.h"
 #include "cook/clusters/islands.h"
+#include "cook/clusters/nearest_bound.h"
 #include "cook/clusters/reduce.h"
+#include "cook/clusters/surface_tree.h"
 
 #include <algorithm>
 #include <cmath>
@@ -19,13 +21,9 @@ namespace
 // Rounding of a distance between points in [-1, 1]^3, of places and of weights: a few times 2^-23, with room.
 constexpr float kRounding = 4e-6f;
 
-// The first try takes few facets and few points, the second one these.
-constexpr size_t kFew = 2 * kLanes;
-constexpr size_t kFewPoints = 6;
-constexpr size_t kMany = 6 * kLanes;
-
-// Facets within this part of a triangle's size are looked at first.
-constexpr float kTouching = 0.1f;
+// As boundDeviation: a list of so many likely facets, and what may be added to an error that is carried on.
+constexpr size_t kMaxLikely = 5 * kLanes;
+constexpr float kSlackOfCarried = kSlack - 1;
 
 /// One of the two surfaces.
 struct Side
@@ -57,7 +55,7 @@ std::array<double, 3> partsOf(double v, double w)
 }
 
 /// The metric between a piece of one triangle and a few facets of the other surface.
-class FacetMetric final : public PointMetric
+class FacetMetric final : public SurfaceMetric
 {
 public:
     FacetMetric(DeformationMetric& metric, const Side& from, size_t triangle, const Side& to)
@@ -66,9 +64,9 @@ public:
     }
 
     /// False where no joint bounds the motion of all others.
-    bool load(std::span<const uint32_t> facets)
+    bool load(std::span<const uint32_t> facets) override
     {
-        facets_ = facets;
+        facets_.assign(facets.begin(), facets.end());
         std::vector<DeformedPoint> others;
         for (const uint32_t facet : facets)
             others.push_back(to_.pointOf(facet, kMiddle));
@@ -77,10 +75,13 @@ public:
         return main.has_value();
     }
 
+    void setPiece(const std::array<Float2, 3>& corners) override { piece_ = corners; }
+
     Lanes distance2(Float2 plane, size_t block, const FacetBlock::Nearest& nearest) const override
     {
+        const Float2 at = piece_[0] + (piece_[1] - piece_[0]) * plane.x + (piece_[2] - piece_[0]) * plane.y;
         const DeformedPoint point =
-            from_.pointOf(triangle_, partsOf(static_cast<double>(plane.x), static_cast<double>(plane.y)));
+            from_.pointOf(triangle_, partsOf(static_cast<double>(at.x), static_cast<double>(at.y)));
         Lanes squares;
         for (size_t lane = 0; lane < kLanes; ++lane)
         {
@@ -99,7 +100,8 @@ private:
     const Side& from_;
     size_t triangle_;
     const Side& to_;
-    std::span<const uint32_t> facets_;
+    std::array<Float2, 3> piece_{Float2{0, 0}, Float2{1, 0}, Float2{0, 1}};
+    std::vector<uint32_t> facets_;
     uint32_t main_ = 0;
 };
 
@@ -131,7 +133,7 @@ public:
                  {},
                  NumberLists::byKey<3>(group.positions.size(), after.positions),
                  FacetIndex(after.positions, after.place_of_position)},
-          metric_(group, motion),
+          metric_({group.center[0], group.center[1], group.center[2]}, group.scale, motion),
           errors_(after.facetCount(), 0)
     {
         for (size_t wedge = 0; wedge < group.vertex_of_wedge.size(); ++wedge)
@@ -152,7 +154,7 @@ public:
             task.before ? measureBefore(task.triangle) : measureAfter(task.triangle);
         for (float& error : errors_)
             error += error > 0 ? kRounding : 0.0f;
-        return {std::move(errors_), loose_};
+        return {std::move(errors_), nearest_.loosePieces()};
     }
 
 private:
@@ -215,7 +217,7 @@ private:
             if (const uint32_t target = targetOf(positions_before_[corner]); target != kPruned)
                 addLikely(after_.facets_at.of(target));
         const float carried = group_.errors[t];
-        const float total = carried + bound(before_, t, after_, worst_ - carried);
+        const float total = carried + bound(before_, t, after_, carried);
         worst_ = std::max(worst_, total);
         for (const uint32_t facet : served_)
             errors_[facet] = std::max(errors_[facet], total);
@@ -230,7 +232,7 @@ private:
         float carried = 0;
         for (const uint32_t facet : likely_)
             carried = std::max(carried, group_.errors[facet]);
-        const float distance = bound(after_, t, before_, worst_ - carried);
+        const float distance = bound(after_, t, before_, carried);
         carried = 0;
         for (const uint32_t facet : served_)
             carried = std::max(carried, group_.errors[facet]);
@@ -241,83 +243,20 @@ private:
     void addLikely(std::span<const uint32_t> facets)
     {
         for (const uint32_t facet : facets)
-            if (likely_.size() < kMany && std::find(likely_.begin(), likely_.end(), facet) == likely_.end())
+            if (likely_.size() < kMaxLikely &&
+                std::find(likely_.begin(), likely_.end(), facet) == likely_.end())
                 likely_.push_back(facet);
     }
 
     /// How far any point of the triangle can come from the other surface. Leaves the facets that serve in served_.
-    float bound(const Side& from, uint32_t triangle, Side& to, float enough)
+    float bound(const Side& from, uint32_t triangle, Side& to, float carried)
     {
-        const float enough2 = enough > 0 ? enough * enough : 0.0f;
-        sortLikely(from.cornersOf(triangle), to);
-        if (!likely_.empty())
-        {
-            const auto few = std::span(likely_).first(std::min(likely_.size(), kFew));
-            if (const Bound quick = boundBy(from, triangle, to, few, enough2, kFewPoints); quick.closed)
-                return std::sqrt(quick.upper2);
-        }
-        addNear(from.cornersOf(triangle), to);
-        sortLikely(from.cornersOf(triangle), to);
-        const Bound found = boundBy(from, triangle, to, likely_, enough2, kMaxPoints);
-        loose_ += found.closed ? 0 : 1;
-        return std::sqrt(found.upper2);
-    }
-
-    Bound boundBy(const Side& from, uint32_t triangle, const Side& to, std::span<const uint32_t> facets,
-                  float enough2, size_t most_points)
-    {
-        constexpr float kInfinity = std::numeric_limits<float>::infinity();
         FacetMetric metric(metric_, from, triangle, to);
-        served_.assign(facets.begin(), facets.end());
-        if (!metric.load(facets))
-            return {kInfinity, 0, 0, false};
-        facets_.clear();
-        for (const uint32_t facet : facets)
-            facets_.push_back(to.index.facet(facet));
-        candidates_.load(facets_);
-        const Bound bound = bounder_.bound(from.cornersOf(triangle), candidates_.blocks(), enough2, kInfinity,
-                                           most_points, &metric);
-        served_.clear();
-        for (size_t i = 0; i < facets.size(); ++i)
-            if (bounder_.hasServed(i))
-                served_.push_back(facets[i]);
-        return bound;
-    }
-
-    /// The nearest ones first, as they are bound.
-    void sortLikely(const Corners& corners, const Side& to)
-    {
-        const Float3 middle = triangleCenter(corners[0], corners[1], corners[2]);
-        std::vector<std::pair<float, uint32_t>> by_distance;
-        for (const uint32_t facet : likely_)
-        {
-            const Facet f = to.index.facet(facet);
-            by_distance.push_back({makeBlock({&f, &f, &f, &f}).distance2(middle)[0], facet});
-        }
-        std::sort(by_distance.begin(), by_distance.end());
-        for (size_t i = 0; i < likely_.size(); ++i)
-            likely_[i] = by_distance[i].second;
-    }
-
-    /// Facets around the triangle, from a radius on in which there are some.
-    void addNear(const Corners& corners, Side& to)
-    {
-        Box3 box;
-        for (const Float3 corner : corners)
-            box.add(corner);
-        const Float3 extent = box.max - box.min;
-        float radius = std::max(kTouching * std::max({extent.x, extent.y, extent.z}), 1e-3f);
-        for (found_.clear(); found_.empty(); radius *= 2)
-        {
-            const Float3 margin{radius, radius, radius};
-            to.index.query({box.min - margin, box.max + margin}, found_);
-        }
-        std::vector<uint32_t> likely = std::move(likely_);
-        likely_.assign(found_.begin(), found_.end());
-        sortLikely(corners, to);
-        if (likely_.size() > kMany / 2)
-            likely_.resize(kMany / 2);
-        addLikely(likely);
+        const Allowance allowance{worst_ - carried, carried * kSlackOfCarried};
+        const float distance =
+            nearest_.bound(from.cornersOf(triangle), to.index, likely_, allowance, &metric);
+        served_.assign(nearest_.used().begin(), nearest_.used().end());
+        return distance;
     }
 
     const GroupMesh& group_;
@@ -326,15 +265,11 @@ private:
     Side before_;
     Side after_;
     DeformationMetric metric_;
-    Bounder bounder_;
-    Candidates candidates_;
-    std::vector<Facet> facets_;
+    NearestBound nearest_;
     std::vector<uint32_t> likely_; ///< facets of the other surface, each once
-    std::vector<uint32_t> found_;
     std::vector<uint32_t> served_;
     float worst_ = 0;           ///< the largest total so far
     std::vector<float> errors_; ///< for each triangle after
-    uint64_t loose_ = 0;
 };
 
 } // namespace
@@ -344,6 +279,70 @@ Deviation boundDeformedDeviation(const GroupMesh& group, const Simplified& simpl
 {
     HEARTH_ASSERT(simplified.triangleCount() > 0);
     return DeformedMeasure(group, simplified, after, vertices, motion).run();
+}
+
+namespace
+{
+
+/// How far at most the triangles of one surface are from the other one.
+double oneWay(const Side& from, const Side& to, DeformationMetric& metric)
+{
+    const SurfaceTree tree({to.places, to.positions});
+    Bounder bounder;
+    Candidates candidates;
+    std::vector<uint32_t> facets;
+    std::vector<Facet> loaded;
+    double worst = 0;
+    uint32_t hint = 0;
+    for (size_t t = 0; t < from.facetCount(); ++t)
+    {
+        const Corners c = from.cornersOf(t);
+        facets.clear();
+        loaded.clear();
+        for (const Float3 point : {c[0], c[1], c[2], (c[0] + c[1]) * 0.5f, (c[1] + c[2]) * 0.5f,
+                                   (c[2] + c[0]) * 0.5f, triangleCenter(c[0], c[1], c[2])})
+        {
+            hint = tree.nearest(widen(point), 0, hint).triangle;
+            if (std::find(facets.begin(), facets.end(), hint) != facets.end())
+                continue;
+            facets.push_back(hint);
+            loaded.push_back(to.index.facet(hint));
+        }
+        FacetMetric by(metric, from, t, to);
+        if (!by.load(facets))
+            return std::numeric_limits<double>::infinity();
+        candidates.load(loaded);
+        const auto enough = static_cast<float>(worst * worst);
+        const Bound bound = bounder.bound(c, candidates.blocks(), enough,
+                                          std::numeric_limits<float>::infinity(), kMaxPoints, &by);
+        worst = std::max(worst, std::sqrt(static_cast<double>(bound.upper2)));
+    }
+    return worst;
+}
+
+} // namespace
+
+double boundDeformedSurfaces(const PreparedMesh& mesh, std::span<const uint32_t> source,
+                             std::span<const uint32_t> level)
+{
+    HEARTH_ASSERT(!source.empty() && !level.empty());
+    const mesh::SourceMesh& vertices = mesh.vertices;
+    DeformedSurface surface;
+    for (uint32_t v = 0; v < vertices.vertexCount(); ++v)
+        surface.add(vertices.positions[v], vertices, v, 1);
+    const auto sideOf = [&](std::span<const uint32_t> corners) {
+        return Side{corners, corners, vertices.positions,
+                    surface, {},      FacetIndex(corners, vertices.positions)};
+    };
+    const Side of_source = sideOf(source), of_level = sideOf(level);
+    DeformationMetric metric({}, 1, motionOf(mesh));
+    return std::max(oneWay(of_source, of_level, metric), oneWay(of_level, of_source, metric));
+}
+
+const MeshMotion& motionOf(const PreparedMesh& mesh)
+{
+    static const MeshMotion none;
+    return mesh.motion != nullptr ? *mesh.motion : none;
 }
 
 } // namespace hearth::clusters

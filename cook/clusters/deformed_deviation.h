@@ -23,4 +23,14 @@ struct SimplifiedVertices
 Deviation boundDeformedDeviation(const GroupMesh& group, const Simplified& simplified, const Surface& after,
                                  const SimplifiedVertices& vertices, const MeshMotion& motion);
 
+/// How far two surfaces of a deformed mesh are from each other in any pose, both ways, in object space: for levels that
+/// were made by hand. Of each triangle the facets nearest to a few of its points serve, so that the bound may be loose where
+/// the surfaces are far apart.
+/// source, level  three vertices of the mesh for each triangle, at least one each
+double boundDeformedSurfaces(const PreparedMesh& mesh, std::span<const uint32_t> source,
+                             std::span<const uint32_t> level);
+
+/// What moves the mesh; where nobody says, nothing but its morph targets.
+const MeshMotion& motionOf(const PreparedMesh& mesh);
+
 } // namespace hearth::clusters

@@ -108,6 +108,7 @@ TEST_F(ProfileFile, refusesSettingsOutOfRange)
                       "line 3, clusters.mesh[0]." + key, "must be");
     };
     setting("normal_bits = 12", "normal_bits");
+    setting("influences = 6", "influences");
     setting("normal_bits = 0", "normal_bits");
     setting("normal_bits = 8.0", "normal_bits");
     setting("normal_error_weight = -1", "normal_error_weight");

@@ -1,0 +1,184 @@
+// Bounds of deformed clusters against clips made to break them.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/skinning/group_spheres.h"
+#include "tests/cook/random_characters.h"
+
+#include <gtest/gtest.h>
+
+namespace hearth::skinning
+{
+
+using namespace formats;
+using test::BoundsFigures;
+using test::Character;
+using test::CharacterSpec;
+
+namespace
+{
+
+BoundsFigures figuresOf(const CharacterSpec& spec, uint32_t seeds = 4, size_t poses = 1500)
+{
+    BoundsFigures figures;
+    for (uint32_t seed = 1; seed <= seeds; ++seed)
+    {
+        Character character = test::randomCharacter(spec, seed);
+        test::computeBounds(character.tables(), character.mesh);
+        figures += test::checkBounds(character.tables(), character.mesh, poses, seed);
+    }
+    return figures;
+}
+
+void expectSound(const BoundsFigures& figures)
+{
+    EXPECT_EQ(figures.violations, 0u) << "by up to " << figures.worst;
+    EXPECT_EQ(figures.facing_wrong, 0u);
+    std::printf("%zu clusters, %zu with cones, volume %.3f x the tightest box\n", figures.clusters,
+                figures.cones, figures.volume_ratio / static_cast<double>(figures.clusters));
+}
+
+} // namespace
+
+TEST(DeformedBounds, holdOrdinaryClips)
+{
+    const BoundsFigures figures = figuresOf({});
+    expectSound(figures);
+    EXPECT_LE(figures.volume_ratio / static_cast<double>(figures.clusters), 2.5);
+}
+
+TEST(DeformedBounds, holdSmallMotionsWithCones)
+{
+    const BoundsFigures figures = figuresOf({.swing = 0.05});
+    expectSound(figures);
+    EXPECT_GT(figures.cones, 0u) << "a cone that is always given up holds nothing";
+    EXPECT_LE(figures.volume_ratio / static_cast<double>(figures.clusters), 1.5);
+}
+
+TEST(DeformedBounds, holdFastSpins)
+{
+    expectSound(figuresOf({.spins = true}));
+}
+
+TEST(DeformedBounds, holdOppositeQuaternions)
+{
+    expectSound(figuresOf({.swing = 1.5, .opposite = true}));
+}
+
+TEST(DeformedBounds, holdSplinesThatOvershoot)
+{
+    expectSound(figuresOf({.splines = true}));
+}
+
+TEST(DeformedBounds, holdScales)
+{
+    expectSound(figuresOf({.scale_low = 0.5, .scale_high = 2}));
+}
+
+TEST(DeformedBounds, holdScalesThatGoThroughNothing)
+{
+    expectSound(figuresOf({.scale_low = -0.5, .scale_high = 1}));
+}
+
+TEST(DeformedBounds, holdMirroredJointsAndMatrices)
+{
+    expectSound(figuresOf({.mirrored = true, .matrices = true, .several_roots = true}));
+}
+
+TEST(DeformedBounds, holdTwoHundredJoints)
+{
+    expectSound(figuresOf({.joints = 200, .influences = 8, .far_influences = true}, 1, 400));
+}
+
+TEST(DeformedBounds, holdMorphTargets)
+{
+    expectSound(figuresOf({.splines = true, .morph_targets = 5}));
+}
+
+TEST(DeformedBounds, morphTargetsAloneAreTight)
+{
+    BoundsFigures figures;
+    for (uint32_t seed = 1; seed <= 4; ++seed)
+    {
+        Character character = test::randomCharacter({.clips = 2, .morph_targets = 4}, seed);
+        character.nodes[character.mesh.node].skin = character.mesh.skin = kNone;
+        for (DeformedCluster& cluster : character.mesh.clusters)
+        {
+            cluster.influences = 0;
+            cluster.joints.clear();
+            cluster.weights.clear();
+        }
+        test::computeBounds(character.tables(), character.mesh);
+        figures += test::checkBounds(character.tables(), character.mesh, 2000, seed);
+    }
+    expectSound(figures);
+}
+
+TEST(DeformedBounds, whatIsRigidKeepsItsBoxAndCone)
+{
+    Character character = test::randomCharacter({.influences = 1}, 4);
+    test::computeBounds(character.tables(), character.mesh);
+    for (size_t i = 0; i < character.mesh.clusters.size(); ++i)
+    {
+        Box3 box;
+        for (const Float3 p : character.mesh.clusters[i].positions)
+            box.add(p);
+        const DeformedClusterRecord& record = character.mesh.bounds[i];
+        EXPECT_LE(length(record.box_min - box.min), 1e-5f);
+        EXPECT_LE(length(record.box_max - box.max), 1e-5f);
+        EXPECT_NE(record.cone_cutoff, kNoCone);
+        EXPECT_EQ(record.joint, character.mesh.clusters[i].joints[0]);
+    }
+}
+
+TEST(DeformedBounds, withoutAJointThatKeepsItsSizeThereIsNoBox)
+{
+    Character character = test::randomCharacter({.joints = 3, .clips = 0, .influences = 3}, 4);
+    for (NodeRecord& node : character.nodes)
+        node.scale = {0, 0, 0};
+    for (NodeRecord& node : character.nodes)
+        node.parent = kNone;
+    for (DeformedCluster& cluster : character.mesh.clusters)
+        for (size_t i = 0; i < cluster.joints.size(); ++i)
+        {
+            cluster.joints[i] = static_cast<uint16_t>(i % 3);
+            cluster.weights[i] = 1.0 / 3;
+        }
+    test::computeBounds(character.tables(), character.mesh);
+    for (size_t i = 0; i < character.mesh.clusters.size(); ++i)
+    {
+        const DeformedClusterRecord& record = character.mesh.bounds[i];
+        EXPECT_EQ(record.box_max.x, kUnbounded);
+        EXPECT_EQ(record.cone_cutoff, kNoCone);
+    }
+}
+
+TEST(AnchoredBounds, spheresHoldThoseOfRefinedGroups)
+{
+    Character character = test::randomCharacter({}, 7);
+    const MotionTables tables = character.tables();
+    const std::vector<motion::NodeMotion> nodes = motion::nodeMotions(tables);
+    const std::vector<motion::Box3d> reach(12, {motion::Interval{-1, 1}, {-1, 1}, {-1, 1}});
+    const motion::SkinMotion skin(tables, nodes, 0, reach);
+    const Deformation deformation{&skin, {}};
+    // a root of two clusters, the second made from a set of two groups
+    const auto group = [](Range clusters, uint32_t set_offset)
+    {
+        GroupRecord record{};
+        record.clusters = clusters;
+        record.set_offset = set_offset;
+        return record;
+    };
+    const std::vector<GroupRecord> groups{group({5, 2}, 0), group({7, 3}, 0), group({10, 2}, 1)};
+    std::vector<ClusterRecord> clusters(7);
+    for (ClusterRecord& cluster : clusters)
+        cluster.refined_group = kNone;
+    clusters[1].refined_group = 21;
+    const AnchoredBounds bounds = anchoredBounds(
+        {groups, clusters, 20, 5}, std::span(character.mesh.clusters).first(7), deformation, reach);
+    ASSERT_EQ(bounds.spheres.size(), 3u);
+    EXPECT_EQ(bounds.spheres[1].center, bounds.spheres[2].center);
+    EXPECT_EQ(bounds.spheres[1].radius, bounds.spheres[2].radius);
+    EXPECT_LE(length(bounds.spheres[1].center - bounds.spheres[0].center) + bounds.spheres[1].radius,
+              bounds.spheres[0].radius);
+}
+
+} // namespace hearth::skinning
