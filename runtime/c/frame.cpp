@@ -45,7 +45,7 @@ Status check(const hearth_renderer& renderer, const hearth_frame& frame)
         return usage("depth_scale is not above 0");
     if ((frame.cull_flags & ~uint32_t{HEARTH_CULL_EVERYTHING}) != 0)
         return usage("cull_flags has bits that this version does not know");
-    if (frame.shown > HEARTH_SHOW_SHADOW_MAPS || frame.shaded_area > HEARTH_SHADE_TILES)
+    if (frame.shown > HEARTH_SHOW_BONES || frame.shaded_area > HEARTH_SHADE_TILES)
         return usage("shown or shaded_area has a value that this version does not know");
     if (frame.shown == HEARTH_SHOW_OVERDRAW && !renderer.shows_overdraw)
         return usage("HEARTH_SHOW_OVERDRAW needs a renderer with HEARTH_FEATURE_OVERDRAW");
@@ -53,6 +53,8 @@ Status check(const hearth_renderer& renderer, const hearth_frame& frame)
         return usage("lod_knots is NULL");
     if (frame.move_count > 0 && frame.moves == nullptr)
         return usage("moves is NULL");
+    if (frame.pose_count > 0 && frame.poses == nullptr)
+        return usage("poses is NULL");
     if (frame.shadow_sphere_count > 0 && frame.shadow_spheres == nullptr)
         return usage("shadow_spheres is NULL");
     return success();
@@ -122,7 +124,27 @@ Status makeMoves(hearth_scene& scene, const hearth_frame& frame)
     return success();
 }
 
-/// The moves and the shadow spheres are those of the frame's first part.
+/// Into scene.poses, which refer to the caller's.
+Status makePoses(hearth_scene& scene, const hearth_frame& frame)
+{
+    scene.poses.clear();
+    for (uint32_t i = 0; i < frame.pose_count; ++i)
+    {
+        const hearth_pose& pose = frame.poses[i];
+        if ((pose.joint_count > 0 && pose.world_from_bind == nullptr) ||
+            (pose.morph_weight_count > 0 && pose.morph_weights == nullptr))
+            return usage("world_from_bind or morph_weights of pose " + std::to_string(i) + " is NULL");
+        scene.poses.push_back(
+            {.instance = pose.instance,
+             .world_from_bind = {reinterpret_cast<const Affine3d*>(pose.world_from_bind), pose.joint_count},
+             .morph_weights = {pose.morph_weights, pose.morph_weight_count},
+             .free = pose.free_pose != 0});
+        HEARTH_TRY(gpu::checkPose(*scene.scene, scene.poses.back()));
+    }
+    return success();
+}
+
+/// The moves, poses and shadow spheres are those of the frame's first part.
 Result<gpu::FrameInput> makeInput(const hearth_scene& scene, const gpu::FrameTargets& targets,
                                   const hearth_frame& frame)
 {
@@ -132,6 +154,7 @@ Result<gpu::FrameInput> makeInput(const hearth_scene& scene, const gpu::FrameTar
                                        .depth_scale = frame.depth_scale,
                                        .area = static_cast<gpu::ShadedArea>(frame.shaded_area)},
                            .moves = scene.moves,
+                           .poses = scene.poses,
                            .shadow_spheres = scene.shadow_spheres,
                            .timestamps = frame.timestamps};
 }
@@ -149,6 +172,7 @@ Status beginFrame(hearth_scene& scene, const hearth_frame& frame)
 {
     HEARTH_TRY(checkBegun(scene));
     HEARTH_TRY(makeMoves(scene, frame));
+    HEARTH_TRY(makePoses(scene, frame));
     return makeShadowSpheres(scene, frame);
 }
 

@@ -5,6 +5,7 @@
 #include "runtime/c/call.h"
 #include "runtime/gpu/renderer.h"
 #include "runtime/pack/pack.h"
+#include "runtime/pack/pose_player.h"
 
 #include <atomic>
 #include <vector>
@@ -14,7 +15,17 @@ struct hearth_pack
     explicit hearth_pack(hearth::pack::Pack opened) : pack(std::move(opened)) {}
 
     hearth::pack::Pack pack;
-    std::atomic<uint32_t> scene_count = 0; ///< of any renderer, on any thread
+    std::atomic<uint32_t> child_count = 0; ///< scenes of any renderer, and players; on any thread
+};
+
+struct hearth_player
+{
+    explicit hearth_player(hearth_pack& opened) : pack(opened), player(opened.pack.view()) {}
+
+    hearth_pack& pack;
+    hearth::pack::PosePlayer player;
+    std::vector<hearth_move> moves; ///< as the player has them
+    std::vector<hearth_pose> poses;
 };
 
 struct hearth_renderer
@@ -43,6 +54,7 @@ struct hearth_scene
     const hearth_targets* parts_targets = nullptr;
 
     std::vector<hearth::gpu::InstanceMove> moves; ///< of the frame that is recorded; kept for its memory
+    std::vector<hearth::gpu::InstancePose> poses; ///< the same
     std::vector<hearth::gpu::ShadowSphere> shadow_spheres; ///< the same
 };
 

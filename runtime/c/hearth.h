@@ -29,7 +29,7 @@
 #endif
 
 /* Major version << 16 | minor version. A library takes callers of its major version and of no later minor version. */
-#define HEARTH_API_VERSION 0x00010001u
+#define HEARTH_API_VERSION 0x00010002u
 
 typedef int32_t hearth_result;
 enum
@@ -52,6 +52,7 @@ typedef struct hearth_pack hearth_pack;
 typedef struct hearth_renderer hearth_renderer;
 typedef struct hearth_scene hearth_scene;
 typedef struct hearth_targets hearth_targets;
+typedef struct hearth_player hearth_player; /* since 1.2 */
 
 /* HEARTH_API_VERSION of the library. */
 HEARTH_API uint32_t hearth_api_version(void);
@@ -75,7 +76,13 @@ HEARTH_API hearth_result hearth_pack_open_memory(const void* bytes, size_t size,
 HEARTH_API hearth_result hearth_pack_read_page(const hearth_pack* pack, uint32_t page, void* destination,
                                                size_t size, char* message, size_t message_size);
 
-/* errors: IN_USE, while a scene has been uploaded from it. */
+/* The clip of this name, or else of this number (1.2). `seconds` gets its length, unless it is NULL.
+ * errors: USAGE, also where there is none. */
+HEARTH_API hearth_result hearth_pack_find_animation(const hearth_pack* pack, const char* name,
+                                                    uint32_t* animation, double* seconds, char* message,
+                                                    size_t message_size);
+
+/* errors: IN_USE, while a scene or a player has been made from it. */
 HEARTH_API hearth_result hearth_pack_close(hearth_pack* pack);
 
 /* ---- Renderer ---- */
@@ -211,11 +218,14 @@ typedef struct hearth_scene_options
     uint32_t
         frames_in_flight; /* that are recorded while earlier ones run, 1 to 16; more are not listened to */
     hearth_shadow_options shadows;
+    /* since 1.2: bytes for the vertices of deformed clusters, which are skinned once a frame; what does not fit is skinned
+     * wherever it is needed, with the same picture */
+    uint64_t skinning_bytes;
 } hearth_scene_options;
 
 #define HEARTH_SCENE_OPTIONS_INIT                                                                            \
     {                                                                                                        \
-        sizeof(hearth_scene_options), 4194304, 0, NULL, NULL, 32, 3, HEARTH_SHADOW_OPTIONS_INIT              \
+        sizeof(hearth_scene_options), 4194304, 0, NULL, NULL, 32, 3, HEARTH_SHADOW_OPTIONS_INIT, 16777216    \
     }
 
 /* Records the copies of a scene. Where it fails, `commands` is to be thrown away. The pack outlives the scene.
@@ -379,8 +389,9 @@ enum
     HEARTH_SHOW_MATERIALS = 6,
     HEARTH_SHOW_ERROR = 7,
     HEARTH_SHOW_CONES = 8,
-    HEARTH_SHOW_OVERDRAW = 9,    /* needs HEARTH_FEATURE_OVERDRAW */
-    HEARTH_SHOW_SHADOW_MAPS = 10 /* which is looked up; needs a scene with shadows */
+    HEARTH_SHOW_OVERDRAW = 9,     /* needs HEARTH_FEATURE_OVERDRAW */
+    HEARTH_SHOW_SHADOW_MAPS = 10, /* which is looked up; needs a scene with shadows */
+    HEARTH_SHOW_BONES = 11        /* 1.2: main bones of characters */
 };
 
 /* Where each material is shaded; the picture is the same. */
@@ -432,6 +443,25 @@ typedef struct hearth_move
     float world_from_object[3][4]; /* rows; finite; mirrors where the transform that was loaded did */
 } hearth_move;
 
+/* An affine transform in double precision, rows (1.2). */
+typedef struct hearth_transform
+{
+    double m[3][4];
+} hearth_transform;
+
+/* A new pose of an instance whose mesh has joints or morph targets, for this frame and those after it (1.2). */
+typedef struct hearth_pose
+{
+    uint32_t instance;
+    uint32_t joint_count;                    /* of its skin; 1 without a skin */
+    const hearth_transform* world_from_bind; /* for each joint; without a skin that of the node; finite */
+    const float* morph_weights;              /* finite */
+    uint32_t morph_weight_count;             /* the morph targets of its mesh */
+    /* 1: not of the pack's clips, nor between two of them (ragdoll, inverse kinematics, weights outside of 0 to 1): culled
+     * by where the joints are, which finds less; or 0 */
+    uint32_t free_pose;
+} hearth_pose;
+
 #define HEARTH_ALL_LIGHTS 0xFFFFFFFFu
 
 /* Where shadows are finer, beside the spheres of the pack: a map of its own. */
@@ -460,13 +490,64 @@ typedef struct hearth_frame
     uint32_t shadow_sphere_count; /* of a scene with shadows; else they are not looked at */
     const hearth_shadow_sphere* shadow_spheres; /* all of this frame; read while recording */
     VkQueryPool timestamps; /* of HEARTH_TIMESTAMP_COUNT timestamps, reset by the frame; or VK_NULL_HANDLE */
+    /* since 1.2 */
+    const hearth_pose* poses; /* read while recording; an instance at most once */
+    uint32_t pose_count;
+    uint32_t reserved; /* 0 */
 } hearth_frame;
 
 #define HEARTH_FRAME_INIT                                                                                    \
     {                                                                                                        \
         sizeof(hearth_frame), HEARTH_CULL_EVERYTHING, {{0, 0, 0}, {0, 0, -1}, {0, 1, 0}, 0.8f, 0.01f}, 1,    \
-            NULL, 0, 0, NULL, HEARTH_SHOW_FINAL, 1, HEARTH_SHADE_AUTOMATIC, 0, NULL, VK_NULL_HANDLE          \
+            NULL, 0, 0, NULL, HEARTH_SHOW_FINAL, 1, HEARTH_SHADE_AUTOMATIC, 0, NULL, VK_NULL_HANDLE, NULL,   \
+            0, 0                                                                                             \
     }
+
+/* ---- Clips (1.2): played on the CPU, for a frame's moves and poses. ---- */
+
+/* A moment of a clip, which rests before its first and after its last key. */
+typedef struct hearth_clip
+{
+    uint32_t animation; /* of the pack */
+    uint32_t reserved;  /* 0 */
+    double seconds;     /* finite */
+} hearth_clip;
+
+/* Starts at rest. The pack outlives the player. errors: USAGE, OUT_OF_MEMORY. */
+HEARTH_API hearth_result hearth_player_create(hearth_pack* pack, hearth_player** player, char* message,
+                                              size_t message_size);
+
+/* errors: none. */
+HEARTH_API hearth_result hearth_player_destroy(hearth_player* player);
+
+/* Goes to a pose of the whole scene. Allocates nothing.
+ * from    NULL: at rest
+ * to      a second clip to blend with, or NULL
+ * weight  of the second, 0 to 1
+ * errors: USAGE. */
+HEARTH_API hearth_result hearth_player_go_to(hearth_player* player, const hearth_clip* from,
+                                             const hearth_clip* to, double weight, char* message,
+                                             size_t message_size);
+
+/* What a frame must be told to show the pose; until the next hearth_player_go_to. */
+typedef struct hearth_player_information
+{
+    uint32_t struct_size;
+    uint32_t move_count;
+    const hearth_move* moves; /* of rigid instances that stand elsewhere than before the last go_to */
+    const hearth_pose* poses; /* of all deformed instances */
+    uint32_t pose_count;
+    uint32_t reserved; /* 0 */
+} hearth_player_information;
+
+#define HEARTH_PLAYER_INFORMATION_INIT                                                                       \
+    {                                                                                                        \
+        sizeof(hearth_player_information), 0, NULL, NULL, 0, 0                                               \
+    }
+
+/* errors: USAGE. */
+HEARTH_API hearth_result hearth_player_inform(const hearth_player* player,
+                                              hearth_player_information* information);
 
 /* Records culling and drawing, outside a render pass. Clobbers compute and graphics state. Frames of a scene, and frames
  * with the same targets, go to one queue, which draws and computes, in the order in which they were recorded.

@@ -93,6 +93,38 @@ public:
     }
 };
 
+/// Plays the clips of a pack, which outlives it.
+class Player : public Handle<hearth_player, hearth_player_destroy>
+{
+public:
+    using Handle::Handle;
+
+    [[nodiscard]] static hearth_result create(const Pack& pack, Player& player,
+                                              std::string* message = nullptr)
+    {
+        hearth_player* handle = nullptr;
+        const hearth_result result =
+            callWithMessage(message, [&](char* text, size_t size)
+                            { return hearth_player_create(pack.get(), &handle, text, size); });
+        if (result == HEARTH_OK)
+            player.reset(handle);
+        return result;
+    }
+
+    /// from  none: at rest;  to  a second clip, or none;  weight  of the second
+    [[nodiscard]] hearth_result goTo(const hearth_clip* from, const hearth_clip* to = nullptr,
+                                     double weight = 0, std::string* message = nullptr)
+    {
+        return callWithMessage(message, [&](char* text, size_t size)
+                               { return hearth_player_go_to(get(), from, to, weight, text, size); });
+    }
+
+    [[nodiscard]] hearth_result inform(hearth_player_information& information) const
+    {
+        return hearth_player_inform(get(), &information);
+    }
+};
+
 class Renderer : public Handle<hearth_renderer, hearth_renderer_destroy>
 {
 public:

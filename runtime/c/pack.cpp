@@ -71,7 +71,7 @@ hearth_result hearth_pack_read_page(const hearth_pack* pack, uint32_t page, void
 
 hearth_result hearth_pack_close(hearth_pack* pack)
 {
-    if (pack != nullptr && pack->scene_count != 0)
+    if (pack != nullptr && pack->child_count != 0)
         return HEARTH_ERROR_IN_USE;
     delete pack;
     return HEARTH_OK;

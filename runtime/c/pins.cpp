@@ -29,6 +29,7 @@ static_assert(HEARTH_SHOW_ERROR == shared::kViewError);
 static_assert(HEARTH_SHOW_CONES == shared::kViewCones);
 static_assert(HEARTH_SHOW_OVERDRAW == shared::kViewOverdraw);
 static_assert(HEARTH_SHOW_SHADOW_MAPS == shared::kViewShadowMaps);
+static_assert(HEARTH_SHOW_BONES == shared::kViewBones);
 
 constexpr bool equal(int c, gpu::ShadedArea area)
 {
@@ -75,10 +76,13 @@ static_assert(offsetof(hearth_frame_counters, drawn_clusters) == offsetof(FrameC
 static_assert(offsetof(hearth_frame_counters, dropped_clusters) == offsetof(FrameCounters, dropped_clusters));
 static_assert(offsetof(hearth_frame_counters, early_clusters) == offsetof(FrameCounters, early_clusters));
 
+static_assert(sizeof(hearth_transform) == sizeof(Affine3d) && alignof(hearth_transform) == alignof(Affine3d));
+
 // the defaults
 constexpr hearth_scene_options kSceneDefaults = HEARTH_SCENE_OPTIONS_INIT;
 static_assert(kSceneDefaults.max_visible_clusters == (1u << 22) && kSceneDefaults.max_loads == 32 &&
-              kSceneDefaults.frames_in_flight == 3);
+              kSceneDefaults.frames_in_flight == 3 &&
+              kSceneDefaults.skinning_bytes == gpu::DeformationOptions{}.scratch_bytes);
 
 } // namespace
 

@@ -58,6 +58,7 @@ Result<gpu::SceneOptions> toOptions(const hearth_scene_options& options)
                          { read(user, page, destination.data(), destination.size(), toC(done)); },
                          .max_loads = options.max_loads,
                          .frames_in_flight = options.frames_in_flight};
+    result.deformation.scratch_bytes = options.skinning_bytes;
     HEARTH_ASSIGN_OR_RETURN(result.shadows, shadowOptions(options.shadows));
     return result;
 }
@@ -114,7 +115,7 @@ hearth_result hearth_scene_upload(hearth_renderer* renderer, hearth_pack* pack, 
                     HEARTH_ASSIGN_OR_RETURN(
                         made->scene, renderer->renderer->upload(pack->pack.view(), commands, scene_options));
                     ++renderer->child_count;
-                    ++pack->scene_count;
+                    ++pack->child_count;
                     *scene = made.release();
                     return success();
                 });
@@ -135,7 +136,7 @@ hearth_result hearth_scene_destroy(hearth_scene* scene)
     const std::unique_ptr<hearth_scene> dying(scene);
     scene->scene.reset(); // reads the pack
     --scene->renderer->child_count;
-    --scene->pack->scene_count;
+    --scene->pack->child_count;
     return HEARTH_OK;
 }
 

@@ -340,7 +340,10 @@ bool poseInstance(const DeformedInstance& instance, const InstancePose& pose, Po
                         .morph_word = static_cast<uint32_t>((instance.pose_row + shared::kPoseRows +
                                                              instance.joint_count * shared::kPaletteRows) *
                                                             kRowWords),
-                        .cluster_row = instance.cluster_row};
+                        .cluster_row = instance.cluster_row,
+                        .flags = 0,
+                        .free_center = {},
+                        .free_radius = 0};
     const Float3 origin{anchored->m[0][3], anchored->m[1][3], anchored->m[2][3]};
     setTransform(rows.record, pose.free ? Affine3{} : *anchored, origin);
     rows.bounds.grid_step = 0; // of no grid: nothing of a deformed instance is looked for by it

@@ -30,7 +30,7 @@ void addCarried(const Box3& box, const Affine3d& world_from_bind, std::vector<Pl
         boxes.push_back({box, *place});
 }
 
-/// Calls rigid(mesh, place) and deformed(mesh, record of DMSH, palette) for the instances that have clusters.
+/// Calls rigid(mesh, place) and deformed(mesh, record of DMSH, pose) for the instances that have clusters.
 template <typename Rigid, typename Deformed>
 void visitInstances(const formats::PackView& pack, const pack::PosePlayer& player, const Rigid& rigid,
                     const Deformed& deformed)
@@ -45,8 +45,68 @@ void visitInstances(const formats::PackView& pack, const pack::PosePlayer& playe
         if (mesh.clusters.count > 0 && !is_posed)
             rigid(mesh, places[i]);
         else if (mesh.clusters.count > 0)
-            deformed(mesh, *pack::findDeformedMesh(pack, number), posed->world_from_bind);
+            deformed(mesh, *pack::findDeformedMesh(pack, number), *posed);
         posed += is_posed ? 1 : 0;
+    }
+}
+
+// Posing takes about 0.1 ms a cluster: more are not worth waiting for.
+constexpr size_t kMostPosedClusters = 8192;
+
+size_t countDeformedClusters(const formats::PackView& pack, const pack::PosePlayer& player)
+{
+    size_t count = 0;
+    for (const pack::PosedInstance& posed : player.posed())
+        count += pack.meshes()[pack.instances()[posed.instance].mesh].clusters.count;
+    return count;
+}
+
+Affine3d blendedJoints(const formats::ClusterGeometry& geometry, uint32_t vertex,
+                       std::span<const Affine3d> palette)
+{
+    if (geometry.influenceCount() == 0)
+        return palette[0];
+    const auto joints = geometry.joints(vertex);
+    const auto weights = geometry.weights(vertex);
+    Affine3d blended{};
+    for (int row = 0; row < 3; ++row)
+        for (int column = 0; column < 4; ++column)
+        {
+            double& sum = blended.m[row][column];
+            sum = 0;
+            for (size_t i = 0; i < geometry.influenceCount(); ++i)
+                sum += double{weights[i]} * palette[joints[i]].m[row][column];
+        }
+    return blended;
+}
+
+/// World space.
+Box3 posedBox(const formats::ClusterGeometry& geometry, const pack::PosedInstance& pose)
+{
+    Box3 box;
+    for (uint32_t v = 0; v < geometry.vertexCount(); ++v)
+    {
+        Float3 bind = geometry.position(v);
+        for (uint32_t i = 0; i < geometry.morphCount(); ++i)
+            bind += geometry.morphPosition(i, v) * pose.morph_weights[geometry.morphTarget(i)];
+        box.add(narrow(transformPoint(blendedJoints(geometry, v, pose.world_from_bind), widen(bind))));
+    }
+    return box;
+}
+
+/// The finest clusters of an instance in its pose; those of pages that cannot be decoded are left out.
+void addPosed(const formats::PackView& pack, const pack::PosedInstance& pose, std::vector<PlacedBox>& boxes)
+{
+    const formats::MeshRecord& mesh = pack.meshes()[pack.instances()[pose.instance].mesh];
+    for (uint32_t page = mesh.pages.first; page < mesh.pages.first + mesh.pages.count; ++page)
+    {
+        const auto bytes = pack.decodePage(page);
+        if (!bytes.ok())
+            continue;
+        for (const formats::ClusterRecord& cluster : recordsOf(pack.clusters(), pack.pages()[page].clusters))
+            if (cluster.level == 0)
+                if (const auto geometry = formats::ClusterGeometry::at(*bytes, cluster, mesh))
+                    boxes.push_back({posedBox(*geometry, pose), Affine3{}});
     }
 }
 
@@ -61,8 +121,8 @@ std::vector<PlacedBox> instanceBoxes(const formats::PackView& pack, const pack::
             boxes.push_back({{mesh.box_min, mesh.box_max}, place});
         },
         [&](const formats::MeshRecord&, const formats::DeformedMeshRecord& mesh,
-            std::span<const Affine3d> palette) {
-            addCarried({mesh.box_min, mesh.box_max}, palette[mesh.anchor], boxes);
+            const pack::PosedInstance& pose) {
+            addCarried({mesh.box_min, mesh.box_max}, pose.world_from_bind[mesh.anchor], boxes);
         });
     return boxes;
 }
@@ -70,6 +130,7 @@ std::vector<PlacedBox> instanceBoxes(const formats::PackView& pack, const pack::
 std::vector<PlacedBox> clusterBoxes(const formats::PackView& pack, const pack::PosePlayer& player)
 {
     std::vector<PlacedBox> boxes;
+    const bool in_pose = countDeformedClusters(pack, player) <= kMostPosedClusters;
     visitInstances(
         pack, player,
         [&](const formats::MeshRecord& mesh, const Affine3& place)
@@ -79,13 +140,16 @@ std::vector<PlacedBox> clusterBoxes(const formats::PackView& pack, const pack::P
                     boxes.push_back({formats::boxOf(cluster, mesh.grid_step), place});
         },
         [&](const formats::MeshRecord& mesh, const formats::DeformedMeshRecord& deformed,
-            std::span<const Affine3d> palette)
+            const pack::PosedInstance& pose)
         {
+            if (in_pose)
+                return addPosed(pack, pose, boxes);
             for (uint32_t c = 0; c < mesh.clusters.count; ++c)
                 if (pack.clusters()[mesh.clusters.first + c].level == 0)
                 {
                     const auto& cluster = pack.deformedClusters()[deformed.clusters.first + c];
-                    addCarried({cluster.box_min, cluster.box_max}, palette[cluster.joint], boxes);
+                    addCarried({cluster.box_min, cluster.box_max}, pose.world_from_bind[cluster.joint],
+                               boxes);
                 }
         });
     return boxes;

@@ -20,8 +20,8 @@ struct PlacedBox
 /// anchor stands.
 std::vector<PlacedBox> instanceBoxes(const formats::PackView& pack, const pack::PosePlayer& player);
 
-/// Of each cluster of the finest level of each instance: closer to round things. Where it is deformed, around all its poses
-/// from where its main bone stands.
+/// Of each cluster of the finest level of each instance: closer to round things. Where it is deformed, around its vertices
+/// in the pose; of crowds, around all its poses from where its main bone stands.
 std::vector<PlacedBox> clusterBoxes(const formats::PackView& pack, const pack::PosePlayer& player);
 
 /// Around instanceBoxes; empty where there are none.

@@ -73,8 +73,9 @@ void SkinningPass::record(const Device& device, VkCommandBuffer commands, const 
     bind(skin_[scene.used_slices == 1 ? 0 : 1], scene.draw_set, phase);
     device.vk.vkCmdDispatchIndirect(commands, deformation.buffer.handle.get(),
                                     offsetof(shared::DeformationHeader, groups_x));
+    // page requests read other parts of the buffer
     barrier(device, commands, kCompute, VK_ACCESS_SHADER_WRITE_BIT,
-            VK_PIPELINE_STAGE_VERTEX_SHADER_BIT | VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT |
+            kCompute | VK_PIPELINE_STAGE_VERTEX_SHADER_BIT | VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT |
                 VK_PIPELINE_STAGE_TRANSFER_BIT,
             VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_TRANSFER_READ_BIT);
 }

@@ -10,7 +10,7 @@ namespace hearth::viewer
 {
 
 /// Three-quarter view from the right, front and above, as close as all that is drawn fits into the picture with a
-/// small margin: deformed instances wherever clips can bring them from where their bones stand now. A scene without triangles gets a view of the origin.
+/// small margin: deformed instances in the player's pose. A scene without triangles gets a view of the origin.
 shared::Camera fitCamera(const formats::PackView& pack, const pack::PosePlayer& player, float aspect);
 
 /// The same at rest.

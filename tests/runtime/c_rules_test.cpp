@@ -163,12 +163,12 @@ TEST_F(CApiTest, otherVersionsAreRefused)
     EXPECT_THAT(message_, HasSubstr("compile with the hearth.h of the library"));
 
     description = c_caller_description(caller_);
-    for (const uint32_t version : {0x00020000u, 0x00010002u, 0u})
+    for (const uint32_t version : {0x00020000u, 0x00010003u, 0u})
     {
         description.api_version = version;
         EXPECT_EQ(hearth_renderer_create(&description, &renderer, message_, sizeof(message_)),
                   HEARTH_ERROR_USAGE);
-        EXPECT_THAT(message_, HasSubstr("the library is 1.1"));
+        EXPECT_THAT(message_, HasSubstr("the library is 1.2"));
     }
     description = c_caller_description(caller_);
     description.features = 1u << 31;
@@ -208,10 +208,11 @@ TEST_F(CFrameRulesTest, framesThatBreakRulesAreRefused)
     EXPECT_THAT(refused([](F& f) { f.error_pixels = -1; }), HasSubstr("error_pixels"));
     EXPECT_THAT(refused([](F& f) { f.depth_scale = kNan; }), HasSubstr("depth_scale"));
     EXPECT_THAT(refused([](F& f) { f.cull_flags = 16; }), HasSubstr("cull_flags"));
-    EXPECT_THAT(refused([](F& f) { f.shown = 11; }), HasSubstr("shown"));
+    EXPECT_THAT(refused([](F& f) { f.shown = 12; }), HasSubstr("shown"));
     EXPECT_THAT(refused([](F& f) { f.shown = HEARTH_SHOW_SHADOW_MAPS; }), HasSubstr("with shadows"));
     EXPECT_THAT(refused([](F& f) { f.shaded_area = 3; }), HasSubstr("shaded_area"));
     EXPECT_THAT(refused([](F& f) { f.move_count = 1; }), HasSubstr("moves is NULL"));
+    EXPECT_THAT(refused([](F& f) { f.pose_count = 1; }), HasSubstr("poses is NULL"));
     EXPECT_THAT(refused([](F& f) { f.shadow_sphere_count = 1; }), HasSubstr("shadow_spheres is NULL"));
     EXPECT_THAT(refused([&](F& f) { f.shadow_spheres = &flat, f.shadow_sphere_count = 1; }),
                 HasSubstr("shadow sphere 0"));

@@ -49,6 +49,52 @@ bool isHidden(const Pyramid& pyramid, const Instance& instance, Float3 box_min, 
     return true;
 }
 
+/// The poses of a layout, read as the shaders read them.
+class PoseTable
+{
+public:
+    explicit PoseTable(const gpu::SceneLayout& layout) : words_(layout.deformation.words) {}
+
+    bool isDeformed(uint32_t instance) const
+    {
+        return !words_.empty() && words_[headerOf().instance_word + instance] != 0;
+    }
+    Pose pose(uint32_t instance) const { return at<Pose>(words_[headerOf().instance_word + instance]); }
+    PaletteRow joint(const Pose& pose, uint32_t joint) const
+    {
+        return at<PaletteRow>(pose.palette_row + joint * kPaletteRows);
+    }
+    DeformedCluster cluster(const Pose& pose, uint32_t cluster) const
+    {
+        return at<DeformedCluster>(pose.cluster_row + cluster * kDeformedClusterRows);
+    }
+    CarriedBox box(const Instance& instance, const Pose& pose, const DeformedCluster& cluster) const
+    {
+        if ((pose.flags & kPoseFree) == 0)
+            return boxInClips(instance, joint(pose, cluster.joint), cluster);
+        CarriedBox box =
+            grownBy(emptyFreeBox(instance), joint(pose, cluster.joint), cluster.bind_min, cluster.bind_max);
+        for (uint32_t i = 1; i < cluster.joint_count; ++i)
+            box = grownBy(box, joint(pose, words_[cluster.first_joint + i]), cluster.bind_min,
+                          cluster.bind_max);
+        return box;
+    }
+
+private:
+    DeformationHeader headerOf() const { return at<DeformationHeader>(0); }
+
+    template <typename Record>
+    Record at(uint32_t row) const
+    {
+        Record record;
+        HEARTH_ASSERT(size_t{row} * 4 + sizeof(Record) / 4 <= words_.size());
+        std::memcpy(static_cast<void*>(&record), words_.data() + size_t{row} * 4, sizeof(record));
+        return record;
+    }
+
+    const std::vector<uint32_t>& words_;
+};
+
 class TwinMaker
 {
 public:
@@ -58,7 +104,8 @@ public:
           view_(view),
           last_(last),
           current_(current),
-          instances_(recordsAs<Instance>(pack.instances())),
+          poses_(layout),
+          instances_(layout.instances),
           clusters_(recordsAs<Cluster>(pack.clusters())),
           groups_(recordsAs<Group>(pack.groups()))
     {
@@ -84,7 +131,7 @@ public:
         countInstances();
         for (const WorkItem& item : layout_.items)
             for (uint32_t lane = 0; lane < item.count; ++lane)
-                countCluster(item, clusters_[layout_.order[item.first + lane]]);
+                countCluster(item, layout_.order[item.first + lane]);
         return std::move(twin_);
     }
 
@@ -129,15 +176,13 @@ private:
             return result;
         for (uint32_t lane = 0; lane < item.count; ++lane)
         {
-            const Cluster& cluster = clusters_[layout_.order[item.first + lane]];
+            const uint32_t cluster = layout_.order[item.first + lane];
             const bool asked_before = which == kPhaseLate && state.visible == kInstanceVisible;
             if (!(asked_before ? bitOf(before.later_low, before.later_high, lane)
                                : decides(item, state, cluster)))
                 continue;
-            const bool hidden =
-                which != kPhaseWhole &&
-                isHidden(which == kPhaseLate ? current_ : last_, instances_[item.instance],
-                         clusterBoxMin(cluster, state.grid_step), clusterBoxMax(cluster, state.grid_step));
+            const bool hidden = which != kPhaseWhole &&
+                                isBehind(which == kPhaseLate ? current_ : last_, item, state, cluster);
             if (!hidden)
                 setBit(result.mask_low, result.mask_high, lane);
             else if (which == kPhaseEarly)
@@ -146,8 +191,24 @@ private:
         return result;
     }
 
-    bool decides(const WorkItem& item, const InstanceState& state, const Cluster& cluster) const
+    bool isBehind(const Pyramid& pyramid, const WorkItem& item, const InstanceState& state,
+                  uint32_t number) const
     {
+        const Instance& instance = instances_[item.instance];
+        if (!poses_.isDeformed(item.instance))
+            return isHidden(pyramid, instance, clusterBoxMin(clusters_[number], state.grid_step),
+                            clusterBoxMax(clusters_[number], state.grid_step));
+        const Pose pose = poses_.pose(item.instance);
+        const CarriedBox box = poses_.box(instance, pose, poses_.cluster(pose, number));
+        return isHidden({occlusionFromOrigin(pyramid.view, instance), pyramid.texels}, box.carrier,
+                        box.box_min, box.box_max);
+    }
+
+    bool decides(const WorkItem& item, const InstanceState& state, uint32_t number) const
+    {
+        if (poses_.isDeformed(item.instance))
+            return outcomeOf(item, number) >= kOutcomeCandidate;
+        const Cluster& cluster = clusters_[number];
         const Group& refined =
             groups_[cluster.refined_group == kNoGroup ? cluster.group : cluster.refined_group];
         return decideCluster(view_, instances_[item.instance], state, cluster, groups_[cluster.group],
@@ -171,9 +232,10 @@ private:
         }
     }
 
-    void countCluster(const WorkItem& item, const Cluster& cluster)
+    void countCluster(const WorkItem& item, uint32_t number)
     {
-        const uint32_t outcome = outcomeOf(item, cluster);
+        const Cluster& cluster = clusters_[number];
+        const uint32_t outcome = outcomeOf(item, number);
         CullStatistics& counts = twin_.statistics;
         ++counts.clusters[outcome];
         const uint64_t triangles =
@@ -184,12 +246,40 @@ private:
     }
 
     /// The tests one after the other.
-    uint32_t outcomeOf(const WorkItem& item, const Cluster& cluster) const
+    uint32_t outcomeOf(const WorkItem& item, uint32_t number) const
     {
         const InstanceState& state = twin_.states[item.instance];
-        const Instance& instance = instances_[item.instance];
         if (state.visible == kInstanceHidden)
             return kOutcomeInstance;
+        const uint32_t failed = poses_.isDeformed(item.instance)
+                                    ? deformedFailure(item, number)
+                                    : rigidFailure(item, state, clusters_[number]);
+        return failed != kOutcomeCandidate      ? failed
+               : state.visible == kInstanceLate ? kOutcomeLateCandidate
+                                                : kOutcomeCandidate;
+    }
+
+    /// The first test that the cluster fails, or kOutcomeCandidate.
+    uint32_t deformedFailure(const WorkItem& item, uint32_t number) const
+    {
+        const Instance& instance = instances_[item.instance];
+        const Pose pose = poses_.pose(item.instance);
+        const DeformedCluster cluster = poses_.cluster(pose, number);
+        const Group& refined =
+            groups_[cluster.refined_group == kNoGroup ? cluster.group : cluster.refined_group];
+        if (!deformedInCut(view_, instance, pose, cluster, groups_[cluster.group], refined))
+            return kOutcomeLod;
+        if (!deformedInFrustum(view_, instance, poses_.box(instance, pose, cluster)))
+            return kOutcomeFrustum;
+        if ((item.flags & kItemDoubleSided) == 0 &&
+            deformedFacesAway(view_, instance, pose, poses_.joint(pose, cluster.joint), cluster))
+            return kOutcomeCone;
+        return kOutcomeCandidate;
+    }
+
+    uint32_t rigidFailure(const WorkItem& item, const InstanceState& state, const Cluster& cluster) const
+    {
+        const Instance& instance = instances_[item.instance];
         const bool has_refined = cluster.refined_group != kNoGroup;
         const Group& refined = groups_[has_refined ? cluster.refined_group : cluster.group];
         if (!clusterInCut(view_, instance, groups_[cluster.group], has_refined, refined))
@@ -201,7 +291,7 @@ private:
         if ((view_.flags & kCullCone) != 0 && (item.flags & kItemDoubleSided) == 0 && state.cone_valid != 0 &&
             coneFacesAway(state, cluster))
             return kOutcomeCone;
-        return state.visible == kInstanceLate ? kOutcomeLateCandidate : kOutcomeCandidate;
+        return kOutcomeCandidate;
     }
 
     /// Offsets, totals, the list and the draws, from the masks.
@@ -248,6 +338,7 @@ private:
     const FrameView& view_;
     const Pyramid& last_;
     const Pyramid& current_;
+    PoseTable poses_;
     std::vector<Instance> instances_;
     std::vector<Cluster> clusters_;
     std::vector<Group> groups_;
@@ -278,27 +369,36 @@ Twin makeTwin(const formats::PackView& pack, const gpu::SceneLayout& layout, con
     return TwinMaker(pack, layout, view, last, current, resident_groups).run();
 }
 
-std::vector<uint32_t> makeRequestTwin(const formats::PackView& pack, const FrameView& view)
+std::vector<uint32_t> makeRequestTwin(const formats::PackView& pack, const gpu::SceneLayout& layout,
+                                      const FrameView& view)
 {
-    const auto instances = recordsAs<Instance>(pack.instances());
     const auto clusters = recordsAs<Cluster>(pack.clusters());
     const auto groups = recordsAs<Group>(pack.groups());
-    const std::vector<MeshBounds> bounds = makeMeshBounds(pack.meshes(), pack.clusters());
+    const PoseTable poses(layout);
     std::vector<uint32_t> requests(pack.pages().size(), 0);
-    for (size_t i = 0; i < instances.size(); ++i)
+    for (uint32_t i = 0; i < layout.instances.size(); ++i)
     {
-        const InstanceState state = decideInstance(
-            view, instances[i], makeInstanceInverse(pack.instances()[i]), bounds[instances[i].mesh]);
+        const Instance& instance = layout.instances[i];
+        const InstanceState state =
+            decideInstance(view, instance, layout.inverses[i], layout.bounds[instance.mesh]);
         if (state.visible == kInstanceHidden)
             continue;
+        const bool deformed = poses.isDeformed(i);
+        const Pose pose = deformed ? poses.pose(i) : Pose{};
+        const auto in_frustum = [&](uint32_t c)
+        {
+            return deformed
+                       ? deformedInFrustum(view, instance, poses.box(instance, pose, poses.cluster(pose, c)))
+                       : clusterInFrustum(view, instance, state, clusters[c]);
+        };
         const auto ask = [&](uint32_t group)
         {
             uint32_t& request = requests[groups[group - groups[group].set_offset].page];
-            request = std::max(request, groupRequest(view, instances[i], groups[group]));
+            request = std::max(request, groupRequest(view, instance, groupInPose(groups[group], pose)));
         };
-        const formats::Range range = pack.meshes()[instances[i].mesh].clusters;
+        const formats::Range range = pack.meshes()[pack.instances()[i].mesh].clusters;
         for (uint32_t c = range.first; c < range.first + range.count; ++c)
-            if (clusterInFrustum(view, instances[i], state, clusters[c]))
+            if (in_frustum(c))
             {
                 ask(clusters[c].group);
                 if (clusters[c].refined_group != kNoGroup)
@@ -306,6 +406,20 @@ std::vector<uint32_t> makeRequestTwin(const formats::PackView& pack, const Frame
             }
     }
     return requests;
+}
+
+void applyPoses(std::span<const gpu::InstancePose> poses, gpu::SceneLayout& layout)
+{
+    for (const gpu::InstancePose& pose : poses)
+    {
+        const gpu::DeformedInstance* instance = gpu::findDeformed(layout.deformation, pose.instance);
+        gpu::PosedRows rows;
+        HEARTH_ASSERT(instance != nullptr && gpu::poseInstance(*instance, pose, rows));
+        layout.instances[pose.instance] = rows.record;
+        layout.bounds[rows.record.mesh] = rows.bounds;
+        std::copy(rows.words.begin(), rows.words.end(),
+                  layout.deformation.words.begin() + static_cast<std::ptrdiff_t>(instance->pose_row) * 4);
+    }
 }
 
 } // namespace hearth::test

@@ -42,6 +42,10 @@ Twin makeTwin(const formats::PackView& pack, const gpu::SceneLayout& layout, con
               std::span<const uint8_t> resident_groups = {});
 
 /// For each page what shared::groupRequest says at most.
-std::vector<uint32_t> makeRequestTwin(const formats::PackView& pack, const shared::FrameView& view);
+std::vector<uint32_t> makeRequestTwin(const formats::PackView& pack, const gpu::SceneLayout& layout,
+                                      const shared::FrameView& view);
+
+/// Set poses as frames do.
+void applyPoses(std::span<const gpu::InstancePose> poses, gpu::SceneLayout& layout);
 
 } // namespace hearth::test

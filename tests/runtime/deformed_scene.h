@@ -45,7 +45,8 @@ PosedVertex posedVertex(const formats::ClusterGeometry& geometry, uint32_t verte
 
 struct DeformedSceneOptions
 {
-    uint32_t limbs = 5;      ///< instances of a limb of 6 joints, each third one mirrored
+    uint32_t limbs =
+        5; ///< instances, at least one, as of the next two: of a limb of 6 joints, each third one mirrored
     uint32_t tentacles = 2;  ///< instances with eight influences and three morph targets
     uint32_t blobs = 2;      ///< instances with morph targets alone
     uint32_t rocks = 4;      ///< rigid instances
@@ -60,6 +61,12 @@ public:
     DeformedScene(const DeformedSceneOptions& options, uint32_t seed);
 
     const formats::PackView& pack() const { return *pack_; }
+    /// The pack as a file; until the next call.
+    const AlignedBytes& bytes()
+    {
+        bytes_ = test_.model().bytes();
+        return bytes_;
+    }
     const reference::PackGeometry& geometry() const { return *geometry_; }
     const std::vector<uint32_t>& deformedInstances() const { return deformed_; }
 
@@ -92,6 +99,7 @@ private:
     std::vector<uint32_t> deformed_;
     std::optional<formats::PackView> pack_;
     std::optional<reference::PackGeometry> geometry_;
+    AlignedBytes bytes_;
 };
 
 } // namespace hearth::test

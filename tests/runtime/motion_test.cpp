@@ -1,6 +1,8 @@
 // Instances that move: as if they had been there from the start, and never hidden by where things were.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "runtime/pack/pose_player.h"
 #include "tests/cook/shapes.h"
+#include "tests/runtime/animated_rocks.h"
 #include "tests/runtime/gpu_fixture.h"
 #include "tests/runtime/test_scene.h"
 
@@ -109,6 +111,35 @@ TEST_F(MotionTest, cullingIsLosslessWhileThingsMove)
     }
     EXPECT_LT(drawn, all);
     EXPECT_GT(late, 80u) << "a late phase that finds nothing is not tested";
+}
+
+TEST_F(MotionTest, clipsDrawRocksWhereTheCpuPutsThem)
+{
+    TestScene animated_test, still_test;
+    const auto rock = [](TestScene& test)
+    { return test.addMesh(withMaterial(shapes::rock(20, 0.3f), test.addMaterial(plainMaterial()))); };
+    fillAnimatedRocks(animated_test, rock(animated_test));
+    const formats::PackView animated_pack = animated_test.build();
+    pack::PosePlayer player(animated_pack);
+    player.blend({0, 3}, {1, 2}, 0.5);
+    // slide: 5 along x, rise: 2 along y
+    const uint32_t still_rock = rock(still_test);
+    for (const Float3 place : {Float3{0, 0, 0}, Float3{3.5f, 1, 0}, Float3{3.5f, 2, 0}, Float3{3.5f, 1, 3}})
+        still_test.addInstance(still_rock, translated(place));
+    const formats::PackView still_pack = still_test.build();
+
+    const auto animated = upload(animated_pack);
+    const auto still = upload(still_pack);
+    std::vector<gpu::InstanceMove> moves;
+    for (const pack::MovedInstance& moved : player.moved())
+    {
+        const auto move = gpu::moveInstance(*animated, moved.instance, moved.world_from_object);
+        ASSERT_TRUE(move.ok());
+        moves.push_back(*move);
+    }
+    ASSERT_EQ(moves.size(), 3u);
+    const Camera camera{.position = {4, 3, 9}, .target = {2, 1, 0}};
+    EXPECT_EQ(draw(*animated, camera, {.moves = moves}).color, draw(*still, camera).color);
 }
 
 TEST_F(MotionTest, whatAnInstanceCannotDoIsNamed)

@@ -351,7 +351,7 @@ TEST_F(StreamTest, requestsEqualTheirTwinBitForBit)
                                   .lod_curve = curve};
         frame(camera, options);
         const auto requests = read<uint32_t>(streamed_->buffers.page_requests, pack_->pages().size());
-        const auto twin = makeRequestTwin(*pack_, viewOf(*streamed_, camera, scaled(options)));
+        const auto twin = makeRequestTwin(*pack_, layout_, viewOf(*streamed_, camera, scaled(options)));
         EXPECT_EQ(requests, twin);
         for (uint32_t page = 0; page < requests.size(); ++page)
         {
