@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/clusters/attributes.h"
 
+#include "cook/mesh/deformation.h"
+
+#include <algorithm>
 #include <cmath>
 
 namespace hearth::clusters
@@ -14,6 +17,21 @@ constexpr float kShortestNormal = 0.01f;
 
 // Tangents nearer than this to their normal keep no direction.
 constexpr float kShortestTangent = 1e-3f;
+
+float partOf(const Float4& weights, size_t i)
+{
+    return i == 0 ? weights.x : i == 1 ? weights.y : i == 2 ? weights.z : weights.w;
+}
+
+float weightOf(const mesh::SourceMesh& vertices, uint32_t vertex, uint32_t joint)
+{
+    for (size_t set = 0; set < vertices.joint_sets.size(); ++set)
+        for (size_t i = 0; i < 4; ++i)
+            if (vertices.joint_sets[set][vertex].joint[i] == joint)
+                if (const float weight = partOf(vertices.weight_sets[set][vertex], i); weight > 0)
+                    return weight;
+    return 0;
+}
 
 void setNormal(mesh::SourceMesh& vertices, uint32_t vertex, Float3 sum)
 {
@@ -29,6 +47,34 @@ void setNormal(mesh::SourceMesh& vertices, uint32_t vertex, Float3 sum)
     const Float3 upright = along - normal * dot(along, normal);
     if (const float left = length(upright); left > kShortestTangent)
         tangent = {upright.x / left, upright.y / left, upright.z / left, tangent.w};
+}
+
+/// New weights for some joints: the vertex keeps those of joints that are not among them, and the main joint gets the rest.
+void setJoints(mesh::SourceMesh& vertices, uint32_t vertex, uint32_t main_joint,
+               std::vector<mesh::Influence> influences)
+{
+    const size_t known = influences.size();
+    double sum = 0;
+    for (const mesh::Influence& influence : influences)
+        sum += influence.weight;
+    for (size_t set = 0; set < vertices.joint_sets.size(); ++set)
+        for (size_t i = 0; i < 4; ++i)
+        {
+            const uint16_t joint = vertices.joint_sets[set][vertex].joint[i];
+            const auto end = influences.begin() + static_cast<ptrdiff_t>(known);
+            const bool is_new = joint == main_joint || std::any_of(influences.begin(), end,
+                                                                   [&](const mesh::Influence& influence)
+                                                                   { return influence.joint == joint; });
+            const auto weight = static_cast<double>(partOf(vertices.weight_sets[set][vertex], i));
+            if (is_new || weight == 0)
+                continue;
+            influences.push_back({joint, weight});
+            sum += weight;
+        }
+    influences.push_back({static_cast<uint16_t>(main_joint), std::max(1 - sum, 0.0)});
+    // not even the main joint is left where extrapolated weights cancel
+    if (sum > 0 || influences.back().weight > 0)
+        mesh::setInfluences(vertices, vertex, influences);
 }
 
 } // namespace
@@ -58,6 +104,13 @@ void packAttributes(const mesh::SourceMesh& vertices, uint32_t vertex, const Att
         add(c.x * weights.color), add(c.y * weights.color), add(c.z * weights.color),
             add(c.w * weights.color);
     }
+    for (const DeformationWeight& joint : weights.joints)
+        add(weightOf(vertices, vertex, joint.index) * joint.length);
+    for (const DeformationWeight& morph : weights.morphs)
+    {
+        const Float3 delta = vertices.morph_targets[morph.index].positions[vertex] * morph.length;
+        add(delta.x), add(delta.y), add(delta.z);
+    }
 }
 
 void unpackAttributes(const Lanes* rows, const AttributeWeights& weights, mesh::SourceMesh& vertices,
@@ -85,6 +138,14 @@ void unpackAttributes(const Lanes* rows, const AttributeWeights& weights, mesh::
         const auto unit = [&] { return std::clamp(take(weights.color), 0.0f, 1.0f); };
         const float r = unit(), g = unit(), b = unit(), a = unit();
         vertices.colors[vertex] = {r, g, b, a};
+    }
+    if (!weights.joints.empty())
+    {
+        std::vector<mesh::Influence> influences;
+        for (const DeformationWeight& joint : weights.joints)
+            influences.push_back(
+                {static_cast<uint16_t>(joint.index), std::max(double{take(joint.length)}, 0.0)});
+        setJoints(vertices, vertex, weights.main_joint, std::move(influences));
     }
 }
 

@@ -55,13 +55,15 @@ void fillMeshRecord(const PreparedMesh& prepared, Hierarchy& hierarchy)
 } // namespace
 
 Hierarchy buildHierarchy(mesh::SourceMesh source, std::span<const mesh::SourceMesh> authored,
-                         const Config& config)
+                         const Config& config, const MeshMotion* motion)
 {
     Hierarchy hierarchy;
     fillSourceCounts(source, hierarchy.mesh);
-    JoinedMesh joined = joinAuthored(std::move(source), authored);
+    JoinedMesh joined = joinAuthored(std::move(source), authored, config.influences);
+    joined.mesh.motion = motion;
     Build build{
         std::move(joined.mesh), config, {}, joined.levels, std::vector<uint32_t>(authored.size(), kNone)};
+    hierarchy.counts.influence_loss = build.mesh.influence_loss;
     if (build.mesh.triangleCount() > 0)
     {
         buildLevels(build);
@@ -73,9 +75,9 @@ Hierarchy buildHierarchy(mesh::SourceMesh source, std::span<const mesh::SourceMe
     return hierarchy;
 }
 
-Hierarchy buildHierarchy(mesh::SourceMesh source, const Config& config)
+Hierarchy buildHierarchy(mesh::SourceMesh source, const Config& config, const MeshMotion* motion)
 {
-    return buildHierarchy(std::move(source), {}, config);
+    return buildHierarchy(std::move(source), {}, config, motion);
 }
 
 } // namespace hearth::clusters

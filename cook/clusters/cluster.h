@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
+#include "cook/clusters/mesh_motion.h"
 #include "cook/mesh/deformation.h"
 #include "cook/mesh/grid.h"
 #include "cook/mesh/source_mesh.h"
@@ -24,15 +25,16 @@ struct PreparedMesh
     uint32_t attributes = 0;
     uint32_t degenerate_count = 0;
     uint32_t position_count = 0;
-    float normal_bend =
-        0; ///< rms length of the difference of normals along edges where they bend; 0: nowhere
+    bool bends_gently = false;                ///< 8 bits are too few for its normals
     std::vector<uint32_t> corners;            ///< three vertices for each triangle
     std::vector<uint32_t> materials;          ///< for each triangle
     std::vector<uint32_t> position_of_vertex; ///< for each vertex
+    const MeshMotion* motion = nullptr;       ///< of a deformed mesh; null: nothing moves it
     mesh::InfluenceLoss influence_loss;
     std::vector<float> morph_steps; ///< of each morph target's deltas; a power of two
 
     size_t triangleCount() const { return corners.size() / 3; }
+    bool deforms() const { return !vertices.joint_sets.empty() || !vertices.morph_targets.empty(); }
 };
 
 /// Most vertices of a cluster: fewer than the format's limit where the morph targets of two would not fit into a page.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/clusters/cluster_part.h"
 
+#include "cook/clusters/part_motion.h"
 #include "cook/mesh/free_memory.h"
 #include "formats/pack_view.h"
 
@@ -140,8 +141,8 @@ Result<LodLists> readLodLists(const ContainerReader& part, uint32_t mesh_count)
 }
 
 /// A mesh that is a level of others is part of theirs, and has no hierarchy itself.
-Result<BuiltMesh> buildMesh(const ContainerReader& part, const LodLists& lods, uint32_t index,
-                            const MeshConfigurer& configure)
+Result<BuiltMesh> buildMesh(const ContainerReader& part, const LodLists& lods, const PartMotion& motion,
+                            uint32_t index, const MeshConfigurer& configure)
 {
     const auto start = std::chrono::steady_clock::now();
     HEARTH_ASSIGN_OR_RETURN(mesh::SourceMesh source, mesh::readSourceMesh(part, index));
@@ -157,7 +158,8 @@ Result<BuiltMesh> buildMesh(const ContainerReader& part, const LodLists& lods, u
         HEARTH_ASSIGN_OR_RETURN(mesh::SourceMesh level, mesh::readSourceMesh(part, lod));
         authored.push_back(std::move(level));
     }
-    built.hierarchy = buildHierarchy(std::move(source), authored, built.config);
+    HEARTH_ASSIGN_OR_RETURN(const OwnedMotion owned, motion.of(index, source));
+    built.hierarchy = buildHierarchy(std::move(source), authored, built.config, &owned.motion);
     built.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return built;
 }
@@ -180,12 +182,14 @@ uint32_t endOfBatch(const ContainerReader& part, uint32_t first, uint32_t mesh_c
 }
 
 /// Build the meshes of a batch; each has its result or its error.
-std::vector<Result<BuiltMesh>> buildBatch(const ContainerReader& part, const LodLists& lods, Range meshes,
+std::vector<Result<BuiltMesh>> buildBatch(const ContainerReader& part, const LodLists& lods,
+                                          const PartMotion& motion, Range meshes,
                                           const MeshConfigurer& configure)
 {
     std::vector<Result<BuiltMesh>> batch(meshes.count, BuiltMesh{});
     tbb::parallel_for(uint32_t{0}, meshes.count,
-                      [&](uint32_t i) { batch[i] = buildMesh(part, lods, meshes.first + i, configure); });
+                      [&](uint32_t i)
+                      { batch[i] = buildMesh(part, lods, motion, meshes.first + i, configure); });
     return batch;
 }
 
@@ -198,12 +202,13 @@ Status writeClustersPart(const ContainerReader& part, const std::string& output_
                             ContainerWriter::create(output_path, ContainerKind::part));
     const uint32_t mesh_count = meshCount(part);
     HEARTH_ASSIGN_OR_RETURN(const LodLists lods, readLodLists(part, mesh_count));
+    HEARTH_ASSIGN_OR_RETURN(const PartMotion motion, PartMotion::read(part));
     Tables tables;
     HEARTH_TRY(writer.beginChunk({.type = kChunkPages}, 1));
     for (uint32_t first = 0; first < mesh_count;)
     {
         const uint32_t end = endOfBatch(part, first, mesh_count);
-        for (Result<BuiltMesh>& result : buildBatch(part, lods, {first, end - first}, configure))
+        for (Result<BuiltMesh>& result : buildBatch(part, lods, motion, {first, end - first}, configure))
         {
             HEARTH_ASSIGN_OR_RETURN(BuiltMesh built, std::move(result));
             if (observe)

@@ -299,13 +299,6 @@ private:
     std::vector<uint32_t> deltas_;  ///< for each vertex and each of them
 };
 
-/// Whether a normal that is off by 0.7 degrees shows against how the normals bend.
-bool isSmooth(const PreparedMesh& mesh)
-{
-    constexpr float kSmoothBend = 0.1f; // 6 degrees an edge
-    return mesh.normal_bend > 0 && mesh.normal_bend < kSmoothBend;
-}
-
 } // namespace
 
 uint32_t chooseLayout(const PreparedMesh& mesh, const Config& config)
@@ -313,7 +306,7 @@ uint32_t chooseLayout(const PreparedMesh& mesh, const Config& config)
     uint32_t layout = mesh.attributes;
     if ((layout & kVertexNormal) == 0)
         layout &= ~uint32_t{kVertexTangent};
-    else if (config.normal_bits == 16 || (config.normal_bits == 0 && isSmooth(mesh)))
+    else if (config.normal_bits == 16 || (config.normal_bits == 0 && mesh.bends_gently))
         layout |= kVertexFineNormal;
     for (uint32_t set = 0; set < kUvSets; ++set)
         if (layout & kVertexUv0 << set)

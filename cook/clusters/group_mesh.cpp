@@ -2,8 +2,10 @@
 #include "cook/clusters/group_mesh.h"
 
 #include "cook/clusters/bounds.h"
+#include "cook/clusters/deformation_weights.h"
 #include "cook/clusters/set_hash.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <utility>
@@ -139,11 +141,18 @@ float uvScale(const GroupMesh& group, std::span<const Float2> uvs)
 }
 
 /// Whether two vertices have the same attributes but for normal and tangent: a hard edge may lie between them, but no
-/// border of a texture.
+/// border of a texture, and they move alike.
 bool sameChart(const mesh::SourceMesh& source, uint32_t a, uint32_t b)
 {
     for (const auto& uvs : source.uvs)
         if (!uvs.empty() && !(uvs[a] == uvs[b]))
+            return false;
+    for (size_t set = 0; set < source.joint_sets.size(); ++set)
+        if (!std::ranges::equal(source.joint_sets[set][a].joint, source.joint_sets[set][b].joint) ||
+            !(source.weight_sets[set][a] == source.weight_sets[set][b]))
+            return false;
+    for (const mesh::MorphTarget& target : source.morph_targets)
+        if (!(target.positions[a] == target.positions[b]))
             return false;
     return source.colors.empty() || source.colors[a] == source.colors[b];
 }
@@ -191,8 +200,9 @@ float normalChange(const GroupMesh& group, std::span<const Float3> normals)
     return lengths > 0 ? static_cast<float>(changes / lengths) : 0.0f;
 }
 
-void gatherAttributes(GroupMesh& group, const mesh::SourceMesh& vertices, const Config& config)
+void gatherAttributes(GroupMesh& group, const PreparedMesh& mesh, const Config& config)
 {
+    const mesh::SourceMesh& vertices = mesh.vertices;
     if (!vertices.normals.empty() && config.normal_weight > 0)
         group.weights.normal =
             config.normal_weight / std::max(normalChange(group, vertices.normals), kLeastNormalChange);
@@ -201,6 +211,8 @@ void gatherAttributes(GroupMesh& group, const mesh::SourceMesh& vertices, const 
     group.weights.uv = config.uv_weight * group.uv_length;
     if (!vertices.colors.empty())
         group.weights.color = config.color_weight;
+    if (mesh.deforms())
+        weighDeformation(mesh, group);
     group.attribute_count = group.weights.count();
     group.attribute_rows = group.weights.rows();
     group.attributes.assign(group.attribute_rows * group.vertex_of_wedge.size(), Lanes{});
@@ -219,7 +231,8 @@ GroupMesh gatherGroup(const PreparedMesh& mesh, const ClusterStore& store, std::
     group.grid_step = mesh.grid.step;
     nameCharts(group, mesh.vertices, material_of_wedge);
     placePositions(group, mesh.vertices.positions);
-    gatherAttributes(group, mesh.vertices, config);
+    gatherAttributes(group, mesh, config);
+    group.keeps_places = !mesh.vertices.morph_targets.empty();
     for (float& error : group.errors)
         error = roundUp(error / group.scale);
     return group;

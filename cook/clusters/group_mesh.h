@@ -31,6 +31,8 @@ struct GroupMesh
     double grid_step = 0;                    ///< object space
     float uv_length = 0; ///< local length of one unit of UV; 0 where that is no useful number
     AttributeWeights weights;
+    bool keeps_places =
+        false; ///< what is left stays where it was: morph deltas of other places are not known
     std::vector<float> errors;     ///< for each triangle: its distance from the source, local
     uint32_t attribute_count = 0;  ///< that a wedge has
     uint32_t attribute_rows = 0;   ///< rows of four attributes that a wedge has

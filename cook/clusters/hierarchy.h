@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
+#include "cook/clusters/mesh_motion.h"
 #include "cook/clusters/reduction.h"
+#include "cook/mesh/deformation.h"
 #include "cook/mesh/source_mesh.h"
 #include "formats/mesh.h"
 
@@ -47,6 +49,9 @@ struct Config
     /// UVs lie on a grid of steps 2^-n, 1 <= n <= 15, where it reaches them. 14: they are off by at most an eighth of a
     /// texel of a texture of 4096.
     uint32_t uv_fraction_bits = 14;
+
+    /// Joints that move a vertex of a skinned mesh, 4 or 8: the ones with the largest weights.
+    uint32_t influences = 4;
 };
 
 /// What happened, for the report.
@@ -58,6 +63,7 @@ struct BuildCounts
     uint64_t retried_groups = 0;    ///< groups that passed unchanged to the next level
     uint64_t stuck_groups = 0;      ///< roots besides the one that ends the hierarchy
     uint64_t loose_pieces = 0; ///< pieces of triangles whose distance was bounded without closing the search
+    mesh::InfluenceLoss influence_loss; ///< what the source's influences beyond Config::influences were
 };
 
 /// One mesh as formats/mesh.h describes it, with indices that start at 0: clusters, groups and pages are ordered
@@ -81,12 +87,14 @@ struct Hierarchy
 ///
 /// source   finite, indices in range (the contract of SourceMesh); any topology, any number of triangles; its positions
 ///          move to the grid (mesh/grid.h)
+/// motion   of a mesh with joints or morph targets: errors hold in all its poses; null: nothing moves it
 /// returns  a hierarchy that validateHierarchy accepts; without clusters if no triangle has an area
-Hierarchy buildHierarchy(mesh::SourceMesh source, const Config& config = {});
+Hierarchy buildHierarchy(mesh::SourceMesh source, const Config& config = {},
+                         const MeshMotion* motion = nullptr);
 
 /// The same, with levels that were made by hand, finest first, in the source's object space: each is used from where
 /// the levels that were generated would have fewer triangles. The whole mesh switches to it at once.
 Hierarchy buildHierarchy(mesh::SourceMesh source, std::span<const mesh::SourceMesh> authored,
-                         const Config& config);
+                         const Config& config, const MeshMotion* motion = nullptr);
 
 } // namespace hearth::clusters

@@ -2,6 +2,7 @@
 #include "cook/clusters/levels.h"
 
 #include "cook/clusters/bounds.h"
+#include "cook/clusters/deformed_deviation.h"
 #include "cook/clusters/level_plan.h"
 #include "cook/clusters/split.h"
 #include "cook/clusters/surface_bound.h"
@@ -225,7 +226,12 @@ Level switchToAuthored(Build& build, Level& level, const LevelPlan& plan,
     const float carried = *std::max_element(level.store.errors.begin(), level.store.errors.end());
     const SurfaceBound bound =
         boundSurfaces({positions, source_corners}, {positions, authored.corners}, double{carried});
-    const float distance = roundUp(bound.upper + double{build.mesh.grid.error});
+    const double upper = build.mesh.deforms()
+                             ? boundDeformedSurfaces(build.mesh, source_corners, authored.corners)
+                             : bound.upper;
+    // without a bound the level is as good as never drawn
+    constexpr double kMost = 1e30;
+    const float distance = roundUp(std::min(upper + double{build.mesh.grid.error}, kMost));
     float weight = 1;
     for (const GroupGoal& goal : plan.goals)
         weight = std::max(weight, goal.error_weight);

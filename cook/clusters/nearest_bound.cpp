@@ -31,6 +31,9 @@ constexpr float kSideMargin = 1e-5f;
 
 // A triangle is searched in at most so many parts before its bound is taken as it is.
 constexpr size_t kMaxParts = 64;
+constexpr size_t kMaxMetricParts = 16;
+
+constexpr Bound kNoBound{kInfinity, 0, 0, false};
 
 Box3 boxAround(const Corners& corners, float radius)
 {
@@ -48,44 +51,56 @@ float sizeOf(const Corners& corners)
         {length(corners[1] - corners[0]), length(corners[2] - corners[1]), length(corners[0] - corners[2])});
 }
 
+constexpr std::array<Float2, 3> kWhole{Float2{0, 0}, Float2{1, 0}, Float2{0, 1}};
+
+} // namespace
+
 /// Halves the longest edge.
-std::pair<Corners, Corners> halve(const Corners& c)
+std::pair<NearestBound::Piece, NearestBound::Piece> NearestBound::halve(const Piece& piece)
 {
+    const Corners& c = piece.corners;
     size_t longest = 0;
     for (size_t k = 1; k < 3; ++k)
         if (length(c[(k + 1) % 3] - c[k]) > length(c[(longest + 1) % 3] - c[longest]))
             longest = k;
-    const Float3 p = c[longest], q = c[(longest + 1) % 3], apex = c[(longest + 2) % 3];
+    const size_t second = (longest + 1) % 3, third = (longest + 2) % 3;
+    const Float3 p = c[longest], q = c[second], apex = c[third];
     const Float3 middle = (p + q) * 0.5f;
-    return {{p, middle, apex}, {middle, q, apex}};
+    const Float2 plane_p = piece.plane[longest], plane_q = piece.plane[second],
+                 plane_apex = piece.plane[third];
+    const Float2 plane_middle = (plane_p + plane_q) * 0.5f;
+    return {{{p, middle, apex}, {plane_p, plane_middle, plane_apex}},
+            {{middle, q, apex}, {plane_middle, plane_q, plane_apex}}};
 }
 
-} // namespace
-
 float NearestBound::bound(const Corners& triangle, FacetIndex& index, std::span<const uint32_t> likely,
-                          Allowance allowance)
+                          Allowance allowance, SurfaceMetric* metric)
 {
+    metric_ = metric;
+    const size_t most_parts = metric == nullptr ? kMaxParts : kMaxMetricParts;
     const float size = sizeOf(triangle);
     allowance_ = allowance;
     floor2_ = size * size * kFinest2;
     sure2_ = 0;
-    used_.assign(likely.begin(), likely.end());
+    used_.clear();
     if (!likely.empty())
         if (const Bound quick = boundByLikely(triangle, index, likely); quick.closed)
+        {
+            addUsed(likely);
             return std::sqrt(quick.upper2);
-    used_.clear();
+        }
     float worst2 = 0;
-    stack_.assign(1, triangle);
+    stack_.assign(1, {triangle, kWhole});
     for (size_t parts = 1; !stack_.empty(); ++parts)
     {
-        const Corners piece = stack_.back();
+        const Piece piece = stack_.back();
         stack_.pop_back();
         // the facets that touch the piece do for most; the rest needs all that could be the nearest
         Bound bound = boundPiece(piece, index, allowed2(), size * kTouching);
-        if (!bound.closed)
+        if (!bound.closed && metric == nullptr)
             bound = boundPiece(piece, index, allowed2(), std::sqrt(bound.found2) * 1.01f);
         sure2_ = std::max(sure2_, bound.sure2);
-        if (!bound.closed && parts < kMaxParts)
+        if (!bound.closed && parts < most_parts)
         {
             const auto [first, second] = halve(piece);
             stack_.push_back(first);
@@ -95,9 +110,10 @@ float NearestBound::bound(const Corners& triangle, FacetIndex& index, std::span<
         if (!bound.closed)
         {
             ++loose_pieces_;
-            bound = boundPiece(piece, index, kInfinity, std::sqrt(bound.found2));
+            bound = boundPiece(piece, index, kInfinity,
+                               metric == nullptr ? std::sqrt(bound.found2) : size * kTouching);
         }
-        used_.insert(used_.end(), found_.begin(), found_.end());
+        addUsed(found_);
         worst2 = std::max(worst2, bound.upper2);
     }
     return std::sqrt(worst2);
@@ -107,20 +123,34 @@ Bound NearestBound::boundByLikely(const Corners& triangle, FacetIndex& index,
                                   std::span<const uint32_t> likely)
 {
     const auto few = likely.first(std::min(likely.size(), kFewLikely));
-    load(index, few);
-    const Bound bound = bounder_.bound(triangle, candidates_.blocks(), allowed2(), 0, kFewPoints);
+    if (metric_ != nullptr)
+        metric_->setPiece(kWhole);
+    if (!load(index, few))
+        return kNoBound;
+    const Bound bound = bounder_.bound(triangle, candidates_.blocks(), allowed2(), 0, kFewPoints, metric_);
     if (bound.closed || few.size() == likely.size())
         return bound;
-    load(index, likely);
-    return bounder_.bound(triangle, candidates_.blocks(), allowed2(), 0, kQuickPoints);
+    if (!load(index, likely))
+        return kNoBound;
+    return bounder_.bound(triangle, candidates_.blocks(), allowed2(), 0, kQuickPoints, metric_);
 }
 
-void NearestBound::load(const FacetIndex& index, std::span<const uint32_t> facets)
+/// False where the metric has no bound.
+bool NearestBound::load(const FacetIndex& index, std::span<const uint32_t> facets)
 {
     facets_.clear();
     for (const uint32_t f : facets)
         facets_.push_back(index.facet(f));
     candidates_.load(facets_);
+    return metric_ == nullptr || metric_->load(facets);
+}
+
+/// Of the loaded facets those that the last bound was taken from; without a metric it does not say.
+void NearestBound::addUsed(std::span<const uint32_t> facets)
+{
+    for (size_t i = 0; i < facets.size(); ++i)
+        if (metric_ == nullptr || bounder_.hasServed(i))
+            used_.push_back(facets[i]);
 }
 
 float NearestBound::allowed2() const
@@ -131,20 +161,25 @@ float NearestBound::allowed2() const
 
 /// Bound the distance to the facets within `radius`; if there are none, to those within a larger one. Where there
 /// are more than fit, those with the nearest centers serve.
-Bound NearestBound::boundPiece(const Corners& piece, FacetIndex& index, float allowed2, float radius)
+Bound NearestBound::boundPiece(const Piece& piece, FacetIndex& index, float allowed2, float radius)
 {
-    index.query(boxAround(piece, radius), found_);
+    index.query(boxAround(piece.corners, radius), found_);
     for (float wider = std::max(radius, 1e-3f); found_.empty(); wider *= 2)
-        index.query(boxAround(piece, wider), found_);
+        index.query(boxAround(piece.corners, wider), found_);
     if (found_.size() > kLanes)
-        dropBesides(piece, index, radius);
+        dropBesides(piece.corners, index, radius);
     if (found_.size() > kMaxCandidates)
     {
-        keepNearest(piece, index);
+        keepNearest(piece.corners, index);
         radius = 0;
     }
-    load(index, found_);
-    return bounder_.bound(piece, candidates_.blocks(), allowed2, radius);
+    else if (metric_ != nullptr)
+        radius = kInfinity; // what facets farther away could save is not searched for
+    if (metric_ != nullptr)
+        metric_->setPiece(piece.plane);
+    if (!load(index, found_))
+        return kNoBound;
+    return bounder_.bound(piece.corners, candidates_.blocks(), allowed2, radius, kMaxPoints, metric_);
 }
 
 /// Drop facets that lie beyond an edge of the piece by more than `radius`: the index knows them by their boxes only.

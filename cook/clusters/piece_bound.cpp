@@ -28,9 +28,11 @@ Lanes leavesAt(Lanes x, Lanes y)
 } // namespace
 
 Bound Bounder::bound(const Corners& piece, std::span<const FacetBlock> blocks, float allowed2, float radius,
-                     size_t max_points)
+                     size_t max_points, const PointMetric* metric)
 {
     blocks_ = blocks;
+    metric_ = metric;
+    served_ = 0;
     allowed2_ = allowed2;
     radius2_ = radius * radius;
     point_count_ = 0;
@@ -50,6 +52,8 @@ Bound Bounder::bound(const Corners& piece, std::span<const FacetBlock> blocks, f
         if (best2 <= std::max(tolerance2(), upper2) || point_count_ >= max_points)
         {
             upper2 = std::max(upper2, best2);
+            if (metric_ != nullptr)
+                served_ |= uint64_t{1} << best(part);
             continue;
         }
         if (!corners_found_)
@@ -85,7 +89,8 @@ uint8_t Bounder::addPoint(Float3 place, Float2 plane)
     Lanes least = allLanes(kInfinity);
     for (size_t b = 0; b < blocks_.size(); ++b)
     {
-        probe.distance2[b] = blocks_[b].distance2(place);
+        probe.distance2[b] = metric_ == nullptr ? blocks_[b].distance2(place)
+                                                : metric_->distance2(plane, b, blocks_[b].nearest(place));
         least = minimum(least, probe.distance2[b]);
     }
     lower2_ = std::max(lower2_, leastLane(least));
@@ -105,6 +110,21 @@ float Bounder::common(const std::array<uint8_t, N>& names) const
         least = minimum(least, worst);
     }
     return leastLane(least);
+}
+
+/// The first candidate that holds all of a part's points within what is common to them.
+size_t Bounder::best(const Part& part) const
+{
+    const float least = common(part);
+    for (size_t b = 0; b < blocks_.size(); ++b)
+    {
+        const Lanes worst = maximum(maximum(points_[part[0]].distance2[b], points_[part[1]].distance2[b]),
+                                    points_[part[2]].distance2[b]);
+        for (size_t lane = 0; lane < kLanes; ++lane)
+            if (worst[lane] <= least)
+                return b * kLanes + lane;
+    }
+    return 0;
 }
 
 /// The corners of candidates that project into the piece.

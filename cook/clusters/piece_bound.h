@@ -49,6 +49,18 @@ private:
     size_t block_count_ = 0;
 };
 
+/// How far apart points of two surfaces are where more than their places counts.
+class PointMetric
+{
+public:
+    virtual ~PointMetric() = default;
+
+    /// Squared distances of a point of the piece from points of a block's candidates; the distance is convex along straight
+    /// lines on both surfaces.
+    /// plane  of the point: multiples of the piece's edges from corner 0
+    virtual Lanes distance2(Float2 plane, size_t block, const FacetBlock::Nearest& nearest) const = 0;
+};
+
 struct Bound
 {
     float upper2; ///< the whole piece is within this of the candidates, squared
@@ -67,8 +79,12 @@ public:
     /// refinement of both surfaces.
     ///
     /// blocks    all facets that are within `radius` of the piece, and perhaps others
+    /// metric    instead of the distance, between a point and the nearest one of each candidate; null: the distance
     Bound bound(const Corners& piece, std::span<const FacetBlock> blocks, float allowed2, float radius,
-                size_t max_points = kMaxPoints);
+                size_t max_points = kMaxPoints, const PointMetric* metric = nullptr);
+
+    /// Whether the last bound by a metric was taken from the candidate.
+    bool hasServed(size_t candidate) const { return (served_ >> candidate & 1) != 0; }
 
 private:
     using Part = std::array<uint8_t, 3>;
@@ -92,6 +108,7 @@ private:
     uint8_t addPoint(Float3 place, Float2 plane);
     template <size_t N>
     float common(const std::array<uint8_t, N>& names) const;
+    size_t best(const Part& part) const;
     void findCorners();
     void keepInside(Lanes x, Lanes y);
     Float3 placeAt(Float2 plane) const;
@@ -100,6 +117,8 @@ private:
     uint8_t cutEdge(uint8_t p, uint8_t q);
 
     std::span<const FacetBlock> blocks_;
+    const PointMetric* metric_ = nullptr;
+    uint64_t served_ = 0; ///< a bit for each candidate
     float allowed2_ = 0;
     float radius2_ = 0;
     float lower2_ = 0; ///< largest distance of a point to the candidates; true up to radius2_

@@ -149,21 +149,24 @@ Result<std::optional<float>> weightAt(const toml::table& table, std::string_view
     return std::optional(weight);
 }
 
-Result<std::optional<uint32_t>> normalBitsAt(const toml::table& table, const Place& place)
+/// A key with two legal numbers.
+Result<std::optional<uint32_t>> choiceAt(const toml::table& table, const char* key, int64_t one,
+                                         int64_t other, const Place& place)
 {
-    const toml::node* node = table.get("normal_bits");
+    const toml::node* node = table.get(key);
     if (node == nullptr)
         return std::optional<uint32_t>();
-    const auto* bits = node->as_integer();
-    if (bits == nullptr || (bits->get() != 8 && bits->get() != 16))
-        return place.at("normal_bits").wrong(Issue::profile_value, *node, "must be 8 or 16");
-    return std::optional(static_cast<uint32_t>(bits->get()));
+    const auto* number = node->as_integer();
+    if (number == nullptr || (number->get() != one && number->get() != other))
+        return place.at(key).wrong(Issue::profile_value, *node, fmt::format("must be {} or {}", one, other));
+    return std::optional(static_cast<uint32_t>(number->get()));
 }
 
 Result<MeshSettings> settingsAt(const toml::table& table, const Place& place)
 {
     MeshSettings settings;
-    HEARTH_ASSIGN_OR_RETURN(settings.normal_bits, normalBitsAt(table, place));
+    HEARTH_ASSIGN_OR_RETURN(settings.normal_bits, choiceAt(table, "normal_bits", 8, 16, place));
+    HEARTH_ASSIGN_OR_RETURN(settings.influences, choiceAt(table, "influences", 4, 8, place));
     HEARTH_ASSIGN_OR_RETURN(settings.normal_error_weight, weightAt(table, "normal_error_weight", place));
     HEARTH_ASSIGN_OR_RETURN(settings.uv_error_weight, weightAt(table, "uv_error_weight", place));
     return settings;
@@ -172,7 +175,7 @@ Result<MeshSettings> settingsAt(const toml::table& table, const Place& place)
 /// The keys of settingsAt beside others.
 Keys withSettings(Keys keys)
 {
-    keys.insert(keys.end(), {"normal_bits", "normal_error_weight", "uv_error_weight"});
+    keys.insert(keys.end(), {"normal_bits", "normal_error_weight", "uv_error_weight", "influences"});
     return keys;
 }
 
@@ -271,6 +274,7 @@ void apply(const MeshSettings& settings, Config& config)
     config.normal_bits = settings.normal_bits.value_or(config.normal_bits);
     config.normal_error_weight = settings.normal_error_weight.value_or(config.normal_error_weight);
     config.uv_error_weight = settings.uv_error_weight.value_or(config.uv_error_weight);
+    config.influences = settings.influences.value_or(config.influences);
 }
 
 } // namespace

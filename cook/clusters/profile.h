@@ -20,6 +20,7 @@ struct MeshSettings
     std::optional<uint32_t> normal_bits;
     std::optional<float> normal_error_weight;
     std::optional<float> uv_error_weight;
+    std::optional<uint32_t> influences;
 };
 
 /// For meshes whose name matches; what it does not set stays as it is for all.

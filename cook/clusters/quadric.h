@@ -194,7 +194,7 @@ inline float attributeDistance2(const GroupMesh& group, uint32_t a, uint32_t b)
 // Weight of the distances to the positions themselves against those to the planes: makes one place the best where the
 // surface is flat, as uncertain normals would (P. Trettner, L. Kobbelt, "Fast and robust QEF minimization using
 // probabilistic quadrics", 2020).
-inline constexpr float kSpread = 1e-3f;
+inline constexpr float kSpread = 1e-5f;
 
 /// The planes and attributes of all triangles; what locked positions have is never asked for and left out.
 Quadrics initialQuadrics(const GroupMesh& group);

@@ -3,6 +3,7 @@
 
 #include "cook/clusters/bounds.h"
 #include "cook/clusters/cell_merge.h"
+#include "cook/clusters/deformed_deviation.h"
 #include "cook/clusters/deviation.h"
 #include "cook/clusters/group_mesh.h"
 #include "cook/clusters/islands.h"
@@ -19,6 +20,55 @@ namespace hearth::clusters
 namespace
 {
 
+/// What moves vertices at one place alike, as wedges on both sides of a border of a texture have it, stays equal: else it
+/// would tear in some pose.
+class SharedInfluences
+{
+public:
+    SharedInfluences(const PreparedMesh& mesh, const GroupMesh& group, mesh::SourceMesh& made)
+        : source_(mesh.vertices), group_(group), made_(made), made_at_(group.positions.size())
+    {
+    }
+
+    /// Give a vertex that was made for a wedge the influences of one that was made before it, if there is one.
+    void share(uint32_t wedge, uint32_t vertex)
+    {
+        auto& others = made_at_[group_.position_of_wedge[wedge]];
+        for (const Made& other : others)
+            if (moveAlike(group_.vertex_of_wedge[other.wedge], group_.vertex_of_wedge[wedge]))
+            {
+                for (size_t set = 0; set < made_.joint_sets.size(); ++set)
+                {
+                    made_.joint_sets[set][vertex] = made_.joint_sets[set][other.vertex];
+                    made_.weight_sets[set][vertex] = made_.weight_sets[set][other.vertex];
+                }
+                return;
+            }
+        others.push_back({wedge, vertex});
+    }
+
+private:
+    struct Made
+    {
+        uint32_t wedge;
+        uint32_t vertex;
+    };
+
+    bool moveAlike(uint32_t a, uint32_t b) const
+    {
+        for (size_t set = 0; set < source_.joint_sets.size(); ++set)
+            if (!std::ranges::equal(source_.joint_sets[set][a].joint, source_.joint_sets[set][b].joint) ||
+                !(source_.weight_sets[set][a] == source_.weight_sets[set][b]))
+                return false;
+        return true;
+    }
+
+    const mesh::SourceMesh& source_;
+    const GroupMesh& group_;
+    mesh::SourceMesh& made_;
+    std::vector<std::vector<Made>> made_at_; ///< those that differ, by position
+};
+
 /// The vertex of each wedge that is left; those of remade positions are made.
 std::vector<uint32_t> makeVertices(const PreparedMesh& mesh, const GroupMesh& group,
                                    const Simplified& simplified, Reduced& reduced)
@@ -28,6 +78,7 @@ std::vector<uint32_t> makeVertices(const PreparedMesh& mesh, const GroupMesh& gr
     std::vector<uint32_t> vertices = group.vertex_of_wedge;
     std::vector<uint32_t> position_numbers(group.positions.size(), kNoNumber);
     std::vector<uint8_t> done(vertices.size(), 0);
+    SharedInfluences influences(mesh, group, reduced.made);
     for (const uint32_t wedge : simplified.corners)
     {
         const uint32_t position = group.position_of_wedge[wedge];
@@ -40,6 +91,7 @@ std::vector<uint32_t> makeVertices(const PreparedMesh& mesh, const GroupMesh& gr
         reduced.made.positions[made] = placement.object_places[position];
         unpackAttributes(placement.attributes.data() + size_t{wedge} * group.attribute_rows, group.weights,
                          reduced.made, made);
+        influences.share(wedge, made);
         reduced.made_positions.push_back(position_numbers[position]);
         vertices[wedge] = kMadeVertex + made;
     }
@@ -115,14 +167,17 @@ Reduced reduceGroup(const PreparedMesh& mesh, const ClusterStore& store, std::sp
     Surface after(positionsOfCorners(group, simplified.corners), simplified.placement.places);
     SurfacePoints points = findPoints(group, simplified, after);
     fitToGroup(group, simplified, after, points);
-    Deviation deviation = boundDeviation(group, simplified, after, points.of_position);
+    const std::vector<uint32_t> vertices = makeVertices(mesh, group, simplified, reduced);
+    Deviation deviation =
+        mesh.deforms() ? boundDeformedDeviation(group, simplified, after,
+                                                {mesh.vertices, reduced.made, vertices}, motionOf(mesh))
+                       : boundDeviation(group, simplified, after, points.of_position);
     reduced.loose_pieces = deviation.loose_pieces;
     for (float& error : deviation.errors)
     {
         error = roundUp(error * group.scale);
         reduced.distance = std::max(reduced.distance, error);
     }
-    const std::vector<uint32_t> vertices = makeVertices(mesh, group, simplified, reduced);
     reduced.attributes =
         measureAttributes(group, {simplified, after, points.of_wedge, mesh.vertices, reduced.made, vertices});
     reduced.clusters =

@@ -403,7 +403,7 @@ Simplified Collapser::result()
         result.target_of_position[p] = target;
     }
     for (uint32_t p = 0; p < target_.size(); ++p)
-        if (target_[p] != p || group_.locked[p] != 0 || edges_held_[p] == 0)
+        if (target_[p] != p || group_.locked[p] != 0 || edges_held_[p] == 0 || group_.keeps_places)
             grown_[p] = 0;
     result.placement = placeOptimally(group_, mesh_, quadrics_, grown_);
     growIslands(group_, growth_, result.placement);

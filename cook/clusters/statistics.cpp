@@ -151,6 +151,10 @@ Json meshJson(const MeshStatistics& mesh)
               {"pages", mesh.pages},
               {"groups_by_outcome", countsJson(mesh.counts)},
               {"loose_pieces", mesh.counts.loose_pieces},
+              {"lost_influences",
+               {{"vertices", mesh.counts.influence_loss.vertex_count},
+                {"most_weight", mesh.counts.influence_loss.most_weight},
+                {"mean_weight", mesh.counts.influence_loss.mean_weight}}},
               {"bytes", bytesJson(mesh)}};
     for (const LevelStatistics& level : mesh.levels)
         json["levels"].push_back(levelJson(level));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/clusters/validate.h"
 
+#include "cook/mesh/deformation.h"
 #include "cook/mesh/grid.h"
 #include "cook/mesh/triangles.h"
 #include "cook/mesh/weld.h"
@@ -275,6 +276,12 @@ uint64_t hashWords(std::span<const uint32_t> words)
     return hashBytes(std::as_bytes(words));
 }
 
+void addDelta(std::vector<uint32_t>& words, Float3 delta)
+{
+    for (const float part : {delta.x, delta.y, delta.z})
+        words.push_back(std::bit_cast<uint32_t>(part + 0.0f));
+}
+
 /// What a vertex of the source is after its coding, whichever cluster it comes to lie in.
 uint64_t sourceVertexHash(const mesh::SourceMesh& source, uint32_t layout, double grid_step, uint32_t v)
 {
@@ -301,11 +308,24 @@ uint64_t sourceVertexHash(const mesh::SourceMesh& source, uint32_t layout, doubl
     if (layout & kVertexColor)
         for (const uint32_t word : encodeColor(layout, source.colors[v]))
             words.push_back(word);
+    for (size_t set = 0; set < source.joint_sets.size(); ++set)
+    {
+        const Float4 w = source.weight_sets[set][v];
+        const std::array<float, 4> weights{w.x, w.y, w.z, w.w};
+        for (size_t i = 0; i < 4; ++i)
+            words.push_back(source.joint_sets[set][v].joint[i] | quantizeUnorm(weights[i], 65535) << 16);
+    }
+    for (const mesh::MorphTarget& target : source.morph_targets)
+    {
+        addDelta(words, target.positions[v]);
+        addDelta(words, target.normals.empty() ? Float3{} : target.normals[v]);
+    }
     return hashWords(words);
 }
 
 /// The same of a vertex of a cluster.
-uint64_t vertexHash(const ClusterGeometry& geometry, const ClusterRecord& cluster, uint32_t v)
+uint64_t vertexHash(const ClusterGeometry& geometry, const ClusterRecord& cluster, uint32_t v,
+                    size_t morph_targets)
 {
     const uint32_t layout = geometry.layout();
     std::vector<uint32_t> words;
@@ -328,11 +348,22 @@ uint64_t vertexHash(const ClusterGeometry& geometry, const ClusterRecord& cluste
         words.push_back(geometry.word(v, first));
         words.push_back((layout & kVertexFineColor) ? geometry.word(v, first + 1) : 0);
     }
+    const auto joints = geometry.joints(v), weights = geometry.weightCodes(v);
+    for (uint32_t i = 0; i < geometry.influenceCount(); ++i)
+        words.push_back(joints[i] | weights[i] << 16);
+    for (uint32_t target = 0, next = 0; target < morph_targets; ++target)
+    {
+        const bool moves = next < geometry.morphCount() && geometry.morphTarget(next) == target;
+        addDelta(words, moves ? geometry.morphPosition(next, v) : Float3{});
+        addDelta(words, moves ? geometry.morphNormal(next, v) : Float3{});
+        next += moves ? 1 : 0;
+    }
     return hashWords(words);
 }
 
 /// The source on the grid that it shares with its authored levels.
-mesh::SourceMesh onGrid(const mesh::SourceMesh& source, std::span<const mesh::SourceMesh> authored)
+mesh::SourceMesh onGrid(const mesh::SourceMesh& source, std::span<const mesh::SourceMesh> authored,
+                        uint32_t layout)
 {
     mesh::SourceMesh joined = source;
     for (const mesh::SourceMesh& level : authored)
@@ -343,13 +374,21 @@ mesh::SourceMesh onGrid(const mesh::SourceMesh& source, std::span<const mesh::So
             joined.indices.push_back(first + index);
     }
     mesh::snapToGrid(joined);
+    joined.positions.resize(source.vertexCount());
+    if (influencesOf(layout) != 0)
+        mesh::reduceInfluences(joined, influencesOf(layout));
+    // where levels of their own have larger deltas, the steps are coarser
+    if (authored.empty())
+        mesh::snapMorphTargets(joined);
+    else
+        joined.morph_targets.clear();
     return joined;
 }
 
 Status checkFinestLevel(const mesh::SourceMesh& source, std::span<const mesh::SourceMesh> authored,
                         const Hierarchy& h, const DecodedHierarchy& decoded)
 {
-    const mesh::SourceMesh on_grid = onGrid(source, authored);
+    const mesh::SourceMesh on_grid = onGrid(source, authored, h.mesh.attributes);
     std::vector<uint64_t> hashes(source.vertexCount());
     for (uint32_t v = 0; v < hashes.size(); ++v)
         hashes[v] = sourceVertexHash(on_grid, h.mesh.attributes, h.mesh.grid_step, v);
@@ -375,7 +414,7 @@ Status checkFinestLevel(const mesh::SourceMesh& source, std::span<const mesh::So
         HEARTH_ASSIGN_OR_RETURN(const ClusterGeometry geometry, geometryOf(h, decoded, c));
         std::vector<uint64_t> vertex_hashes;
         for (uint32_t v = 0; v < geometry.vertexCount(); ++v)
-            vertex_hashes.push_back(vertexHash(geometry, h.clusters[c], v));
+            vertex_hashes.push_back(vertexHash(geometry, h.clusters[c], v, on_grid.morph_targets.size()));
         for (uint32_t t = 0; t < geometry.triangleCount(); ++t)
         {
             const auto corner = geometry.triangle(t);

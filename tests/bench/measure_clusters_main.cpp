@@ -220,7 +220,7 @@ void printQuality(const bench::MeshCurve& curve)
     {
         tightness.push_back(cut.max / cut.stored_error);
         broken += cut.max > cut.stored_error + 1e-6 * diagonal ? 1 : 0;
-        std::printf("  %9zu %6.1f%% %10.3f %10.2f %12.2f %8.2f%s %8.2f%s %9.3f %10.3f\n", cut.triangles,
+        std::printf("  %9zu %6.1f%% %10.3f %10.2f %12.2f %8.3f%s %8.3f%s %9.3f %10.3f\n", cut.triangles,
                     100.0 * static_cast<double>(cut.triangles) / curve.source_triangles,
                     cut.rms / diagonal * 1e4, cut.max / diagonal * 1e4, tightness.back(), cut.normal_rms_deg,
                     "\u00b0", cut.stored_normal_rms_deg, "\u00b0", cut.uv_rms / diagonal * 1e4,

@@ -85,9 +85,9 @@ class ExtractCut : public ::testing::Test
 protected:
     ExtractCut() { writePackFile(smallPack(), pack); }
 
-    Ply cut(uint32_t mesh, float error)
+    Ply cut(uint32_t mesh, float error, const std::optional<command::ClipTime>& clip = {})
     {
-        const Status status = command::extractCut(pack, mesh, error, sandbox / "cut.ply");
+        const Status status = command::extractCut(pack, mesh, error, clip, sandbox / "cut.ply");
         if (!status.ok())
             ADD_FAILURE() << formatMessage(status.error());
         return readPly(sandbox.read("cut.ply"));
@@ -124,6 +124,31 @@ TEST_F(ExtractCut, writesTheAttributesThatTheMeshHas)
     EXPECT_EQ(triangle.triangles, (std::vector<std::array<uint32_t, 3>>{{0, 1, 2}}));
 }
 
+TEST_F(ExtractCut, posesWhatJointsAndMorphTargetsMove)
+{
+    // the target lifts the last vertex by a half: the rest pose has half of it, the clip none, then all
+    EXPECT_EQ(cut(2, 0).vertices[2], (std::vector<float>{1, 0.25f, 0}));
+    EXPECT_EQ(cut(2, 0, command::ClipTime{"morph", 0.5}).vertices[2], (std::vector<float>{1, 0, 0}));
+    EXPECT_EQ(cut(2, 0, command::ClipTime{"morph", 7}).vertices[2], (std::vector<float>{1, 0.5f, 0}));
+}
+
+TEST_F(ExtractCut, putsOtherMeshesInTheSceneWithAClip)
+{
+    const Ply still = cut(0, 0), moved = cut(0, 0, command::ClipTime{"move", 2});
+    ASSERT_EQ(moved.vertices.size(), still.vertices.size());
+    for (size_t v = 0; v < moved.vertices.size(); ++v)
+        EXPECT_FLOAT_EQ(moved.vertices[v][0], still.vertices[v][0] + 2);
+}
+
+TEST_F(ExtractCut, saysWhichClipsThereAre)
+{
+    const Status status = command::extractCut(pack, 2, 0, command::ClipTime{"walk", 0}, sandbox / "cut.ply");
+    ASSERT_FALSE(status.ok());
+    EXPECT_EQ(status.error().issue, Issue::usage);
+    EXPECT_NE(status.error().detail.find("move, morph"), std::string::npos) << status.error().detail;
+    EXPECT_FALSE(sandbox.has("cut.ply"));
+}
+
 TEST_F(ExtractCut, aMeshWithoutTrianglesIsAnEmptyFile)
 {
     const Ply empty = cut(1, 0);
@@ -133,7 +158,7 @@ TEST_F(ExtractCut, aMeshWithoutTrianglesIsAnEmptyFile)
 
 TEST_F(ExtractCut, saysWhichMeshesThereAre)
 {
-    const Status status = command::extractCut(pack, 3, 0, sandbox / "cut.ply");
+    const Status status = command::extractCut(pack, 3, 0, {}, sandbox / "cut.ply");
     ASSERT_FALSE(status.ok());
     EXPECT_EQ(status.error().issue, Issue::usage);
     EXPECT_FALSE(sandbox.has("cut.ply"));
@@ -142,7 +167,7 @@ TEST_F(ExtractCut, saysWhichMeshesThereAre)
 TEST_F(ExtractCut, refusesParts)
 {
     writeParts(smallPack(), sandbox.path(), "a");
-    EXPECT_EQ(command::extractCut(sandbox / "a.clusters.part", 0, 0, sandbox / "cut.ply").error().issue,
+    EXPECT_EQ(command::extractCut(sandbox / "a.clusters.part", 0, 0, {}, sandbox / "cut.ply").error().issue,
               Issue::container_kind);
 }
 
@@ -151,12 +176,13 @@ TEST_F(ExtractCut, refusesPacksThatMeanNothing)
     PackModel broken = smallPack();
     broken.clusters[0].refined_group = 99;
     writePackFile(broken, pack);
-    EXPECT_EQ(command::extractCut(pack, 0, 0, sandbox / "cut.ply").error().issue, Issue::meaning_reference);
+    EXPECT_EQ(command::extractCut(pack, 0, 0, {}, sandbox / "cut.ply").error().issue,
+              Issue::meaning_reference);
 }
 
 TEST_F(ExtractCut, saysWhereItCannotWrite)
 {
-    const Status status = command::extractCut(pack, 0, 0, sandbox / "nowhere/cut.ply");
+    const Status status = command::extractCut(pack, 0, 0, {}, sandbox / "nowhere/cut.ply");
     ASSERT_FALSE(status.ok());
     EXPECT_EQ(status.error().issue, Issue::cannot_write);
     EXPECT_EQ(sandbox.list(), std::vector<std::string>{"small.hearth"});

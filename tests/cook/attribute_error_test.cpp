@@ -216,7 +216,7 @@ TEST(AttributeErrors, areNothingWhereNothingIsLost)
     const Built built = build(shapes::grid(64));
     ASSERT_GT(built.hierarchy.levels.size(), 3u);
     EXPECT_LT(largest(built.hierarchy, &GroupRecord::normal_error), 1e-5f);
-    EXPECT_LT(largest(built.hierarchy, &GroupRecord::uv_error), 5e-4f) << "but where corners go";
+    EXPECT_LT(largest(built.hierarchy, &GroupRecord::uv_error), 6e-4f) << "but where corners go";
 }
 
 TEST(AttributeErrors, ofStretchedUvsAreWhatACutShows)

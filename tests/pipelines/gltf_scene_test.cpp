@@ -295,6 +295,34 @@ TEST(GltfSkins, keepTheMeshAsItIsBound)
     EXPECT_TRUE(result.warnings.empty());
 }
 
+TEST(GltfSkins, withoutInverseBindMatricesBindWithoutThem)
+{
+    GltfData data = squareData();
+    data.add("VEC4", std::vector<uint8_t>(16));
+    data.add("VEC4", std::vector<float>{1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0});
+    const Imported result = data.import(
+        R"("meshes":[{"primitives":[{"attributes":{"POSITION":0,"JOINTS_0":2,"WEIGHTS_0":3},"indices":1}]}],
+        "skins":[{"joints":[1]}],"nodes":[{"mesh":0,"skin":0},{"translation":[5,0,0]}])");
+    ASSERT_TRUE(result.ok()) << result.message();
+    EXPECT_EQ(result.records<JointRecord>(kChunkJoints)[0].joint_from_bind, Affine3{});
+    EXPECT_EQ(result.mesh().joint_sets.size(), 1u);
+}
+
+TEST(GltfSkins, refuseMatricesThatAreNotFinite)
+{
+    GltfData data = squareData();
+    data.add("VEC4", std::vector<uint8_t>(16));
+    data.add("VEC4", std::vector<float>{1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0});
+    std::vector<float> matrix(16);
+    matrix[3] = std::nanf("");
+    data.add("MAT4", matrix);
+    const Imported result = data.import(
+        R"("meshes":[{"primitives":[{"attributes":{"POSITION":0,"JOINTS_0":2,"WEIGHTS_0":3},"indices":1}]}],
+        "skins":[{"joints":[1],"inverseBindMatrices":4}],"nodes":[{"mesh":0,"skin":0},{}])");
+    ASSERT_FALSE(result.ok());
+    EXPECT_EQ(result.status.error().issue, Issue::gltf_data);
+}
+
 TEST(GltfSkins, giveACopyToEachFurtherSkin)
 {
     GltfData data = squareData();
@@ -371,6 +399,22 @@ TEST(GltfAnimations, keepKeysAndMendThem)
     EXPECT_TRUE(result.warnsOf(Issue::repaired, "time does not grow"));
     EXPECT_TRUE(result.warnsOf(Issue::repaired, "rotations"));
     EXPECT_TRUE(result.warnsOf(Issue::dropped, "animation of \"pointer\""));
+}
+
+TEST(GltfAnimations, refuseNumbersThatAreNotFinite)
+{
+    for (const bool bad_time : {true, false})
+    {
+        GltfData data = squareData();
+        data.add("SCALAR", std::vector<float>{0, bad_time ? std::nanf("") : 1.0f});
+        data.add("VEC3", std::vector<float>{0, 0, 0, 1, bad_time ? 1.0f : std::nanf(""), 1});
+        const Imported result = data.import(
+            kSquareMesh + R"("nodes":[{"mesh":0}],"animations":[{"samplers":[{"input":2,"output":3}],
+            "channels":[{"sampler":0,"target":{"node":0,"path":"translation"}}]}])");
+        ASSERT_FALSE(result.ok());
+        EXPECT_EQ(result.status.error().issue, Issue::gltf_data);
+        EXPECT_NE(result.message().find("not finite"), std::string::npos) << result.message();
+    }
 }
 
 TEST(GltfAnimations, shareTheKeysOfASampler)
