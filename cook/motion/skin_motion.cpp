@@ -34,7 +34,8 @@ JointMotion::JointMotion(MatrixSet set) : set_(std::move(set)), ball_(ballAround
             // an odd one stands twice
             const double(&a)[4] = hull[i].m[axis];
             const double(&b)[4] = hull[std::min(i + 1, hull.size() - 1)].m[axis];
-            rows_[axis].push_back({{a[0], b[0]}, {a[1], b[1]}, {a[2], b[2]}, {a[3], b[3]}});
+            rows_[axis].push_back(
+                RowPair{Lanes{a[0], b[0]}, Lanes{a[1], b[1]}, Lanes{a[2], b[2]}, Lanes{a[3], b[3]}});
         }
 }
 
