@@ -22,7 +22,7 @@ using clusters::Hierarchy;
 using namespace formats;
 
 constexpr size_t kSamples = 4000; // a side and pose
-constexpr size_t kPoses = 8;
+constexpr size_t kPoses = 5;
 
 /// What the test of one mesh found, for the log.
 struct Figures
