@@ -295,7 +295,9 @@ TEST(GltfMorphTargets, areRefusedWhereTheyAreTooMany)
                         targets + "]}]}]");
         EXPECT_EQ(result.ok(), count == 1024) << result.message();
         if (!result.ok())
+        {
             EXPECT_EQ(result.status.error().issue, Issue::input_too_large);
+        }
     }
 }
 
