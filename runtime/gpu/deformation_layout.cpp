@@ -335,7 +335,8 @@ bool poseInstance(const DeformedInstance& instance, const InstancePose& pose, Po
         rows.record.scale_max = std::max(rows.record.scale_max, scaleBound(*origin_from_bind));
         free_box = shared::grownBy(free_box, row, instance.box_in_bind.min, instance.box_in_bind.max);
     }
-    std::memcpy(next, pose.morph_weights.data(), pose.morph_weights.size_bytes());
+    const auto weights = std::as_bytes(pose.morph_weights);
+    std::copy(weights.begin(), weights.end(), next);
     shared::Pose header{.palette_row = instance.pose_row + shared::kPoseRows,
                         .morph_word = static_cast<uint32_t>((instance.pose_row + shared::kPoseRows +
                                                              instance.joint_count * shared::kPaletteRows) *
@@ -359,7 +360,7 @@ bool poseInstance(const DeformedInstance& instance, const InstancePose& pose, Po
 std::optional<Sphere> freeSphere(const PosedRows& rows)
 {
     shared::Pose pose;
-    std::memcpy(&pose, rows.words.data(), sizeof(pose));
+    std::memcpy(static_cast<void*>(&pose), rows.words.data(), sizeof(pose));
     if ((pose.flags & shared::kPoseFree) == 0)
         return std::nullopt;
     return Sphere{pose.free_center, pose.free_radius * rows.record.scale_max};

@@ -9,7 +9,8 @@ namespace hearth::reference
 {
 
 /// What is drawn, ordered by instance and then cluster, by the C++ twin of the shaders (formats/shared/decisions.h).
-/// Must equal the GPU's visible set exactly.
+/// Must equal the GPU's visible set exactly, but for deformed instances, which are looked at here as if they were rigid in their
+/// bind pose.
 std::vector<DrawnCluster> cullExhaustively(const formats::PackView& view, const shared::FrameView& frame);
 
 } // namespace hearth::reference

@@ -205,6 +205,14 @@ Judgement judgeCluster(const PackView& view, const OracleView& oracle, DrawnClus
     const bool cone =
         (oracle.flags & shared::kCullCone) && !isDoubleSided(view.materials(), cluster.material);
     judgement.faces_away = cone ? coneAway(camera, transform, cluster, grid_step) : Answer::no;
+    // boxes of all poses are wider than that of the bind pose, and cones are others
+    if (isDeformed(view, which.instance))
+    {
+        if (judgement.outside_frustum == Answer::yes)
+            judgement.outside_frustum = Answer::either;
+        if (cone)
+            judgement.faces_away = Answer::either;
+    }
     return judgement;
 }
 

@@ -16,6 +16,14 @@ bool isDoubleSided(std::span<const MaterialRecord> materials, uint32_t material)
     return material != kNone && (materials[material].flags & kMaterialDoubleSided) != 0;
 }
 
+bool isDeformed(const PackView& view, uint32_t instance)
+{
+    for (const DeformedMeshRecord& mesh : view.deformedMeshes())
+        if (mesh.mesh == view.instances()[instance].mesh)
+            return true;
+    return false;
+}
+
 Result<PackGeometry> PackGeometry::decode(const PackView& view)
 {
     PackGeometry geometry(view);

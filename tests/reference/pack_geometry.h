@@ -40,6 +40,9 @@ SceneTables tablesOf(const formats::PackView& view);
 /// Whether a material's back faces are drawn; the default material's are not.
 bool isDoubleSided(std::span<const formats::MaterialRecord> materials, uint32_t material);
 
+/// Whether an instance's mesh has joints or morph targets, so that its bounds are those of all its poses.
+bool isDeformed(const formats::PackView& view, uint32_t instance);
+
 /// Decoded pages; the view must outlive it.
 class PackGeometry
 {

@@ -43,6 +43,14 @@ struct Sums
     }
 };
 
+/// Of deformed ones the twins are held against the device in tests/runtime/deformation_twin_test.cpp.
+std::vector<DrawnCluster> rigidOnes(const formats::PackView& pack, std::vector<DrawnCluster> clusters)
+{
+    std::erase_if(clusters,
+                  [&](const DrawnCluster& drawn) { return reference::isDeformed(pack, drawn.instance); });
+    return clusters;
+}
+
 using VisibilityTest = DrawTest;
 
 TEST_F(VisibilityTest, drawsExactlyTheClustersThatExhaustiveCullingKeeps)
@@ -62,7 +70,8 @@ TEST_F(VisibilityTest, drawsExactlyTheClustersThatExhaustiveCullingKeeps)
                 named.view.flags = flags;
                 const shared::FrameView frame = named.frame(sample.pack());
                 const std::vector<DrawnCluster> drawn = scene.draw(frame).sortedSlots();
-                EXPECT_EQ(drawn, reference::cullExhaustively(sample.pack(), frame));
+                EXPECT_EQ(rigidOnes(sample.pack(), drawn),
+                          rigidOnes(sample.pack(), reference::cullExhaustively(sample.pack(), frame)));
                 const auto one = reference::compareWithOracle(sample.pack(), named.view, drawn);
                 EXPECT_EQ(one.wrongly_drawn, 0u);
                 EXPECT_EQ(one.wrongly_culled, 0u);

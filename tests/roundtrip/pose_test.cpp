@@ -1,0 +1,149 @@
+// Characters cooked by the real programs, in poses of their clips and between them: culling changes nothing.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "runtime/pack/pose_player.h"
+#include "runtime/viewer/camera_fit.h"
+#include "tests/roundtrip/cooked_sample.h"
+#include "tests/runtime/gpu_fixture.h"
+#include "tests/runtime/test_scene.h"
+
+#include <cstdlib>
+#include <filesystem>
+
+namespace hearth::test
+{
+
+namespace
+{
+
+using namespace shared;
+
+/// Moments of clips at random, some beyond their ends, some of two clips at once.
+class RandomPoses
+{
+public:
+    RandomPoses(const formats::PackView& pack, uint32_t seed) : pack_(pack), player_(pack), random_(seed) {}
+
+    /// What a frame must be told.
+    struct Frame
+    {
+        std::vector<gpu::InstanceMove> moves;
+        std::vector<gpu::InstancePose> poses;
+    };
+    Frame next(const gpu::Scene& scene)
+    {
+        if (random_() % 2 == 0)
+            player_.play(clip());
+        else
+            player_.blend(clip(), clip(), static_cast<double>(uniform(random_, 0, 1)));
+        Frame frame;
+        for (const pack::MovedInstance& moved : player_.moved())
+        {
+            const auto move = gpu::moveInstance(scene, moved.instance, moved.world_from_object);
+            HEARTH_ASSERT(move.ok());
+            frame.moves.push_back(*move);
+        }
+        for (const pack::PosedInstance& posed : player_.posed())
+            frame.poses.push_back({.instance = posed.instance,
+                                   .world_from_bind = posed.world_from_bind,
+                                   .morph_weights = posed.morph_weights});
+        return frame;
+    }
+
+    /// Near what is there now, or in it.
+    Camera camera()
+    {
+        Camera camera = viewer::fitCamera(pack_, player_, 1);
+        const float distance = length(camera.position - camera.target);
+        const Float3 way = normalizeOr(
+            {uniform(random_, -1, 1), uniform(random_, -0.6f, 1), uniform(random_, -1, 1)}, {0, 0, 1});
+        camera.position = camera.target + way * (distance * uniform(random_, 0.1f, 1.5f));
+        camera.target += way * uniform(random_, -0.2f, 0.2f);
+        camera.y_fov_rad = uniform(random_, 0.3f, 1.4f);
+        return camera;
+    }
+
+private:
+    pack::ClipTime clip()
+    {
+        const auto number = static_cast<uint32_t>(random_() % pack_.animations().size());
+        const float seconds = pack_.animations()[number].duration;
+        return {number, static_cast<double>(uniform(random_, -0.1f, 1.1f) * seconds)};
+    }
+
+    const formats::PackView& pack_;
+    pack::PosePlayer player_;
+    std::mt19937 random_;
+};
+
+class PoseTest : public GpuTest
+{
+protected:
+    void expectLossless(const formats::PackView& pack, int frames, uint32_t seed)
+    {
+        ASSERT_FALSE(pack.animations().empty());
+        ASSERT_FALSE(pack.deformedMeshes().empty());
+        RandomPoses poses(pack, seed);
+        const auto scene = upload(pack);
+        gpu::FrameTargets targets = makeTargets(96, 96);
+        Camera camera;
+        for (int frame = 0; frame < frames; ++frame)
+        {
+            const RandomPoses::Frame now = poses.next(*scene);
+            if (frame % 5 == 0)
+                camera = poses.camera();
+            DrawOptions options{.width = 96,
+                                .height = 96,
+                                .error_pixels = frame % 3 == 0 ? 0.0f : 2.0f,
+                                .moves = now.moves,
+                                .poses = now.poses};
+            const Picture some = draw(*scene, targets, camera, options);
+            options.flags = 0;
+            const Picture whole = draw(*scene, camera, options);
+            ASSERT_EQ(some.seen(), whole.seen()) << "frame " << frame;
+            drawn_ += some.list.slots.size();
+            all_ += whole.list.slots.size();
+        }
+    }
+
+    size_t drawn_ = 0, all_ = 0;
+};
+
+} // namespace
+
+TEST_F(PoseTest, cullingIsLosslessOnTheSampleCharacter)
+{
+    const roundtrip::CookedSample& sample = roundtrip::cookedSample({"character", 20000});
+    expectLossless(sample.pack(), 300, 81);
+    EXPECT_LT(drawn_, all_);
+    std::printf("character: %zu of %zu clusters drawn\n", drawn_, all_);
+}
+
+TEST_F(PoseTest, cullingIsLosslessOnRealAssets)
+{
+    const char* assets = std::getenv("HEARTH_ASSETS");
+    if (assets == nullptr)
+        GTEST_SKIP() << "HEARTH_ASSETS is not set";
+    const roundtrip::ScratchFolder folder;
+    uint32_t seed = 90;
+    for (const char* file :
+         {"skinned/fox/Fox.glb", "skinned/kaykit_mage", "skinned/tube_300joints", "morph/morph_stress"})
+    {
+        SCOPED_TRACE(file);
+        std::filesystem::path source = std::filesystem::path(assets) / "good" / file;
+        if (std::filesystem::is_directory(source))
+            for (const auto& entry : std::filesystem::directory_iterator(source))
+                if (entry.path().extension() == ".glb" || entry.path().extension() == ".gltf")
+                    source = entry.path();
+        const std::string cooked = folder.path(std::to_string(seed) + ".hearth");
+        const auto end =
+            roundtrip::runProgram(roundtrip::Program::hearth, {"cook", source.string(), "-o", cooked});
+        ASSERT_EQ(end.exit_code, 0) << end.errors;
+        const auto opened = pack::Pack::open(cooked);
+        ASSERT_TRUE(opened.ok());
+        expectLossless(opened->view(), 60, seed++);
+    }
+    EXPECT_LT(drawn_, all_);
+    std::printf("real assets: %zu of %zu clusters drawn\n", drawn_, all_);
+}
+
+} // namespace hearth::test
