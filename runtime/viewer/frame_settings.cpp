@@ -18,9 +18,9 @@ std::span<const Named<uint32_t>> viewNames()
         {"depth", shared::kViewDepth},
         {"error", shared::kViewError},
         {"cones", shared::kViewCones},
-        {"bones", shared::kViewBones},
         {"overdraw", shared::kViewOverdraw},
         {"shadow-maps", shared::kViewShadowMaps},
+        {"bones", shared::kViewBones},
     };
     return kViews;
 }

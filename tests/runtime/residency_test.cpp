@@ -528,5 +528,29 @@ TEST(ErrorScale, settlesWhereWhatIsDrawnFits)
     EXPECT_GE(drawn, 11u) << "and uses most of the budget";
 }
 
+TEST(ErrorScale, restsAboveAJumpUntilSomethingElseIsWanted)
+{
+    // finer than 3, what is wanted does not fit; coarser, it is half of the budget. Feedback is three updates late
+    pack::ErrorScale scale;
+    std::vector<float> values{1, 1, 1};
+    const auto play = [&](uint64_t coarse, int updates)
+    {
+        for (int i = 0; i < updates; ++i)
+        {
+            scale.update(values[values.size() - 3] < 3 ? 130 : coarse, 100);
+            values.push_back(scale.value());
+        }
+    };
+    play(50, 400);
+    EXPECT_EQ(values[200], values.back()) << "it rests";
+    EXPECT_GE(values.back(), 3);
+    EXPECT_LT(values.back(), 3.6f);
+    play(40, 5);
+    EXPECT_LT(scale.value(), values[200]) << "it looks again";
+    play(40, 400);
+    EXPECT_GE(values.back(), 3);
+    EXPECT_EQ(values[values.size() - 100], values.back());
+}
+
 } // namespace
 } // namespace hearth::test
