@@ -31,4 +31,17 @@ struct RotationPoints
 void addRotations(const formats::AnimationChannelRecord& channel, std::span<const float> keys,
                   RotationPoints& points);
 
+/// Seconds, both ends included.
+struct TimeSpan
+{
+    double from = 0;
+    double to = 0;
+};
+
+/// The same for the channel in a part of its time alone.
+void addValuesIn(TimeSpan time, const formats::AnimationChannelRecord& channel, std::span<const float> keys,
+                 Box3d& box);
+void addRotationsIn(TimeSpan time, const formats::AnimationChannelRecord& channel,
+                    std::span<const float> keys, RotationPoints& points);
+
 } // namespace hearth::motion

@@ -34,7 +34,8 @@ JointMotion::JointMotion(MatrixSet set) : set_(std::move(set)), ball_(ballAround
             // an odd one stands twice
             const double(&a)[4] = hull[i].m[axis];
             const double(&b)[4] = hull[std::min(i + 1, hull.size() - 1)].m[axis];
-            rows_[axis].push_back({{a[0], b[0]}, {a[1], b[1]}, {a[2], b[2]}, {a[3], b[3]}});
+            rows_[axis].push_back(
+                RowPair{Lanes{a[0], b[0]}, Lanes{a[1], b[1]}, Lanes{a[2], b[2]}, Lanes{a[3], b[3]}});
         }
 }
 
@@ -64,7 +65,7 @@ void JointMotion::addPlaces(Double3 point, Double3 half, double weight, Box3d& b
 
 SkinMotion::SkinMotion(const MotionTables& tables, std::span<const NodeMotion> nodes, uint32_t skin,
                        std::span<const Box3d> reach)
-    : nodes_(nodes)
+    : records_(tables.nodes), nodes_(nodes)
 {
     const ScenePose rest = restPose(tables);
     for (size_t i = 0; i < nodes.size(); ++i)
@@ -190,6 +191,14 @@ const JointMotion* SkinMotion::relative(uint32_t main, uint32_t joint) const
     Entry& found = entry(main, joint);
     std::call_once(found.once, [&] { found.motion = measured(main, joint); });
     return found.motion.get();
+}
+
+RegionChain SkinMotion::regionChain(uint32_t main, std::span<const uint32_t> joints) const
+{
+    std::vector<uint32_t> nodes;
+    for (const uint32_t joint : joints)
+        nodes.push_back(joints_[joint].nodes.front());
+    return RegionChain(records_, joints_[main].nodes.front(), nodes);
 }
 
 bool SkinMotion::canMirror(uint32_t joint) const

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "cook/motion/node_motion.h"
+#include "cook/motion/region_chain.h"
 
 #include <memory>
 #include <mutex>
@@ -56,6 +57,16 @@ public:
     /// 0, or its inverse bind matrix has no inverse.
     const JointMotion* relative(uint32_t main, uint32_t joint) const;
 
+    const Affine3d& jointFromBind(uint32_t joint) const { return joints_[joint].joint_from_bind; }
+    /// Nothing where the inverse bind matrix has no inverse.
+    const std::optional<Affine3d>& bindFromJoint(uint32_t joint) const
+    {
+        return joints_[joint].bind_from_joint;
+    }
+
+    /// The nodes between a main bone and other joints.
+    RegionChain regionChain(uint32_t main, std::span<const uint32_t> joints) const;
+
     /// Whether the joint can turn triangles inside out, or make them flat.
     bool canMirror(uint32_t joint) const;
 
@@ -87,6 +98,7 @@ private:
     std::unique_ptr<JointMotion> measured(uint32_t main, uint32_t joint) const;
     Entry& entry(uint32_t main, uint32_t joint) const;
 
+    std::span<const formats::NodeRecord> records_;
     std::span<const NodeMotion> nodes_;
     std::vector<Affine3d> parent_from_node_; ///< at rest
     std::vector<Joint> joints_;

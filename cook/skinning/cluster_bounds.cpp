@@ -3,9 +3,12 @@
 
 #include "cook/skinning/deformed_cone.h"
 #include "cook/skinning/rounding.h"
+#include "cook/skinning/tight_box.h"
 
 #include <algorithm>
 #include <limits>
+
+#include <tbb/parallel_for.h>
 
 namespace hearth::skinning
 {
@@ -19,6 +22,10 @@ namespace
 // How many of the heaviest joints are tried as the main bone: a fourth has never been the best one (bench of the sample
 // character and the skinned assets).
 constexpr size_t kMostCandidates = 3;
+
+// Tightening boxes may cost so much, in influences of vertices of about 10 ns: all loose clusters of a mesh share it.
+constexpr size_t kWorkOfMesh = 40'000'000;
+constexpr size_t kMostWork = 8'000'000; ///< of one cluster
 
 /// The joints that move a vertex, heaviest first.
 std::vector<uint32_t> influencingJoints(const DeformedCluster& cluster)
@@ -78,6 +85,54 @@ MainBone mainBone(std::span<const uint32_t> heaviest_first, const DeformedCluste
     return best;
 }
 
+/// A cluster's main bone and box, before the loose ones are tightened.
+struct Draft
+{
+    std::vector<uint32_t> joints; ///< that move it, heaviest first
+    MainBone main;
+    bool loose = false;
+};
+
+Draft draftOf(const DeformedCluster& cluster, const Deformation& deformation)
+{
+    const std::vector<MorphedVertex> vertices = morphedVertices(cluster, deformation.morph_weights);
+    Draft draft;
+    draft.joints = influencingJoints(cluster);
+    draft.main = mainBone(draft.joints, cluster, deformation, vertices);
+    draft.loose = draft.main.box && draft.joints.size() > 1 && deformation.regions != nullptr &&
+                  isLoose(*draft.main.box, draft.main.joint, cluster, deformation, vertices);
+    return draft;
+}
+
+DeformedBounds finished(const Draft& draft, const DeformedCluster& cluster, const Deformation& deformation,
+                        size_t work)
+{
+    const std::vector<MorphedVertex> vertices = morphedVertices(cluster, deformation.morph_weights);
+    const uint32_t main = draft.main.joint;
+    DeformedBounds bounds{};
+    bounds.joints = draft.joints;
+    if (deformation.skin != nullptr)
+    {
+        std::erase(bounds.joints, main);
+        bounds.joints.insert(bounds.joints.begin(), main);
+    }
+    Box3 box{{-kUnbounded, -kUnbounded, -kUnbounded}, {kUnbounded, kUnbounded, kUnbounded}};
+    StoredCone cone;
+    if (draft.main.box)
+    {
+        box = roundedOut(draft.loose ? tightened(*draft.main.box, main, cluster, deformation, vertices, work)
+                                     : *draft.main.box);
+        cone = coneIn(main, cluster, deformation, vertices, box.center());
+    }
+    bounds.record.joint = static_cast<uint16_t>(main);
+    bounds.record.box_min = box.min;
+    bounds.record.box_max = box.max;
+    bounds.record.cone_axis = cone.axis;
+    bounds.record.cone_cutoff = cone.cutoff;
+    bounds.record.cone_back = cone.back;
+    return bounds;
+}
+
 } // namespace
 
 std::optional<Box3d> boxIn(uint32_t main, const DeformedCluster& cluster, const Deformation& deformation,
@@ -110,28 +165,18 @@ std::optional<Box3d> boxIn(uint32_t main, const DeformedCluster& cluster, const 
     return box;
 }
 
-DeformedBounds boundsOf(const DeformedCluster& cluster, const Deformation& deformation)
+std::vector<DeformedBounds> boundsOf(std::span<const DeformedCluster> clusters,
+                                     const Deformation& deformation)
 {
-    DeformedBounds bounds{};
-    bounds.joints = influencingJoints(cluster);
-    const std::vector<MorphedVertex> vertices = morphedVertices(cluster, deformation.morph_weights);
-    const MainBone main = mainBone(bounds.joints, cluster, deformation, vertices);
-    bounds.record.joint = static_cast<uint16_t>(main.joint);
-    if (deformation.skin != nullptr)
-    {
-        std::erase(bounds.joints, main.joint);
-        bounds.joints.insert(bounds.joints.begin(), main.joint);
-    }
-    const Box3 box =
-        main.box ? roundedOut(*main.box)
-                 : Box3{{-kUnbounded, -kUnbounded, -kUnbounded}, {kUnbounded, kUnbounded, kUnbounded}};
-    bounds.record.box_min = box.min;
-    bounds.record.box_max = box.max;
-    const StoredCone cone =
-        main.box ? coneIn(main.joint, cluster, deformation, vertices, box.center()) : StoredCone{};
-    bounds.record.cone_axis = cone.axis;
-    bounds.record.cone_cutoff = cone.cutoff;
-    bounds.record.cone_back = cone.back;
+    std::vector<Draft> drafts(clusters.size());
+    tbb::parallel_for(size_t{0}, drafts.size(),
+                      [&](size_t i) { drafts[i] = draftOf(clusters[i], deformation); });
+    const auto loose = static_cast<size_t>(
+        std::count_if(drafts.begin(), drafts.end(), [](const Draft& draft) { return draft.loose; }));
+    const size_t work = std::min(kMostWork, kWorkOfMesh / std::max(loose, size_t{1}));
+    std::vector<DeformedBounds> bounds(clusters.size());
+    tbb::parallel_for(size_t{0}, drafts.size(),
+                      [&](size_t i) { bounds[i] = finished(drafts[i], clusters[i], deformation, work); });
     return bounds;
 }
 

@@ -21,9 +21,10 @@ struct DeformedBounds
     std::vector<uint32_t> joints;          ///< that move a vertex, the main bone first; none without a skin
 };
 
-/// The main bone is the joint with the largest sum of weights, unless another of the heaviest joints gives a smaller
-/// box; any joint of the skin where none of those gives one.
-DeformedBounds boundsOf(const DeformedCluster& cluster, const Deformation& deformation);
+/// Bounds of the clusters of one mesh. The main bone is the joint with the largest sum of weights, unless another of the
+/// heaviest joints gives a smaller box; any joint of the skin where none of those gives one.
+std::vector<DeformedBounds> boundsOf(std::span<const DeformedCluster> clusters,
+                                     const Deformation& deformation);
 
 /// The box with this joint as the main bone, before it is rounded; nothing where it has no bounds.
 std::optional<motion::Box3d> boxIn(uint32_t main, const DeformedCluster& cluster,

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
+#include "cook/motion/pose_regions.h"
 #include "cook/motion/skin_motion.h"
 #include "formats/math.h"
 
@@ -32,11 +33,12 @@ struct DeformedCluster
 /// The weight of a joint at a vertex.
 double weightOf(const DeformedCluster& cluster, size_t vertex, uint32_t joint);
 
-/// What moves the clusters of one mesh. Both outlive it.
+/// What moves the clusters of one mesh. All outlive it.
 struct Deformation
 {
     const motion::SkinMotion* skin = nullptr;             ///< null without a skin
     std::span<const motion::Interval> morph_weights = {}; ///< by target
+    const motion::PoseRegions* regions = nullptr;         ///< to tighten boxes with; null where nothing moves
 };
 
 /// Where morph targets take a vertex in the bind pose.

@@ -10,8 +10,6 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include <tbb/parallel_for.h>
-
 namespace hearth::skinning
 {
 
@@ -187,8 +185,8 @@ Status checkGroups(const PackView& part, const MeshRecord& mesh, uint32_t number
 }
 
 Result<MeshStatistics> cookMesh(const PackView& part, const MotionTables& tables,
-                                std::span<const motion::NodeMotion> nodes, const DrawnMesh& drawn,
-                                Tables& written)
+                                std::span<const motion::NodeMotion> nodes, const motion::PoseRegions* regions,
+                                const DrawnMesh& drawn, Tables& written)
 {
     const MeshRecord& mesh = part.meshes()[drawn.mesh];
     const uint32_t joints = drawn.skin == kNone ? 0 : tables.skins[drawn.skin].joints.count;
@@ -200,10 +198,8 @@ Result<MeshStatistics> cookMesh(const PackView& part, const MotionTables& tables
     std::optional<motion::SkinMotion> skin;
     if (drawn.skin != kNone)
         skin.emplace(tables, nodes, drawn.skin, reach);
-    const Deformation deformation{skin ? &*skin : nullptr, morph_weights};
-    std::vector<DeformedBounds> bounds(clusters.size());
-    tbb::parallel_for(size_t{0}, clusters.size(),
-                      [&](size_t i) { bounds[i] = boundsOf(clusters[i], deformation); });
+    const Deformation deformation{skin ? &*skin : nullptr, morph_weights, regions};
+    const std::vector<DeformedBounds> bounds = boundsOf(clusters, deformation);
     const MeshHierarchy hierarchy{part.groups().subspan(mesh.groups.first, mesh.groups.count),
                                   part.clusters().subspan(mesh.clusters.first, mesh.clusters.count),
                                   mesh.groups.first, mesh.clusters.first};
@@ -231,12 +227,16 @@ writeSkinningPart(const PackView& import_part, const PackView& clusters_part, co
     const MotionTables tables = motionTables(import_part);
     const std::vector<motion::NodeMotion> nodes =
         meshes.empty() ? std::vector<motion::NodeMotion>{} : motion::nodeMotions(tables);
+    std::optional<motion::PoseRegions> regions;
+    if (!meshes.empty() && !tables.animations.empty())
+        regions.emplace(tables, nodes);
     Tables written;
     std::vector<MeshStatistics> statistics;
     for (const DrawnMesh& mesh : meshes)
     {
-        HEARTH_ASSIGN_OR_RETURN(MeshStatistics of_mesh,
-                                cookMesh(clusters_part, tables, nodes, mesh, written));
+        HEARTH_ASSIGN_OR_RETURN(
+            MeshStatistics of_mesh,
+            cookMesh(clusters_part, tables, nodes, regions ? &*regions : nullptr, mesh, written));
         statistics.push_back(std::move(of_mesh));
     }
     HEARTH_TRY(addTable(writer, kChunkDeformedMeshes, written.meshes));

@@ -22,6 +22,9 @@ namespace
 // glTF asks for flat normals where there are none: no edge is smooth
 constexpr float kFlat = 0;
 
+// a triangle that all of them move still fits into a geometry page; models of faces have a hundred or two
+constexpr size_t kMostMorphTargets = 1024;
+
 std::string_view modeName(PrimitiveMode mode)
 {
     return mode == PrimitiveMode::points ? "points" : "lines";
@@ -73,6 +76,9 @@ Result<mesh::SourceMesh> GltfMeshReader::read(uint32_t mesh_index)
         return context_.error(
             Issue::input_too_large, fmt::format("/meshes/{}", mesh_index),
             fmt::format("{} vertices and {} triangles", result.vertexCount(), result.triangleCount()));
+    if (result.morph_targets.size() > kMostMorphTargets)
+        return context_.error(Issue::input_too_large, fmt::format("/meshes/{}", mesh_index),
+                              fmt::format("{} morph targets", result.morph_targets.size()));
     return result;
 }
 

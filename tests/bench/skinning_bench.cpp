@@ -9,7 +9,6 @@
 #include <optional>
 
 #include <tbb/global_control.h>
-#include <tbb/parallel_for.h>
 
 namespace
 {
@@ -158,10 +157,9 @@ void characterBounds(benchmark::State& state)
         const std::vector<motion::NodeMotion> nodes = motion::nodeMotions(tables);
         const std::vector<motion::Box3d> reach = reachOf(character);
         const motion::SkinMotion skin(tables, nodes, 0, reach);
-        const skinning::Deformation deformation{&skin, {}};
-        std::vector<skinning::DeformedBounds> bounds(character.clusters.size());
-        tbb::parallel_for(size_t{0}, bounds.size(),
-                          [&](size_t i) { bounds[i] = boundsOf(character.clusters[i], deformation); });
+        const motion::PoseRegions regions(tables, nodes);
+        const skinning::Deformation deformation{&skin, {}, &regions};
+        benchmark::DoNotOptimize(boundsOf(character.clusters, deformation));
         benchmark::DoNotOptimize(
             anchoredBounds({groups, clusters, 0, 0}, character.clusters, deformation, reach));
     }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "tests/cook/cuts.h"
 #include "tests/cook/deformed_model.h"
+#include "tests/cook/shapes.h"
 #include "tests/cook/surface_distance.h"
 #include "tests/formats/temporary_folder.h"
 
@@ -22,7 +23,7 @@ using clusters::Hierarchy;
 using namespace formats;
 
 constexpr size_t kSamples = 4000; // a side and pose
-constexpr size_t kPoses = 8;
+constexpr size_t kPoses = 5;
 
 /// What the test of one mesh found, for the log.
 struct Figures
@@ -156,6 +157,25 @@ TEST(DeformedError, ofTheCharacterHoldsInEveryPose)
     ASSERT_EQ(std::system((std::string(HEARTH_BIN) + "/hearth-samples character -o '" + file + "'").c_str()),
               0);
     expectSound(file);
+}
+
+TEST(DeformedPages, holdAsManyTargetsAsAFaceHas)
+{
+    // each target moves all vertices: no cluster can leave one out
+    constexpr size_t kTargets = 150;
+    mesh::SourceMesh mesh = shapes::terrain(24);
+    std::mt19937 random(1);
+    std::normal_distribution<float> normal(0, 0.01f);
+    mesh.morph_targets.resize(kTargets);
+    for (mesh::MorphTarget& target : mesh.morph_targets)
+        for (size_t v = 0; v < mesh.vertexCount(); ++v)
+            target.positions.push_back({normal(random), normal(random), normal(random)});
+    const Hierarchy hierarchy = clusters::buildHierarchy(mesh);
+    const Status valid = clusters::validateHierarchy(mesh, hierarchy);
+    EXPECT_TRUE(valid.ok()) << formatMessage(valid.error());
+    for (const PageRecord& page : hierarchy.pages)
+        EXPECT_LE(page.size, kPageMaxBytes);
+    expectNoCracks(hierarchy, DeformedClusters(hierarchy));
 }
 
 TEST_P(DeformedErrorOf, holdsInEveryPose)

@@ -1,8 +1,10 @@
-// Welding, the exact degenerate test and open edges.
+// Welding, the exact degenerate test, open edges, the grid, and what deforms a mesh.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/mesh/deformation.h"
 #include "cook/mesh/grid.h"
 #include "cook/mesh/triangles.h"
 #include "cook/mesh/weld.h"
+#include "formats/vertex_codec.h"
 #include "tests/cook/shapes.h"
 
 #include <gmock/gmock.h>
@@ -130,6 +132,77 @@ TEST(Grid, isFineEnoughForShortEdges)
     EXPECT_FALSE(on_grid.positions[3] == on_grid.positions[4]);
     EXPECT_FALSE(on_grid.positions[3] == on_grid.positions[5]);
     EXPECT_FALSE(on_grid.positions[4] == on_grid.positions[5]);
+}
+
+/// A vertex with influences in two sets.
+mesh::SourceMesh influenced(std::array<uint16_t, 8> joints, std::array<float, 8> weights)
+{
+    mesh::SourceMesh mesh;
+    mesh.positions = {{0, 0, 0}};
+    for (size_t set = 0; set < 2; ++set)
+    {
+        const uint16_t* const j = joints.data() + 4 * set;
+        const float* const w = weights.data() + 4 * set;
+        mesh.joint_sets.push_back({{{j[0], j[1], j[2], j[3]}}});
+        mesh.weight_sets.push_back({{w[0], w[1], w[2], w[3]}});
+    }
+    return mesh;
+}
+
+TEST(Influences, areTheLargestInCodesThatSumToOne)
+{
+    mesh::SourceMesh mesh = influenced({5, 6, 7, 8, 9, 0, 0, 0}, {0.1f, 0.3f, 0.05f, 0.25f, 0.3f, 0, 0, 0});
+    const mesh::InfluenceLoss loss = mesh::reduceInfluences(mesh, 4);
+    EXPECT_EQ(loss.vertex_count, 1u);
+    EXPECT_NEAR(loss.most_weight, 0.05, 1e-6);
+    ASSERT_EQ(mesh.joint_sets.size(), 1u);
+    const auto& joint = mesh.joint_sets[0][0].joint;
+    EXPECT_EQ((std::array<uint16_t, 4>{joint[0], joint[1], joint[2], joint[3]}),
+              (std::array<uint16_t, 4>{6, 9, 8, 5}));
+    const Float4 w = mesh.weight_sets[0][0];
+    EXPECT_NEAR(w.x, 0.3 / 0.95, 2e-5);
+    EXPECT_NEAR(w.w, 0.1 / 0.95, 2e-5);
+    long sum = 0;
+    for (const float weight : {w.x, w.y, w.z, w.w})
+        sum += std::lround(weight * 65535);
+    EXPECT_EQ(sum, 65535);
+}
+
+TEST(Influences, ofOneJointAreAddedAndThoseWithoutWeightNameJoint0)
+{
+    mesh::SourceMesh mesh = influenced({5, 6, 5, 8, 5, 0, 0, 0}, {0.25f, 0.5f, 0.125f, 0, 0.125f, 0, 0, 0});
+    const mesh::InfluenceLoss loss = mesh::reduceInfluences(mesh, 8);
+    EXPECT_EQ(loss.vertex_count, 0u);
+    ASSERT_EQ(mesh.joint_sets.size(), 1u) << "two joints need no second set";
+    EXPECT_EQ(mesh.joint_sets[0][0].joint[0], 5);
+    EXPECT_EQ(mesh.joint_sets[0][0].joint[1], 6);
+    EXPECT_EQ(mesh.joint_sets[0][0].joint[2], 0);
+    EXPECT_NEAR(mesh.weight_sets[0][0].x, 0.5, 1e-5);
+}
+
+TEST(MorphTargets, snapToStepsThatReachThem)
+{
+    mesh::SourceMesh mesh;
+    mesh.positions.resize(2);
+    mesh.normals.assign(2, {0, 0, 1});
+    mesh.morph_targets.resize(2);
+    mesh.morph_targets[0].positions = {{0.3f, -7.99999f, 0}, {8, 1e-7f, 0}};
+    mesh.morph_targets[1].normals = {{0.1f, 3, 0}, {0, 0, 0}};
+    const mesh::MorphTarget before = mesh.morph_targets[0];
+    const std::vector<float> steps = mesh::snapMorphTargets(mesh);
+    ASSERT_EQ(steps.size(), 2u);
+    for (size_t v = 0; v < 2; ++v)
+        for (int axis = 0; axis < 3; ++axis)
+        {
+            const float snapped = mesh.morph_targets[0].positions[v][axis];
+            EXPECT_NEAR(snapped, before.positions[v][axis], steps[0]);
+            EXPECT_EQ(snapped / steps[0], std::round(snapped / steps[0]));
+            EXPECT_LE(std::abs(snapped / steps[0]), formats::kMorphPositionMost);
+        }
+    EXPECT_LE(steps[0], 16.0f / (1 << 18));
+    EXPECT_EQ(mesh.morph_targets[1].positions.size(), 2u);
+    EXPECT_NEAR(mesh.morph_targets[1].normals[0].x, 0.1, 1e-3);
+    EXPECT_NEAR(mesh.morph_targets[1].normals[0].y, 2, 1e-3) << "no two normals are farther apart";
 }
 
 } // namespace

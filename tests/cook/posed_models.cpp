@@ -93,8 +93,9 @@ double outside(const Box3& box, Double3 place)
     return std::max({below.x, below.y, below.z, above.x, above.y, above.z});
 }
 
-void watchBox(Watched& watched, std::span<const Affine3d> main_from_bind, const std::vector<double>& weights,
-              double angle)
+/// anchor_from_main  nothing where the anchor is flat in this pose
+void watch(Watched& watched, const Box3& mesh_box, std::span<const Affine3d> main_from_bind,
+           const std::optional<Affine3d>& anchor_from_main, const std::vector<double>& weights, double angle)
 {
     const Box3 box{watched.bounds->box_min, watched.bounds->box_max};
     std::vector<Double3> places;
@@ -104,19 +105,13 @@ void watchBox(Watched& watched, std::span<const Affine3d> main_from_bind, const 
         add(watched.tight, place);
         note(watched, outside(box, place));
         places.push_back(place);
+        if (!anchor_from_main)
+            continue;
+        const Double3 anchored = transformPoint(*anchor_from_main, place);
+        note(watched, length(anchored - widen(watched.sphere.center)) - double{watched.sphere.radius});
+        note(watched, outside(mesh_box, anchored));
     }
     lookAtCone(watched, places, angle);
-}
-
-void watchSphere(Watched& watched, const Box3& mesh_box, std::span<const Affine3d> anchor_from_bind,
-                 const std::vector<double>& weights)
-{
-    for (size_t v = 0; v < watched.cluster->positions.size(); ++v)
-    {
-        const Double3 place = placeOf(*watched.cluster, v, anchor_from_bind, weights);
-        note(watched, length(place - widen(watched.sphere.center)) - double{watched.sphere.radius});
-        note(watched, outside(mesh_box, place));
-    }
 }
 
 /// All joints as one of them sees them; nothing where it is flat in this pose.
@@ -182,6 +177,7 @@ Result<std::vector<PosedMesh>> posedMeshes(const PackView& pack)
         {
             const GroupRecord& group = pack.groups()[cluster.group];
             mesh.spheres.push_back({group.sphere_center, group.sphere_radius});
+            mesh.levels.push_back(cluster.level);
         }
         for (uint32_t node = 0; node < pack.nodes().size(); ++node)
             if (pack.nodes()[node].mesh == record.mesh)
@@ -203,12 +199,14 @@ void computeBounds(const MotionTables& tables, PosedMesh& mesh)
     std::optional<motion::SkinMotion> skin;
     if (mesh.skin != kNone)
         skin.emplace(tables, nodes, mesh.skin, reach);
-    const skinning::Deformation deformation{skin ? &*skin : nullptr, morph_weights};
+    const motion::PoseRegions regions(tables, nodes);
+    const skinning::Deformation deformation{skin ? &*skin : nullptr, morph_weights, &regions};
+    for (const skinning::DeformedBounds& bounds : boundsOf(mesh.clusters, deformation))
+        mesh.bounds.push_back(bounds.record);
     std::vector<GroupRecord> groups;
     std::vector<ClusterRecord> clusters;
     for (uint32_t i = 0; i < mesh.clusters.size(); ++i)
     {
-        mesh.bounds.push_back(boundsOf(mesh.clusters[i], deformation).record);
         GroupRecord group{};
         group.clusters = {i, 1};
         groups.push_back(group);
@@ -219,6 +217,7 @@ void computeBounds(const MotionTables& tables, PosedMesh& mesh)
     }
     const skinning::AnchoredBounds anchored =
         skinning::anchoredBounds({groups, clusters, 0, 0}, mesh.clusters, deformation, reach);
+    mesh.levels.assign(mesh.clusters.size(), 0);
     mesh.anchor = anchored.anchor;
     mesh.box = anchored.box;
     mesh.spheres = anchored.spheres;
@@ -294,6 +293,8 @@ BoundsFigures& operator+=(BoundsFigures& a, const BoundsFigures& b)
     a.violations += b.violations;
     a.worst = std::max(a.worst, b.worst);
     a.volume_ratio += b.volume_ratio;
+    a.finest_clusters += b.finest_clusters;
+    a.finest_volume_ratio += b.finest_volume_ratio;
     a.cones += b.cones;
     a.facing_wrong += b.facing_wrong;
     return a;
@@ -306,6 +307,7 @@ BoundsFigures checkBounds(const MotionTables& tables, const PosedMesh& mesh, siz
         watched.push_back({&mesh.clusters[i], &mesh.bounds[i], mesh.spheres[i], {}});
     PoseSource source(tables, seed);
     std::mt19937 random(seed + 1);
+    const size_t targets = targetsOf(mesh.clusters);
     for (size_t p = 0; p < poses; ++p)
     {
         const ScenePose& pose = p == 0 ? source.rest() : source.next();
@@ -316,28 +318,37 @@ BoundsFigures checkBounds(const MotionTables& tables, const PosedMesh& mesh, siz
             if (!seen[main])
                 seen[main] = seenFrom(palette, main);
         };
-        see(mesh.anchor);
         for (const Watched& w : watched)
             see(w.bounds->joint);
+        const std::optional<Affine3d> anchor_from_world = inverted(palette[mesh.anchor]);
         const Range range = tables.nodes[mesh.node].morph_weights;
         std::vector<double> weights(pose.morph_weights.begin() + range.first,
                                     pose.morph_weights.begin() + range.first + range.count);
-        weights.resize(std::max(weights.size(), targetsOf(mesh.clusters)));
+        weights.resize(std::max(weights.size(), targets));
         const double angle = std::uniform_real_distribution<double>(0, 6.283)(random);
         tbb::parallel_for(size_t{0}, watched.size(),
                           [&](size_t i)
                           {
-                              if (const auto& matrices = seen[watched[i].bounds->joint])
-                                  watchBox(watched[i], *matrices, weights, angle);
-                              if (const auto& matrices = seen[mesh.anchor])
-                                  watchSphere(watched[i], mesh.box, *matrices, weights);
+                              const uint32_t main = watched[i].bounds->joint;
+                              if (!seen[main])
+                                  return;
+                              std::optional<Affine3d> anchor_from_main;
+                              if (anchor_from_world)
+                                  anchor_from_main = *anchor_from_world * palette[main];
+                              watch(watched[i], mesh.box, *seen[main], anchor_from_main, weights, angle);
                           });
     }
     BoundsFigures figures;
     figures.clusters = watched.size();
     figures.poses = poses;
-    for (const Watched& w : watched)
+    for (size_t i = 0; i < watched.size(); ++i)
     {
+        const Watched& w = watched[i];
+        if (mesh.levels[i] == 0)
+        {
+            ++figures.finest_clusters;
+            figures.finest_volume_ratio += volumeRatio(w);
+        }
         figures.violations += w.violations;
         figures.worst = std::max(figures.worst, w.worst);
         figures.volume_ratio += volumeRatio(w);

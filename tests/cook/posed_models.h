@@ -22,6 +22,7 @@ struct PosedMesh
     uint32_t skin = formats::kNone;
     std::vector<skinning::DeformedCluster> clusters;
     std::vector<formats::DeformedClusterRecord> bounds; ///< one for each cluster
+    std::vector<uint32_t> levels;                       ///< of each cluster
     uint32_t anchor = 0;
     std::vector<Sphere> spheres; ///< in the anchor: of each cluster's group
     Box3 box;                    ///< in the anchor
@@ -64,9 +65,11 @@ struct BoundsFigures
     size_t poses = 0;
     size_t violations = 0; ///< vertices outside of a box or sphere
     double worst = 0;      ///< metres outside of it
-    double volume_ratio =
-        0;            ///< of each cluster's box to the smallest around its vertices in all poses: the sum
-    size_t cones = 0; ///< that can cull
+    /// Sum over the clusters: volume of the box to that of the smallest around the vertices in all poses.
+    double volume_ratio = 0;
+    size_t finest_clusters = 0; ///< of the source's triangles
+    double finest_volume_ratio = 0;
+    size_t cones = 0;        ///< that can cull
     size_t facing_wrong = 0; ///< triangles that face an eye for which their cone says that none does
 };
 BoundsFigures& operator+=(BoundsFigures& a, const BoundsFigures& b);

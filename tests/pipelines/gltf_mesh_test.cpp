@@ -280,6 +280,27 @@ TEST(GltfMorphTargets, moveNothingYet)
     EXPECT_EQ(result.counts.morph_targets, 2u);
 }
 
+TEST(GltfMorphTargets, areRefusedWhereTheyAreTooMany)
+{
+    for (const size_t count : {size_t{1024}, size_t{1025}})
+    {
+        GltfData data;
+        data.add("VEC3", kSquare);
+        data.add("SCALAR", kSquareIndices);
+        std::string targets;
+        for (size_t i = 0; i < count; ++i)
+            targets += i == 0 ? R"({"POSITION":0})" : R"(,{"POSITION":0})";
+        const Imported result =
+            data.import(R"("meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":1,"targets":[)" +
+                        targets + "]}]}]");
+        EXPECT_EQ(result.ok(), count == 1024) << result.message();
+        if (!result.ok())
+        {
+            EXPECT_EQ(result.status.error().issue, Issue::input_too_large);
+        }
+    }
+}
+
 TEST(GltfMorphTargets, ofPrimitivesWithFewerAreFilledWithNoMovement)
 {
     GltfData data;
