@@ -53,8 +53,12 @@ protected:
             return {};
         const formats::PackView view =
             formats::PackView::read(formats::ContainerReader::open(pack).value()).value();
+        const Result<std::vector<PosedMesh>> meshes = posedMeshes(view);
+        EXPECT_TRUE(meshes.ok()) << source;
         BoundsFigures figures;
-        for (const PosedMesh& mesh : posedMeshes(view).value())
+        if (!meshes.ok())
+            return figures;
+        for (const PosedMesh& mesh : *meshes)
             figures += checkBounds(formats::motionTables(view), mesh, kPoses, 1);
         EXPECT_EQ(figures.violations, 0u) << source << ": by up to " << figures.worst;
         EXPECT_EQ(figures.facing_wrong, 0u) << source;
