@@ -33,6 +33,12 @@ struct DeformationHeader
     uint group_count; ///< clusters of the last phase that are skinned into the scratch
 };
 
+/// Deformed clusters of a frame's visible list, of both phases.
+HEARTH_FUNCTION uint deformedSlots(HEARTH_IN(DeformationHeader) header)
+{
+    return (header.early_end - header.early_first) + (header.late_end - header.late_first);
+}
+
 /// The pose of an instance.
 struct Pose
 {

@@ -92,6 +92,18 @@ Result<uint64_t> readShadedArea(VulkanHost& host, const gpu::Renderer& renderer,
     return pixels;
 }
 
+Result<SkinningCounts> readSkinning(VulkanHost& host, const gpu::Renderer& renderer, const gpu::Scene& scene)
+{
+    HEARTH_ASSERT(scene.deformation != nullptr);
+    HEARTH_ASSIGN_OR_RETURN(const std::vector<std::byte> bytes,
+                            host.read(renderer.device(), scene.deformation->buffer));
+    shared::DeformationHeader header;
+    HEARTH_ASSERT(bytes.size() >= sizeof(header));
+    std::memcpy(&header, bytes.data(), sizeof(header));
+    const uint32_t clusters = shared::deformedSlots(header);
+    return SkinningCounts{clusters, std::min(clusters, header.block_count)};
+}
+
 std::array<double, gpu::kTimestampCount> medianPassTimes(const std::vector<std::vector<double>>& frames)
 {
     std::array<double, gpu::kTimestampCount> medians{};
@@ -144,6 +156,9 @@ std::string formatReport(const FrameReport& report, const formats::PackView& pac
         add("streaming", formatStreaming(report.streaming));
     if (!report.shadows.empty())
         add("shadows", formatShadows(report.shadows));
+    if (report.skinning)
+        add("skinning", "{\"clusters\":" + std::to_string(report.skinning->clusters) +
+                            ",\"in_scratch\":" + std::to_string(report.skinning->in_scratch) + "}");
     add("milliseconds",
         "{\"frame\":" + number(report.milliseconds[0]) +
             ",\"shadows\":" + number(report.milliseconds[gpu::kTimestampShadows]) +

@@ -8,6 +8,7 @@
 #include "runtime/viewer/vulkan_host.h"
 
 #include <array>
+#include <optional>
 
 namespace hearth::viewer
 {
@@ -25,6 +26,14 @@ Result<VisibleList> readVisibleList(VulkanHost& host, const gpu::Renderer& rende
 Result<uint64_t> readShadedArea(VulkanHost& host, const gpu::Renderer& renderer, const gpu::Scene& scene,
                                 VkExtent2D extent, gpu::ShadedArea area);
 
+/// Deformed clusters that the last frame of a scene with characters drew.
+struct SkinningCounts
+{
+    uint32_t clusters = 0;
+    uint32_t in_scratch = 0; ///< of these, skinned once; the others wherever they were needed
+};
+Result<SkinningCounts> readSkinning(VulkanHost& host, const gpu::Renderer& renderer, const gpu::Scene& scene);
+
 struct FrameCounts
 {
     uint64_t drawn_clusters = 0, early_clusters = 0, dropped_clusters = 0, drawn_triangles = 0;
@@ -39,9 +48,10 @@ struct FrameReport
     float error_pixels = 0;
     uint64_t scene_bytes = 0, target_bytes = 0;
     uint32_t dropped_lights = 0;
-    std::vector<FrameCounts> frames;     ///< at least one
-    std::vector<StreamCounts> streaming; ///< the same frames; empty where all is resident
-    std::vector<ShadowCounts> shadows;   ///< the same frames; empty where there are none
+    std::vector<FrameCounts> frames;        ///< at least one
+    std::vector<StreamCounts> streaming;    ///< the same frames; empty where all is resident
+    std::vector<ShadowCounts> shadows;      ///< the same frames; empty where there are none
+    std::optional<SkinningCounts> skinning; ///< of the last frame; none where there are no characters
     std::array<double, gpu::kTimestampCount>
         milliseconds{}; ///< of the pass that ends with the timestamp; [0] is the frame
 };

@@ -159,6 +159,10 @@ public:
                                     countStreaming(host_, renderer_, scene_, serial_));
             streaming_.push_back(counts);
         }
+        if (!options_.stats.empty() && scene_.deformation != nullptr)
+        {
+            HEARTH_ASSIGN_OR_RETURN(skinning_, readSkinning(host_, renderer_, scene_));
+        }
         if (scene_.shadows != nullptr)
         {
             HEARTH_ASSIGN_OR_RETURN(const ShadowCounts counts, countShadows(host_, renderer_, scene_));
@@ -189,6 +193,7 @@ public:
                                  .frames = frames_,
                                  .streaming = streaming_,
                                  .shadows = shadows_,
+                                 .skinning = skinning_,
                                  .milliseconds = medianPassTimes(times_)};
         const std::string text = formatReport(report, pack_);
         return writeFile(options_.stats, std::as_bytes(std::span(text)));
@@ -254,6 +259,7 @@ private:
     std::vector<FrameCounts> frames_; ///< of those that were written
     std::vector<StreamCounts> streaming_;
     std::vector<ShadowCounts> shadows_;
+    std::optional<SkinningCounts> skinning_;
     uint64_t serial_ = 0; ///< of the last frame
 };
 
