@@ -88,6 +88,6 @@ void appendVertices(mesh::SourceMesh& to, const mesh::SourceMesh& from);
 /// Move to the grid, weld, drop triangles without area and those that the grid takes an edge from, merge equal vertices.
 /// What deforms the mesh comes to what its pages can hold: `influences` (4 or 8) of each vertex at most, in codes, and
 /// morph deltas in steps.
-PreparedMesh prepareMesh(mesh::SourceMesh source, uint32_t influences = 4);
+PreparedMesh prepareMesh(mesh::SourceMesh source, uint32_t influences = 8);
 
 } // namespace hearth::clusters

@@ -51,7 +51,7 @@ struct Config
     uint32_t uv_fraction_bits = 14;
 
     /// Joints that move a vertex of a skinned mesh, 4 or 8: the ones with the largest weights.
-    uint32_t influences = 4;
+    uint32_t influences = 8;
 };
 
 /// What happened, for the report.

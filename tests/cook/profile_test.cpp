@@ -81,7 +81,7 @@ TEST_F(ProfileFile, setsNormalBitsAndErrorWeightsForAllMeshesAndForSome)
 [clusters]
 normal_bits = 16
 uv_error_weight = 2
-influences = 8
+influences = 4
 [[clusters.mesh]]
 name = "crate"
 normal_bits = 8
@@ -95,8 +95,8 @@ normal_error_weight = 0
     EXPECT_EQ(crate.uv_error_weight, 2.0f) << "what a rule does not set is as for all";
     const auto other = clusters::configOf(*profile, "mirror", {});
     EXPECT_EQ(other.normal_bits, 16u);
-    EXPECT_EQ(usual.influences, 4u);
-    EXPECT_EQ(other.influences, 8u);
+    EXPECT_EQ(usual.influences, 8u);
+    EXPECT_EQ(other.influences, 4u);
     EXPECT_EQ(other.normal_error_weight, usual.normal_error_weight);
     EXPECT_EQ(other.uv_error_weight, 2.0f);
 }
