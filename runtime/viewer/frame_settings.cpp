@@ -19,8 +19,8 @@ std::span<const Named<uint32_t>> viewNames()
         {"error", shared::kViewError},
         {"cones", shared::kViewCones},
         {"overdraw", shared::kViewOverdraw},
-        {"shadow-maps", shared::kViewShadowMaps},
         {"bones", shared::kViewBones},
+        {"shadow-maps", shared::kViewShadowMaps},
     };
     return kViews;
 }

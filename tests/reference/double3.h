@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include "formats/math.h"
+#include "formats/affine3d.h"
 
 #include <cmath>
 
@@ -78,6 +78,14 @@ struct DoubleAffine
               {double{a.m[1][0]}, double{a.m[1][1]}, double{a.m[1][2]}},
               {double{a.m[2][0]}, double{a.m[2][1]}, double{a.m[2][2]}}},
           translation{double{a.m[0][3]}, double{a.m[1][3]}, double{a.m[2][3]}}
+    {
+    }
+
+    explicit DoubleAffine(const Affine3d& a)
+        : row{{a.m[0][0], a.m[0][1], a.m[0][2]},
+              {a.m[1][0], a.m[1][1], a.m[1][2]},
+              {a.m[2][0], a.m[2][1], a.m[2][2]}},
+          translation{a.m[0][3], a.m[1][3], a.m[2][3]}
     {
     }
 

@@ -35,37 +35,52 @@ struct EmbreeScene::State
         Query(const State& s, const AcceptHit& a) : state(&s), accept(&a) { rtcInitIntersectContext(this); }
     };
 
-    const PackGeometry* geometry;
+    const Placement* placement;
     AcceptHit accept, blocks;
     RTCDevice device = nullptr;
     RTCScene top = nullptr;
-    std::vector<MeshScene> meshes;
+    std::vector<MeshScene> meshes;   ///< in object space, of meshes that are not deformed
+    std::vector<MeshScene> deformed; ///< for each instance: in the world, if it is deformed
 
-    void addMesh(uint32_t index);
+    const PackView& view() const { return placement->geometry().view(); }
+    const MeshScene& sceneOf(uint32_t instance) const
+    {
+        return placement->isDeformed(instance) ? deformed[instance]
+                                               : meshes[view().instances()[instance].mesh];
+    }
+    MeshScene makeScene(uint32_t mesh, std::optional<uint32_t> deformed_instance) const;
     void addInstance(uint32_t index);
     SurfaceHit toHit(uint32_t instance, uint32_t primitive, float u, float v, float distance) const;
-    bool isFront(const SurfaceHit& hit, Double3 object_direction) const;
+    bool isFront(const SurfaceHit& hit, Double3 direction) const;
     static void filter(const RTCFilterFunctionNArguments* arguments);
 };
 
-void EmbreeScene::State::addMesh(uint32_t index)
+/// In object space, or in the world as an instance is deformed.
+MeshScene EmbreeScene::State::makeScene(uint32_t index, std::optional<uint32_t> deformed_instance) const
 {
-    MeshScene& mesh = meshes[index];
-    const Range clusters = geometry->view().meshes()[index].clusters;
+    MeshScene mesh;
+    const Range clusters = view().meshes()[index].clusters;
     std::vector<Float3> corners;
     for (uint32_t c = clusters.first; c < clusters.first + clusters.count; ++c)
     {
-        if (geometry->view().clusters()[c].level != 0)
+        if (view().clusters()[c].level != 0)
             continue;
-        uint32_t number = 0;
-        for (const auto& triangle : geometry->triangles(c))
+        const ClusterGeometry cluster = placement->geometry().cluster(c);
+        for (uint32_t t = 0; t < cluster.triangleCount(); ++t)
         {
-            corners.insert(corners.end(), triangle.begin(), triangle.end());
-            mesh.triangles.emplace_back(c, number++);
+            for (const uint32_t corner : cluster.triangle(t))
+            {
+                const Double3 world = deformed_instance
+                                          ? placement->vertex(*deformed_instance, cluster, corner).position
+                                          : Double3(cluster.position(corner));
+                corners.push_back(
+                    {static_cast<float>(world.x), static_cast<float>(world.y), static_cast<float>(world.z)});
+            }
+            mesh.triangles.emplace_back(c, t);
         }
     }
     if (corners.empty())
-        return;
+        return mesh;
     RTCGeometry triangles = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
     void* const vertices = rtcSetNewGeometryBuffer(triangles, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
                                                    sizeof(Float3), corners.size());
@@ -81,16 +96,21 @@ void EmbreeScene::State::addMesh(uint32_t index)
     rtcAttachGeometry(mesh.scene, triangles);
     rtcReleaseGeometry(triangles);
     rtcCommitScene(mesh.scene);
+    return mesh;
 }
 
 void EmbreeScene::State::addInstance(uint32_t index)
 {
-    const InstanceRecord& record = geometry->view().instances()[index];
-    if (meshes[record.mesh].scene == nullptr)
+    if (placement->isDeformed(index))
+        deformed[index] = makeScene(view().instances()[index].mesh, index);
+    const MeshScene& mesh = sceneOf(index);
+    if (mesh.scene == nullptr)
         return;
+    const Affine3 world_from_scene =
+        placement->isDeformed(index) ? Affine3{} : narrowed(placement->worldFromObject(index)).value();
     RTCGeometry instance = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_INSTANCE);
-    rtcSetGeometryInstancedScene(instance, meshes[record.mesh].scene);
-    rtcSetGeometryTransform(instance, 0, RTC_FORMAT_FLOAT3X4_ROW_MAJOR, record.world_from_object.m);
+    rtcSetGeometryInstancedScene(instance, mesh.scene);
+    rtcSetGeometryTransform(instance, 0, RTC_FORMAT_FLOAT3X4_ROW_MAJOR, world_from_scene.m);
     rtcCommitGeometry(instance);
     rtcAttachGeometryByID(top, instance, index);
     rtcReleaseGeometry(instance);
@@ -99,7 +119,7 @@ void EmbreeScene::State::addInstance(uint32_t index)
 SurfaceHit EmbreeScene::State::toHit(uint32_t instance, uint32_t primitive, float u, float v,
                                      float distance) const
 {
-    const auto [cluster, triangle] = meshes[geometry->view().instances()[instance].mesh].triangles[primitive];
+    const auto [cluster, triangle] = sceneOf(instance).triangles[primitive];
     SurfaceHit hit;
     hit.instance = instance;
     hit.cluster = cluster;
@@ -111,15 +131,9 @@ SurfaceHit EmbreeScene::State::toHit(uint32_t instance, uint32_t primitive, floa
     return hit;
 }
 
-/// In object space, where a mirrored instance has the front that its mesh has.
-bool EmbreeScene::State::isFront(const SurfaceHit& hit, Double3 object_direction) const
+bool EmbreeScene::State::isFront(const SurfaceHit& hit, Double3 direction) const
 {
-    const ClusterGeometry cluster = geometry->cluster(hit.cluster);
-    const auto corner = cluster.triangle(hit.triangle);
-    const Double3 a(cluster.position(corner[0]));
-    const Double3 normal =
-        cross(Double3(cluster.position(corner[1])) - a, Double3(cluster.position(corner[2])) - a);
-    return dot(normal, object_direction) < 0;
+    return dot(surfaceAt(*placement, hit, 0).geometric_normal, direction) < 0;
 }
 
 void EmbreeScene::State::filter(const RTCFilterFunctionNArguments* arguments)
@@ -157,19 +171,20 @@ RTCRay toEmbree(const Ray& ray)
 
 } // namespace
 
-EmbreeScene::EmbreeScene(const PackGeometry& geometry, AcceptHit accept, AcceptHit blocks)
+EmbreeScene::EmbreeScene(const Placement& placement, AcceptHit accept, AcceptHit blocks)
     : state_(std::make_unique<State>())
 {
-    state_->geometry = &geometry;
+    state_->placement = &placement;
     state_->blocks = blocks ? std::move(blocks) : accept;
     state_->accept = std::move(accept);
     state_->device = rtcNewDevice(nullptr);
     HEARTH_ASSERT(state_->device != nullptr);
-    state_->meshes.resize(geometry.view().meshes().size());
-    for (uint32_t mesh = 0; mesh < state_->meshes.size(); ++mesh)
-        state_->addMesh(mesh);
+    const PackView& view = state_->view();
+    for (uint32_t mesh = 0; mesh < view.meshes().size(); ++mesh)
+        state_->meshes.push_back(state_->makeScene(mesh, std::nullopt));
+    state_->deformed.resize(view.instances().size());
     state_->top = rtcNewScene(state_->device);
-    for (uint32_t instance = 0; instance < geometry.view().instances().size(); ++instance)
+    for (uint32_t instance = 0; instance < view.instances().size(); ++instance)
         state_->addInstance(instance);
     rtcCommitScene(state_->top);
 }
@@ -177,9 +192,10 @@ EmbreeScene::EmbreeScene(const PackGeometry& geometry, AcceptHit accept, AcceptH
 EmbreeScene::~EmbreeScene()
 {
     rtcReleaseScene(state_->top);
-    for (const MeshScene& mesh : state_->meshes)
-        if (mesh.scene != nullptr)
-            rtcReleaseScene(mesh.scene);
+    for (const auto* scenes : {&state_->meshes, &state_->deformed})
+        for (const MeshScene& mesh : *scenes)
+            if (mesh.scene != nullptr)
+                rtcReleaseScene(mesh.scene);
     rtcReleaseDevice(state_->device);
 }
 
@@ -196,8 +212,7 @@ std::optional<SurfaceHit> EmbreeScene::nearest(const Ray& ray) const
     const uint32_t instance = ray_hit.hit.instID[0];
     SurfaceHit hit =
         state_->toHit(instance, ray_hit.hit.primID, ray_hit.hit.u, ray_hit.hit.v, ray_hit.ray.tfar);
-    const DoubleAffine world(state_->geometry->view().instances()[instance].world_from_object);
-    hit.front = state_->isFront(hit, world.solve(ray.direction));
+    hit.front = state_->isFront(hit, ray.direction);
     return hit;
 }
 

@@ -25,10 +25,10 @@ using AcceptHit = std::function<bool(const SurfaceHit&)>;
 class EmbreeScene
 {
 public:
-    /// Level 0 of every instance. `geometry` must outlive the scene.
+    /// Level 0 of every instance. `placement` must outlive the scene.
     ///
     /// blocks  which hits end a ray of occluded(); none: those that are accepted
-    EmbreeScene(const PackGeometry& geometry, AcceptHit accept, AcceptHit blocks = {});
+    EmbreeScene(const Placement& placement, AcceptHit accept, AcceptHit blocks = {});
     ~EmbreeScene();
     EmbreeScene(const EmbreeScene&) = delete;
     EmbreeScene& operator=(const EmbreeScene&) = delete;

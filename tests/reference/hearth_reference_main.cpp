@@ -1,6 +1,8 @@
 // hearth-reference: draws a pack with rays, slowly, and can say by FLIP how far another picture is from that.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "formats/animation.h"
 #include "formats/pack_check.h"
+#include "runtime/pack/pose_player.h"
 #include "tests/reference/flip.h"
 #include "tests/reference/reference_renderer.h"
 
@@ -25,6 +27,8 @@ struct Arguments
     std::string pack, output, size = "512x512", compare, flip_map;
     std::vector<float> camera;
     int scene_camera = -1;
+    std::string animation;
+    double seconds = 0;
     ReferenceOptions options;
 };
 
@@ -72,6 +76,17 @@ Status compare(const Picture& reference, const Arguments& arguments)
     return arguments.flip_map.empty() ? success() : writePng(arguments.flip_map, showFlip(map));
 }
 
+Result<formats::ScenePose> poseOf(const formats::PackView& view, const Arguments& arguments)
+{
+    const std::optional<uint32_t> clip = pack::findAnimation(view, arguments.animation);
+    if (!clip)
+        return Error{Issue::usage, arguments.pack, "", "there is no animation " + arguments.animation};
+    const formats::MotionTables tables = formats::motionTables(view);
+    formats::ScenePose pose = formats::restPose(tables);
+    formats::sampleAnimation(tables, tables.animations[*clip], arguments.seconds, pose);
+    return pose;
+}
+
 Status run(Arguments& arguments)
 {
     HEARTH_TRY(readSize(arguments.size, arguments.options));
@@ -83,6 +98,12 @@ Status run(Arguments& arguments)
     {
         HEARTH_ASSIGN_OR_RETURN(arguments.options.camera,
                                 sceneCamera(view, static_cast<size_t>(std::max(0, arguments.scene_camera))));
+    }
+    formats::ScenePose pose;
+    if (!arguments.animation.empty())
+    {
+        HEARTH_ASSIGN_OR_RETURN(pose, poseOf(view, arguments));
+        arguments.options.pose = &pose;
     }
     HEARTH_ASSIGN_OR_RETURN(const Picture picture, renderReference(view, arguments.options));
     HEARTH_TRY(writePng(arguments.output, picture));
@@ -101,6 +122,8 @@ int main(int argc, char** argv)
     app.add_option("--size", arguments.size, "width x height");
     app.add_option("--camera", arguments.camera, "px,py,pz,tx,ty,tz,fovdeg")->delimiter(',')->expected(7);
     app.add_option("--scene-camera", arguments.scene_camera, "the pack's camera of that number (default 0)");
+    app.add_option("--animation", arguments.animation, "in the pose of a clip, by its name or number");
+    app.add_option("--time", arguments.seconds, "of the clip, seconds");
     app.add_option("--samples-per-side", arguments.options.samples_per_side, "rays per pixel: its square")
         ->check(CLI::Range(1u, 64u));
     app.add_flag("--shadows", arguments.options.shadows, "shadows of suns and spots");

@@ -160,11 +160,21 @@ TEST(TextureSet, takesTheMipThatASampleCovers)
     EXPECT_NEAR(textures.sample(texture, {0.4f, 0.4f}, 100 * texel).rgb.x, 200 / 255.0, 1e-9);
 }
 
+/// The strip of the small pack alone, in its place or as the second instance has it: mirrored.
+test::PackModel strip(uint32_t instance)
+{
+    test::PackModel model = test::smallPack();
+    model.instances[0].world_from_object = model.instances[instance].world_from_object;
+    model.instances.resize(1);
+    return model;
+}
+
 TEST(EmbreeScene, findsTheTrianglesOfTheFinestLevel)
 {
-    const HeldPack pack(test::smallPack());
+    const HeldPack pack(strip(0));
     const PackGeometry geometry = PackGeometry::decode(pack.view).value();
-    const EmbreeScene all(geometry, [](const SurfaceHit&) { return true; });
+    const Placement placement(geometry);
+    const EmbreeScene all(placement, [](const SurfaceHit&) { return true; });
     // The strip's first quad rises from y = 0 at x = 0 to y = 3/32 at x = 1.
     const auto hit = all.nearest({{0.25, 2, 0.5}, {0, -1, 0}});
     ASSERT_TRUE(hit.has_value());
@@ -172,7 +182,7 @@ TEST(EmbreeScene, findsTheTrianglesOfTheFinestLevel)
     EXPECT_EQ(pack.view.clusters()[hit->cluster].level, 0u);
     EXPECT_NEAR(hit->distance, 2 - 0.0234375, 1e-6);
     EXPECT_TRUE(hit->front);
-    const SurfacePoint point = surfaceAt(geometry, *hit, 0);
+    const SurfacePoint point = surfaceAt(placement, *hit, 0);
     EXPECT_NEAR(point.position.x, 0.25, 1e-6);
     EXPECT_NEAR(point.position.y, 0.0234375, 1e-6);
     EXPECT_NEAR(point.geometric_normal.x, -0.09375 / std::sqrt(1 + 0.09375 * 0.09375), 1e-6);
@@ -189,22 +199,23 @@ TEST(EmbreeScene, findsTheTrianglesOfTheFinestLevel)
 
 TEST(EmbreeScene, knowsTheFrontOfAMirroredInstance)
 {
-    const HeldPack pack(test::smallPack());
+    const HeldPack pack(strip(1));
     const PackGeometry geometry = PackGeometry::decode(pack.view).value();
-    const EmbreeScene all(geometry, [](const SurfaceHit&) { return true; });
-    // Instance 1 is the triangle (0,0,0) (0,0,1) (1,0,0), which faces +Y, under x -> 5 - 2x.
+    const Placement placement(geometry);
+    const EmbreeScene all(placement, [](const SurfaceHit&) { return true; });
+    // x -> 5 - 2x
     const auto hit = all.nearest({{4.5, 1, 0.25}, {0, -1, 0}});
     ASSERT_TRUE(hit.has_value());
-    EXPECT_EQ(hit->instance, 1u);
     EXPECT_TRUE(hit->front);
-    EXPECT_NEAR(surfaceAt(geometry, *hit, 0).normal.y, 1, 1e-9);
+    EXPECT_NEAR(surfaceAt(placement, *hit, 0).geometric_normal.y, 1 / std::hypot(1, 0.046875), 1e-6);
 }
 
 TEST(EmbreeScene, looksThroughWhatIsNotAccepted)
 {
-    const HeldPack pack(test::smallPack());
+    const HeldPack pack(strip(0));
     const PackGeometry geometry = PackGeometry::decode(pack.view).value();
-    const EmbreeScene fronts(geometry, [](const SurfaceHit& hit) { return hit.front; });
+    const Placement placement(geometry);
+    const EmbreeScene fronts(placement, [](const SurfaceHit& hit) { return hit.front; });
     EXPECT_TRUE(fronts.nearest({{0.25, 2, 0.5}, {0, -1, 0}}).has_value());
     EXPECT_FALSE(fronts.nearest({{0.25, -2, 0.5}, {0, 1, 0}}).has_value());
 }

@@ -56,8 +56,9 @@ public:
           textures_(textures),
           options_(options),
           lighting_(lightingOf(geometry.view())),
+          placement_(geometry, options.pose),
           scene_(
-              geometry, [this](const SurfaceHit& hit) { return isThere(hit); },
+              placement_, [this](const SurfaceHit& hit) { return isThere(hit); },
               [this](const SurfaceHit& hit) { return blocks(hit); })
     {
         forward_ = normalize(Double3(options.camera.target) - Double3(options.camera.position));
@@ -111,7 +112,7 @@ private:
         const MaterialRecord& material = materialOf(hit);
         if (material.alpha_mode == static_cast<uint32_t>(AlphaMode::opaque))
             return false;
-        const SurfacePoint point = surfaceAt(geometry_, hit, 0);
+        const SurfacePoint point = surfaceAt(placement_, hit, 0);
         const double alpha = double{material.base_color.w} * double{point.color.w} *
                              look(material.base_color_texture, point, 0).alpha;
         const bool mask = material.alpha_mode == static_cast<uint32_t>(AlphaMode::mask);
@@ -188,7 +189,7 @@ private:
         else
         {
             const MaterialRecord& material = materialOf(*hit);
-            const SurfacePoint point = surfaceAt(geometry_, *hit, material.normal_texture.uv_set);
+            const SurfacePoint point = surfaceAt(placement_, *hit, material.normal_texture.uv_set);
             const Coating coating = coatingAt(*hit, point, hit->distance * sample_angle_);
             if (material.flags & kMaterialUnlit)
                 return coating.base;
@@ -201,6 +202,7 @@ private:
     const TextureSet& textures_;
     const ReferenceOptions& options_;
     SceneLighting lighting_;
+    Placement placement_;
     EmbreeScene scene_;
     Double3 forward_, right_, up_;
     double slope_ = 1, sample_angle_ = 0;

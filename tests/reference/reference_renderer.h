@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
+#include "formats/animation.h"
 #include "formats/shared/frame.h"
 #include "tests/reference/pack_geometry.h"
 #include "tests/reference/png_image.h"
@@ -12,6 +13,7 @@ namespace hearth::reference
 struct ReferenceOptions
 {
     shared::Camera camera;
+    const formats::ScenePose* pose = nullptr; ///< of the pack; null: at rest
     uint32_t width = 512;
     uint32_t height = 512;
     uint32_t samples_per_side = 4; ///< rays per pixel: its square

@@ -38,30 +38,26 @@ Double3 directionOfU(const Double3 corners[3], const Float2 uv[3])
 
 } // namespace
 
-SurfacePoint surfaceAt(const PackGeometry& geometry, const SurfaceHit& hit, uint32_t tangent_set)
+SurfacePoint surfaceAt(const Placement& placement, const SurfaceHit& hit, uint32_t tangent_set)
 {
-    const ClusterGeometry cluster = geometry.cluster(hit.cluster);
-    const DoubleAffine world(geometry.view().instances()[hit.instance].world_from_object);
-    const double turn = world.determinant() < 0 ? -1 : 1;
+    const ClusterGeometry cluster = placement.geometry().cluster(hit.cluster);
     const auto vertices = cluster.triangle(hit.triangle);
 
     SurfacePoint point;
     Double3 corners[3], normal, tangent;
+    double turn = 1;
     for (size_t i = 0; i < 3; ++i)
     {
-        corners[i] = world.point(Double3(cluster.position(vertices[i])));
+        const PlacedVertex vertex = placement.vertex(hit.instance, cluster, vertices[i]);
+        corners[i] = vertex.position;
         point.position += corners[i] * hit.weights[i];
-        if (cluster.has(kVertexNormal))
-            normal += Double3(cluster.normal(vertices[i])) * hit.weights[i];
-        if (cluster.has(kVertexTangent))
-        {
-            const Float4 t = cluster.tangent(vertices[i]);
-            tangent += Double3{double{t.x}, double{t.y}, double{t.z}} * hit.weights[i];
-        }
+        normal += vertex.normal * hit.weights[i];
+        tangent += vertex.tangent * hit.weights[i];
+        turn = vertex.mirrored ? -1 : 1;
     }
     const Double3 area = cross(corners[1] - corners[0], corners[2] - corners[0]);
     point.geometric_normal = normalizeOr(area * turn, {0, 1, 0});
-    point.normal = normalizeOr(world.normal(normal) * turn, point.geometric_normal);
+    point.normal = normalizeOr(normal, point.geometric_normal);
 
     Float2 uvs[4][3] = {};
     for (uint32_t set = 0; set < 4; ++set)
@@ -83,10 +79,7 @@ SurfacePoint surfaceAt(const PackGeometry& geometry, const SurfaceHit& hit, uint
     // a normal map points where v gets smaller, up in the image.
     double side;
     if (cluster.has(kVertexTangent))
-    {
-        tangent = world.vector(tangent);
         side = double{cluster.tangent(vertices[0]).w} * turn;
-    }
     else
     {
         const Float2* const uv = uvs[tangent_set];

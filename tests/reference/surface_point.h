@@ -3,7 +3,7 @@
 #pragma once
 
 #include "tests/reference/double3.h"
-#include "tests/reference/pack_geometry.h"
+#include "tests/reference/placement.h"
 
 namespace hearth::reference
 {
@@ -31,6 +31,6 @@ struct SurfacePoint
     Float4 color{1, 1, 1, 1};
 };
 
-SurfacePoint surfaceAt(const PackGeometry& geometry, const SurfaceHit& hit, uint32_t tangent_set);
+SurfacePoint surfaceAt(const Placement& placement, const SurfaceHit& hit, uint32_t tangent_set);
 
 } // namespace hearth::reference

@@ -1,5 +1,7 @@
 // Finished pictures: every view shows something, and the final one is what rays and the specification's formulas give.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "formats/animation.h"
+#include "runtime/pack/pack.h"
 #include "tests/reference/flip.h"
 #include "tests/reference/reference_renderer.h"
 #include "tests/roundtrip/draw_fixture.h"
@@ -98,6 +100,89 @@ TEST_F(PictureTest, theFinalViewIsWhatRaysGive)
         std::printf("%-10s FLIP %.4f\n", spec.kind.c_str(), map.mean());
         EXPECT_LT(map.mean(), 0.05) << spec.kind;
     }
+}
+
+/// The clip of a pack at a time.
+formats::ScenePose poseAt(const formats::PackView& pack, uint32_t clip, double seconds)
+{
+    const formats::MotionTables tables = formats::motionTables(pack);
+    formats::ScenePose pose = formats::restPose(tables);
+    formats::sampleAnimation(tables, tables.animations[clip], seconds, pose);
+    return pose;
+}
+
+struct PosedPicture
+{
+    std::string name;
+    uint32_t clip = 0;
+    std::string seconds;
+    std::array<float, 7> camera; ///< as of hearth-render
+};
+
+/// Draw a pose with hearth-render, and with rays.
+void expectWhatRaysGive(const std::string& file, const formats::PackView& pack, const PosedPicture& posed,
+                        const ScratchFolder& folder)
+{
+    SCOPED_TRACE(posed.name);
+    const std::string picture = folder.path(posed.name + ".png");
+    std::string camera;
+    for (const float number : posed.camera)
+        camera += (camera.empty() ? "" : ",") + std::to_string(number);
+    const auto end =
+        runProgram(Program::render, {file, "-o", picture, "--size", "512x512", "--camera", camera,
+                                     "--animation", std::to_string(posed.clip), "--time", posed.seconds});
+    ASSERT_EQ(end.exit_code, 0) << end.errors;
+    const auto drawn = reference::readPng(picture);
+    ASSERT_TRUE(drawn.ok());
+
+    const formats::ScenePose pose = poseAt(pack, posed.clip, std::stod(posed.seconds));
+    const auto& c = posed.camera;
+    reference::ReferenceOptions options;
+    options.camera = {.position = {c[0], c[1], c[2]},
+                      .target = {c[3], c[4], c[5]},
+                      .y_fov_rad = c[6] * 0.017453293f,
+                      .z_near = 0.01f};
+    options.pose = &pose;
+    options.width = options.height = 256;
+    const auto expected = reference::renderReference(pack, options);
+    ASSERT_TRUE(expected.ok()) << formatMessage(expected.error());
+    options.pose = nullptr;
+    const auto at_rest = reference::renderReference(pack, options);
+    ASSERT_TRUE(at_rest.ok());
+    const reference::FlipMap map = reference::flip(*expected, halved(*drawn));
+    const double moved = reference::flip(*expected, *at_rest).mean();
+    keep(*drawn, posed.name + "_gpu");
+    keep(*expected, posed.name + "_rays");
+    keep(reference::showFlip(map), posed.name + "_flip");
+    std::printf("%-10s FLIP %.4f, the scene at rest %.4f\n", posed.name.c_str(), map.mean(), moved);
+    EXPECT_LT(map.mean(), 0.03);
+    EXPECT_GT(moved, 2 * map.mean()) << "the pose must show";
+}
+
+TEST_F(PictureTest, posesAreWhatRaysGive)
+{
+    const ScratchFolder folder;
+    const CookedSample& sample = cookedSample({"character", 20000});
+    expectWhatRaysGive(sample.packPath(), sample.pack(),
+                       {"walk", 0, "0.3", {1.2f, 1.3f, 2.4f, 0, 0.9f, 0, 45}}, folder);
+    expectWhatRaysGive(sample.packPath(), sample.pack(), {"wave", 1, "0.7", {-1, 1.5f, 2.2f, 0, 1, 0, 45}},
+                       folder);
+
+    const char* assets = std::getenv("HEARTH_ASSETS");
+    if (assets == nullptr)
+        GTEST_SKIP() << "HEARTH_ASSETS is not set";
+    const auto expectOfAsset = [&](const std::string& source, const PosedPicture& posed)
+    {
+        const std::string cooked = folder.path(posed.name + ".hearth");
+        const auto end = runProgram(Program::hearth, {"cook", assets + ("/good/" + source), "-o", cooked});
+        ASSERT_EQ(end.exit_code, 0) << end.errors;
+        const auto opened = pack::Pack::open(cooked);
+        ASSERT_TRUE(opened.ok());
+        expectWhatRaysGive(cooked, opened->view(), posed, folder);
+    };
+    expectOfAsset("skinned/fox/Fox.glb", {"fox", 2, "0.4", {150, 110, 170, 0, 40, 0, 40}});
+    expectOfAsset("morph/animated_morph_sphere/AnimatedMorphSphere.glb",
+                  {"morph", 0, "1.3", {2, 2, 4, 0, 0, 0, 45}});
 }
 
 } // namespace
