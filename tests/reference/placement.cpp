@@ -51,14 +51,15 @@ Placement::Placement(const PackGeometry& geometry, const ScenePose* pose) : geom
     for (uint32_t i = 0; i < view.instances().size(); ++i)
     {
         const InstanceRecord& record = view.instances()[i];
-        const NodeRecord& node = view.nodes()[record.node];
         Instance& instance = instances_.emplace_back();
         instance.world_from_object = widened(record.world_from_object);
         // what stands between node and instance, as for many instances of one node
-        if (const auto node_from_world = inverted(at_rest[record.node]); pose != nullptr && node_from_world)
+        const auto node_from_world = pose != nullptr ? inverted(at_rest[record.node]) : std::nullopt;
+        if (node_from_world)
             instance.world_from_object = now[record.node] * (*node_from_world * instance.world_from_object);
         if (!reference::isDeformed(view, i))
             continue;
+        const NodeRecord& node = view.nodes()[record.node];
         instance.palette = {instance.world_from_object};
         if (view.meshes()[record.mesh].skinned != 0)
         {
