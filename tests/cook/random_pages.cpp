@@ -4,6 +4,7 @@
 #include "formats/cluster_bounds.h"
 
 #include <cstring>
+#include <span>
 
 namespace hearth::test
 {
@@ -73,13 +74,16 @@ std::vector<std::byte> RandomPage::content() const
     std::vector<std::byte> bytes;
     for (const clusters::CodedCluster& cluster : clusters)
     {
-        const size_t first = bytes.size();
-        bytes.resize(first + bytesOf(cluster));
-        std::memcpy(bytes.data() + first, cluster.words.data(), cluster.words.size() * 4);
-        std::memcpy(bytes.data() + first + cluster.words.size() * 4, cluster.indices.data(),
-                    cluster.indices.size());
-        std::memcpy(bytes.data() + bytes.size() - cluster.morphs.size() * 4, cluster.morphs.data(),
-                    cluster.morphs.size() * 4);
+        const auto append = [&](const auto& values)
+        {
+            const auto part = std::as_bytes(std::span(values));
+            bytes.insert(bytes.end(), part.begin(), part.end());
+        };
+        const size_t end = bytes.size() + bytesOf(cluster);
+        append(cluster.words);
+        append(cluster.indices);
+        bytes.resize(end - cluster.morphs.size() * 4); // the padding of the indices
+        append(cluster.morphs);
     }
     return bytes;
 }
