@@ -121,7 +121,8 @@ void PagePlanes::chooseLowBits(size_t block, LaneForms& forms) const
     auto* const low_bits = forms.low_bits.data() + block * kLanesOfBlock;
     std::array<uint32_t, kLanesOfBlock> most{};
     uint32_t sum = 0;
-    for (size_t i = 0; i < kLanesOfBlock && block * kLanesOfBlock + i < lanes_.count; ++i)
+    const size_t count = std::min<size_t>(kLanesOfBlock, lanes_.count - block * kLanesOfBlock);
+    for (size_t i = 0; i < count; ++i)
     {
         const size_t lane = block * kLanesOfBlock + i;
         if (lanes_.kinds[lane] == LaneKind::bytes)
@@ -137,7 +138,7 @@ void PagePlanes::chooseLowBits(size_t block, LaneForms& forms) const
     {
         size_t best = kLanesOfBlock;
         double best_cost = 0;
-        for (size_t i = 0; i < kLanesOfBlock; ++i)
+        for (size_t i = 0; i < count; ++i)
         {
             if (low_bits[i] >= most[i])
                 continue;
