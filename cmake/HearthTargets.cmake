@@ -1,3 +1,7 @@
+# What one sanitizer runs can be built alone: the tests of a label, and for the unit tests all programs, which some of them start.
+add_custom_target(hearth_unit_tests)
+add_custom_target(hearth_threads_tests)
+
 # hearth_library(NAME SOURCES ... LINKS ... PRIVATE_LINKS ...): a static library held to the house's warnings.
 # LINKS are the arrows of DESIGN; PRIVATE_LINKS are third-party libraries that stay inside the .cpp files.
 function(hearth_library name)
@@ -11,6 +15,7 @@ function(hearth_executable name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LINKS" ${ARGN})
   add_executable(${name} ${ARG_SOURCES})
   target_link_libraries(${name} PRIVATE hearth_settings hearth_warnings ${ARG_LINKS})
+  add_dependencies(hearth_unit_tests ${name})
 endfunction()
 
 # hearth_test(NAME SOURCES ... LINKS ... LABELS ... LAUNCHER ...): a GoogleTest program, registered as one ctest per program.
@@ -25,11 +30,9 @@ function(hearth_test name)
     set(ARG_TIMEOUT 600)
   endif()
   set_tests_properties(${name} PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT ${ARG_TIMEOUT})
-  # what the thread sanitizer runs can be built alone
-  if("threads" IN_LIST ARG_LABELS)
-    if(NOT TARGET hearth_threads_tests)
-      add_custom_target(hearth_threads_tests)
+  foreach(label unit threads)
+    if(label IN_LIST ARG_LABELS)
+      add_dependencies(hearth_${label}_tests ${name})
     endif()
-    add_dependencies(hearth_threads_tests ${name})
-  endif()
+  endforeach()
 endfunction()

@@ -2,6 +2,7 @@
 #include "formats/animation.h"
 
 #include "formats/assert.h"
+#include "formats/channel_keys.h"
 #include "formats/pack_view.h"
 
 #include <algorithm>
@@ -12,11 +13,6 @@ namespace hearth::formats
 
 namespace
 {
-
-// glTF's largest value: four numbers of a rotation. Morph weights are taken one by one.
-constexpr size_t kMostComponents = 4;
-
-using Value = std::array<double, kMostComponents>;
 
 double lerp(double from, double to, double weight)
 {
@@ -45,100 +41,69 @@ NodePose poseOf(const NodeRecord& node)
 /// Between which keys of a channel a time lies.
 struct KeyInterval
 {
-    size_t first = 0;
-    size_t second = 0;
+    uint32_t first = 0;
+    uint32_t second = 0;
     double along = 0;   ///< 0 to 1
     double seconds = 0; ///< from the first key to the second
 };
 
-KeyInterval intervalAt(std::span<const float> times, double time)
+KeyInterval intervalAt(const ChannelKeys& keys, double time)
 {
     // of keys at one time, which are a jump, the last holds
-    const auto later = std::upper_bound(times.begin(), times.end(), time,
-                                        [](double t, float key) { return t < double{key}; });
-    if (later == times.begin())
+    const uint32_t second = keys.keyAfter(time);
+    if (second == 0)
         return {};
-    const auto second = static_cast<size_t>(later - times.begin());
-    if (second == times.size())
+    if (second == keys.count())
         return {second - 1, second - 1, 0, 0};
-    const double start = times[second - 1];
-    const double seconds = times[second] - start;
+    const double start = keys.time(second - 1);
+    const double seconds = keys.time(second) - start;
     return {second - 1, second, (time - start) / seconds, seconds};
 }
 
-/// The value of a channel's components [first, first + count) in an interval. Rotations come without length 1.
-class ChannelReader
+/// Components [first, first + count) in an interval. Rotations come without length 1.
+KeyValue valueAt(const ChannelKeys& keys, const KeyInterval& interval, uint32_t first, uint32_t count)
 {
-public:
-    ChannelReader(const AnimationChannelRecord& channel, std::span<const float> keys)
-        : channel_(channel), values_(keys.subspan(channel.first_value))
+    const KeyValue start = keys.value(interval.first, first, count);
+    if (keys.interpolation() == Interpolation::step)
+        return start;
+    const KeyValue end = keys.value(interval.second, first, count);
+    const double t = interval.along;
+    KeyValue value{};
+    if (keys.interpolation() == Interpolation::linear)
     {
-    }
-
-    Value at(const KeyInterval& interval, size_t first, size_t count) const
-    {
-        Value value{};
-        for (size_t i = 0; i < count; ++i)
-            value[i] = component(interval, first + i);
+        for (size_t i = 0; i < value.size(); ++i)
+            value[i] = lerp(start[i], end[i], t);
         return value;
     }
+    const KeyValue out = keys.outTangent(interval.first, first, count);
+    const KeyValue in = keys.inTangent(interval.second, first, count);
+    // Hermite's basis; out-tangent of the first key, in-tangent of the second, each for one second
+    const double t2 = t * t, t3 = t2 * t;
+    for (size_t i = 0; i < value.size(); ++i)
+        value[i] = (2 * t3 - 3 * t2 + 1) * start[i] + (t3 - 2 * t2 + t) * interval.seconds * out[i] +
+                   (3 * t2 - 2 * t3) * end[i] + (t3 - t2) * interval.seconds * in[i];
+    return value;
+}
 
-    Quaternion rotationAt(const KeyInterval& interval) const
-    {
-        const Value start = keyed(interval.first);
-        if (interpolation() == Interpolation::linear && interval.seconds > 0)
-            return slerp(normalizedOr(start, {0, 0, 0, 1}),
-                         normalizedOr(keyed(interval.second), {0, 0, 0, 1}), interval.along);
-        return normalizedOr(at(interval, 0, kMostComponents), normalizedOr(start, {0, 0, 0, 1}));
-    }
-
-private:
-    Interpolation interpolation() const { return static_cast<Interpolation>(channel_.interpolation); }
-
-    Value keyed(size_t key) const
-    {
-        Value value{};
-        for (size_t i = 0; i < kMostComponents; ++i)
-            value[i] = interpolation() == Interpolation::cubic_spline ? of(key * 3 + 1, i) : of(key, i);
-        return value;
-    }
-
-    double component(const KeyInterval& interval, size_t i) const
-    {
-        const double t = interval.along;
-        switch (interpolation())
-        {
-        case Interpolation::step:
-            return of(interval.first, i);
-        case Interpolation::linear:
-            return lerp(of(interval.first, i), of(interval.second, i), t);
-        case Interpolation::cubic_spline:
-            break;
-        }
-        // Hermite's basis; out-tangent of the first key, in-tangent of the second, each for one second
-        const double t2 = t * t, t3 = t2 * t;
-        return (2 * t3 - 3 * t2 + 1) * of(interval.first * 3 + 1, i) +
-               (t3 - 2 * t2 + t) * interval.seconds * of(interval.first * 3 + 2, i) +
-               (3 * t2 - 2 * t3) * of(interval.second * 3 + 1, i) +
-               (t3 - t2) * interval.seconds * of(interval.second * 3, i);
-    }
-
-    double of(size_t row, size_t i) const { return values_[row * channel_.components + i]; }
-
-    const AnimationChannelRecord& channel_;
-    std::span<const float> values_;
-};
+Quaternion rotationAt(const ChannelKeys& keys, const KeyInterval& interval)
+{
+    const Quaternion none{0, 0, 0, 1};
+    const Quaternion start = normalizedOr(keys.value(interval.first, 0, 4), none);
+    if (keys.interpolation() == Interpolation::linear && interval.seconds > 0)
+        return slerp(start, normalizedOr(keys.value(interval.second, 0, 4), none), interval.along);
+    return normalizedOr(valueAt(keys, interval, 0, 4), start);
+}
 
 void sampleChannel(const MotionTables& tables, const AnimationChannelRecord& channel, double time,
                    ScenePose& pose)
 {
     HEARTH_RUNTIME_ASSERT(channel.key_count > 0);
-    const KeyInterval interval = intervalAt(tables.keys.subspan(channel.first_time, channel.key_count), time);
-    const ChannelReader reader(channel, tables.keys);
+    const ChannelKeys keys(tables.keys, tables.key_bits, channel);
+    const KeyInterval interval = intervalAt(keys, time);
     NodePose& node = pose.nodes[channel.node];
     const auto vector = [&]
     {
-        const Value value = reader.at(interval, 0, 3);
+        const KeyValue value = valueAt(keys, interval, 0, 3);
         return Double3{value[0], value[1], value[2]};
     };
     switch (static_cast<AnimationPath>(channel.path))
@@ -147,7 +112,7 @@ void sampleChannel(const MotionTables& tables, const AnimationChannelRecord& cha
         node.translation = vector();
         break;
     case AnimationPath::rotation:
-        node.rotation = reader.rotationAt(interval);
+        node.rotation = rotationAt(keys, interval);
         break;
     case AnimationPath::scale:
         node.scale = vector();
@@ -156,7 +121,7 @@ void sampleChannel(const MotionTables& tables, const AnimationChannelRecord& cha
     {
         const Range weights = tables.nodes[channel.node].morph_weights;
         for (uint32_t i = 0; i < std::min(weights.count, channel.components); ++i)
-            pose.morph_weights[weights.first + i] = reader.at(interval, i, 1)[0];
+            pose.morph_weights[weights.first + i] = valueAt(keys, interval, i, 1)[0];
         break;
     }
     }
@@ -166,8 +131,8 @@ void sampleChannel(const MotionTables& tables, const AnimationChannelRecord& cha
 
 MotionTables motionTables(const PackView& pack)
 {
-    return {pack.nodes(),    pack.skins(), pack.joints(),      pack.animations(),
-            pack.channels(), pack.keys(),  pack.morphWeights()};
+    return {pack.nodes(),    pack.skins(), pack.joints(),       pack.animations(),
+            pack.channels(), pack.keys(),  pack.morphWeights(), pack.keyBits()};
 }
 
 ScenePose restPose(const MotionTables& tables)

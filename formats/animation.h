@@ -26,6 +26,7 @@ struct MotionTables
     std::span<const AnimationChannelRecord> channels;
     std::span<const float> keys;
     std::span<const float> morph_weights;
+    std::span<const uint32_t> key_bits;
 };
 
 /// They hold as long as the pack.

@@ -125,7 +125,6 @@ Status checkShadowSpheres(const PackView& view);
 Status checkMeshTables(const PackView& view);
 Status checkPageTables(const PackView& view);
 Status checkPageGeometry(const PackView& view);
-Status checkDeformations(const PackView& view);
 Status checkDeformedMeshes(const PackView& view);
 
 } // namespace hearth::formats::check

@@ -39,9 +39,18 @@ std::pair<uint32_t, uint32_t> idOf(const ChunkEntry& entry)
     return {entry.type, entry.index};
 }
 
-/// One frame of `stored` unpacks to `size` bytes; they pass through a small buffer.
+/// Exactly one frame, which names its content size: `size`. Whether it unpacks is another question.
+bool isFrameOf(std::span<const std::byte> stored, uint64_t size)
+{
+    return ZSTD_getFrameContentSize(stored.data(), stored.size()) == size &&
+           ZSTD_findFrameCompressedSize(stored.data(), stored.size()) == stored.size();
+}
+
+/// Whether decompress() takes it, found with a small buffer.
 bool decodesTo(std::span<const std::byte> stored, uint64_t size)
 {
+    if (!isFrameOf(stored, size))
+        return false;
     const std::unique_ptr<ZSTD_DCtx, size_t (*)(ZSTD_DCtx*)> context(ZSTD_createDCtx(), ZSTD_freeDCtx);
     std::vector<std::byte> buffer(ZSTD_DStreamOutSize());
     ZSTD_inBuffer in{stored.data(), stored.size(), 0};
@@ -74,13 +83,8 @@ uint64_t hashBytes(std::span<const std::byte> bytes)
 
 bool decompress(std::span<const std::byte> stored, std::span<std::byte> out)
 {
-    // exactly one frame of exactly the size that the table says
-    if (ZSTD_getFrameContentSize(stored.data(), stored.size()) != out.size())
-        return false;
-    const size_t frame = ZSTD_findFrameCompressedSize(stored.data(), stored.size());
-    if (ZSTD_isError(frame) || frame != stored.size())
-        return false;
-    return ZSTD_decompress(out.data(), out.size(), stored.data(), stored.size()) == out.size();
+    return isFrameOf(stored, out.size()) &&
+           ZSTD_decompress(out.data(), out.size(), stored.data(), stored.size()) == out.size();
 }
 
 std::string chunkName(uint32_t type, uint32_t index)

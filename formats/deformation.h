@@ -39,7 +39,7 @@ struct DeformedClusterRecord
     uint16_t reserved;
     float cone_back;
     Range joints;
-    uint32_t reserved_end;
+    float morph_reach;
 };
 
 /// Parts only: the sphere of group `group` of a deformed mesh, for chunk GRUP of the pack.
@@ -77,7 +77,10 @@ HEARTH_RECORD(
                  "metres in the joint: every triangle's plane has the apex on or behind its front"),
     HEARTH_FIELD(hearth::formats::DeformedClusterRecord, joints,
                  "chunk DJNT: all joints that move a vertex, the main bone first; none without a skin"),
-    HEARTH_FIELD(hearth::formats::DeformedClusterRecord, reserved_end, "0"));
+    HEARTH_FIELD(
+        hearth::formats::DeformedClusterRecord, morph_reach,
+        "metres: how far on any axis of the bind pose morph targets take a vertex at most, with weights "
+        "from -1 to 1"));
 HEARTH_RECORD(hearth::formats::DeformedGroupRecord, 20,
               HEARTH_FIELD(hearth::formats::DeformedGroupRecord, sphere_center, "in the anchor, all poses"),
               HEARTH_FIELD(hearth::formats::DeformedGroupRecord, sphere_radius,

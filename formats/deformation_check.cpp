@@ -64,7 +64,9 @@ Status checkCluster(const PackView& view, size_t i, uint32_t joints)
         return fail(view, Issue::meaning_value, kKind, i, "its box is empty or not finite");
     if (!nonNegative(record.cone_back))
         return fail(view, Issue::meaning_value, kKind, i, "its cone's apex is not possible");
-    if (record.reserved != 0 || record.reserved_end != 0)
+    if (!nonNegative(record.morph_reach))
+        return fail(view, Issue::meaning_value, kKind, i, "the reach of its morph targets is not possible");
+    if (record.reserved != 0)
         return fail(view, Issue::meaning_padding, kKind, i, "a reserved field is not 0");
     const auto moved = view.clusterJoints().subspan(record.joints.first, record.joints.count);
     if (moved.empty() != (joints == 0) || (!moved.empty() && moved.front() != record.joint))

@@ -1,5 +1,6 @@
 // Meaning of materials and images, skins and animations.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "formats/channel_keys.h"
 #include "formats/check_tools.h"
 #include "formats/pack_check.h"
 
@@ -103,14 +104,86 @@ private:
         steps_back_; ///< [i + 1]: keys up to and with i that are less than the one before them
 };
 
-Status checkChannel(const PackView& view, const TimeOrder& order, size_t i)
+bool isSpline(const AnimationChannelRecord& channel)
+{
+    return channel.interpolation == static_cast<uint32_t>(Interpolation::cubic_spline);
+}
+
+Status checkFloatKeys(const PackView& view, size_t i)
+{
+    const AnimationChannelRecord& channel = view.channels()[i];
+    const size_t size = view.keys().size();
+    const uint64_t floats =
+        uint64_t{channel.components} * (isSpline(channel) ? 3 : 1); // of one key: below 2^34
+    if (!insideTable({channel.first_time, channel.key_count}, size) || channel.first_value > size ||
+        floats > (size - channel.first_value) / channel.key_count)
+        return fail(view, Issue::meaning_range, "channel", i, "its keys lie outside chunk AKEY");
+    if (channel.first_word != 0 || channel.time_bits != 0 || channel.value_bits[0] != 0 ||
+        channel.value_bits[1] != 0 || channel.value_bits[2] != 0)
+        return fail(view, Issue::meaning_padding, "channel", i, "a field of packed keys is not 0");
+    return success();
+}
+
+/// next_word  where the streams of the channels before end; moved behind that of this one
+Status checkPackedKeys(const PackView& view, size_t i, uint64_t& next_word)
+{
+    const AnimationChannelRecord& channel = view.channels()[i];
+    if (isSpline(channel) || channel.path == static_cast<uint32_t>(AnimationPath::weights))
+        return fail(view, Issue::meaning_value, "channel", i, "splines and morph weights cannot be packed");
+    const auto tooWide = [](uint8_t bits) { return bits > kMostKeyFieldBits; };
+    if (std::any_of(std::begin(channel.value_bits), std::end(channel.value_bits), tooWide) ||
+        tooWide(channel.time_bits))
+        return fail(view, Issue::meaning_value, "channel", i, "a code of its keys has more than 24 bits");
+    // each stream behind the one before: what is checked is never longer than the chunk
+    if (channel.first_word < next_word)
+        return fail(view, Issue::meaning_order, "channel", i, "its packed keys are not behind those before");
+    const uint64_t words = (uint64_t{channel.key_count} * keyStride(channel) + 31) / 32;
+    if (channel.first_word > view.keyBits().size() || words > view.keyBits().size() - channel.first_word)
+        return fail(view, Issue::meaning_range, "channel", i, "its keys lie outside chunk AKBT");
+    next_word = channel.first_word + words;
+
+    const size_t size = view.keys().size();
+    if (!insideTable({channel.first_value, 4}, size) ||
+        !insideTable({channel.first_time, channel.time_bits == 0 ? channel.key_count : 1}, size))
+        return fail(view, Issue::meaning_range, "channel", i, "its keys lie outside chunk AKEY");
+    if (view.keys()[size_t{channel.first_value} + 3] < 0)
+        return fail(view, Issue::meaning_value, "channel", i, "the step of its codes is negative");
+    const auto stream = view.keyBits().subspan(channel.first_word);
+    for (uint32_t key = 0; key < channel.key_count && channel.time_bits > 0; ++key)
+        if (readBits(stream, uint64_t{key} * keyStride(channel), channel.time_bits) >=
+            size - channel.first_time)
+            return fail(view, Issue::meaning_range, "channel", i,
+                        "the time of key " + std::to_string(key) + " lies outside chunk AKEY");
+    return success();
+}
+
+/// Of keys that are inside their chunks.
+Status checkTimes(const PackView& view, const TimeOrder& order, size_t i)
+{
+    const AnimationChannelRecord& channel = view.channels()[i];
+    const ChannelKeys keys(view.keys(), view.keyBits(), channel);
+    bool ascending = keys.time(0) >= 0;
+    if (channel.time_bits == 0)
+        ascending = ascending && order.ascending(channel.first_time, channel.key_count);
+    else
+        for (uint32_t key = 1; key < keys.count() && ascending; ++key)
+            ascending = keys.time(key) >= keys.time(key - 1);
+    if (!ascending)
+        return fail(view, Issue::meaning_order, "channel", i, "its times decrease or are negative");
+    return success();
+}
+
+/// next_word  as for checkPackedKeys
+Status checkChannel(const PackView& view, const TimeOrder& order, size_t i, uint64_t& next_word)
 {
     const AnimationChannelRecord& channel = view.channels()[i];
     if (channel.node >= view.nodes().size())
         return fail(view, Issue::meaning_reference, "channel", i, "node " + std::to_string(channel.node));
     if (channel.path > static_cast<uint32_t>(AnimationPath::weights) ||
-        channel.interpolation > static_cast<uint32_t>(Interpolation::cubic_spline))
-        return fail(view, Issue::meaning_value, "channel", i, "its path or interpolation does not exist");
+        channel.interpolation > static_cast<uint32_t>(Interpolation::cubic_spline) ||
+        channel.encoding > static_cast<uint32_t>(KeyEncoding::packed))
+        return fail(view, Issue::meaning_value, "channel", i,
+                    "its path, interpolation or encoding does not exist");
     const bool weights = channel.path == static_cast<uint32_t>(AnimationPath::weights);
     const uint32_t expected = channel.path == static_cast<uint32_t>(AnimationPath::rotation) ? 4 : 3;
     if (weights ? channel.components == 0 : channel.components != expected)
@@ -119,32 +192,23 @@ Status checkChannel(const PackView& view, const TimeOrder& order, size_t i)
     if (channel.key_count == 0)
         return fail(view, Issue::meaning_value, "channel", i, "it has no keys");
 
-    const size_t size = view.keys().size();
-    const bool cubic = channel.interpolation == static_cast<uint32_t>(Interpolation::cubic_spline);
-    const uint64_t floats = uint64_t{channel.components} * (cubic ? 3 : 1); // of one key: below 2^34
-    if (!insideTable({channel.first_time, channel.key_count}, size) || channel.first_value > size ||
-        floats > (size - channel.first_value) / channel.key_count)
-        return fail(view, Issue::meaning_range, "channel", i, "its keys lie outside chunk AKEY");
-    if (view.keys()[channel.first_time] < 0 || !order.ascending(channel.first_time, channel.key_count))
-        return fail(view, Issue::meaning_order, "channel", i, "its times decrease or are negative");
-    if (channel.reserved != 0)
-        return fail(view, Issue::meaning_padding, "channel", i, "a reserved field is not 0");
-    return success();
+    HEARTH_TRY(isPacked(channel) ? checkPackedKeys(view, i, next_word) : checkFloatKeys(view, i));
+    return checkTimes(view, order, i);
 }
 
-/// `duration` is the time of the last key of all channels.
-Status checkDuration(const PackView& view, size_t i)
+/// A clip may go on after its last key: what does not move any more needs none.
+Status checkAnimation(const PackView& view, size_t i)
 {
     const AnimationRecord& animation = view.animations()[i];
     float last = 0;
     for (const AnimationChannelRecord& channel : recordsOf(view.channels(), animation.channels))
-        last = std::max(last, view.keys()[channel.first_time + channel.key_count - 1]);
-    if (animation.duration != last)
+        last = std::max(last, ChannelKeys(view.keys(), view.keyBits(), channel).time(channel.key_count - 1));
+    if (!finite(animation.duration) || animation.duration < last)
         return fail(view, Issue::meaning_value, "animation", i,
                     "duration " + std::to_string(animation.duration) + ", its last key is at " +
                         std::to_string(last));
-    if (animation.reserved != 0)
-        return fail(view, Issue::meaning_padding, "animation", i, "a reserved field is not 0");
+    if (!nonNegative(animation.error))
+        return fail(view, Issue::meaning_value, "animation", i, "its error is negative or not finite");
     return success();
 }
 
@@ -192,10 +256,11 @@ Status checkAnimations(const PackView& view)
     HEARTH_TRY(channels.finish());
 
     const TimeOrder order(view.keys());
+    uint64_t next_word = 0;
     for (size_t i = 0; i < view.channels().size(); ++i)
-        HEARTH_TRY(checkChannel(view, order, i));
+        HEARTH_TRY(checkChannel(view, order, i, next_word));
     for (size_t i = 0; i < view.animations().size(); ++i)
-        HEARTH_TRY(checkDuration(view, i));
+        HEARTH_TRY(checkAnimation(view, i));
     return success();
 }
 

@@ -19,7 +19,6 @@ inline constexpr uint32_t kChunkPageParents = fourCC("PGPA");  ///< u32[]: what 
 inline constexpr uint32_t kChunkPages = fourCC("PAGE");        ///< the pages, each aligned to 64 bytes
 inline constexpr uint32_t kChunkSourceMesh = fourCC("SMSH");   ///< mesh `index` as imported
 inline constexpr uint32_t kChunkAuthoredLods = fourCC("ALOD"); ///< AuthoredLodRecord[]
-inline constexpr uint32_t kChunkDeformation = fourCC("DEFM");  ///< joints, weights, morphs
 
 inline constexpr uint32_t kClusterMaxTriangles = 128;
 inline constexpr uint32_t kClusterMaxVertices = 256;
@@ -208,7 +207,7 @@ struct AuthoredLodRecord
     uint32_t lod;
 };
 
-/// Chunks SMSH and DEFM: SourceMeshHeader, then array_count SourceArrays, then the data, each array 16-aligned.
+/// Chunk SMSH: SourceMeshHeader, then array_count SourceArrays, then the data, each array 16-aligned.
 struct SourceMeshHeader
 {
     uint32_t array_count;
@@ -247,8 +246,8 @@ HEARTH_RECORD(
     HEARTH_FIELD(hearth::formats::MeshRecord, pages, "chunk PGTB; the first holds the coarsest level"),
     HEARTH_FIELD(hearth::formats::MeshRecord, box_min, "object space"),
     HEARTH_FIELD(hearth::formats::MeshRecord, box_max, "object space"),
-    HEARTH_FIELD(hearth::formats::MeshRecord, skinned, "1: chunk DEFM has joints and weights"),
-    HEARTH_FIELD(hearth::formats::MeshRecord, morph_target_count, "targets in chunk DEFM"),
+    HEARTH_FIELD(hearth::formats::MeshRecord, skinned, "1: its vertices have joints and weights"),
+    HEARTH_FIELD(hearth::formats::MeshRecord, morph_target_count, "morph targets"),
     HEARTH_FIELD(hearth::formats::MeshRecord, grid_step,
                  "a power of two; all positions are whole multiples of it; 0 without clusters"),
     HEARTH_FIELD(hearth::formats::MeshRecord, grid_error,

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "formats/pack_check.h"
 
-#include "formats/byte_reader.h"
 #include "formats/check_tools.h"
 
 namespace hearth::formats
@@ -72,27 +71,6 @@ Status checkMaterialsOfClusters(const PackView& view)
     return success();
 }
 
-Status checkDeformation(const PackView& view, uint32_t mesh)
-{
-    const ChunkEntry* entry = view.container().find(kChunkDeformation, mesh);
-    if (entry == nullptr)
-        return Error{Issue::chunk_missing, view.name(), chunkName(kChunkDeformation, mesh), ""};
-    HEARTH_ASSIGN_OR_RETURN(const ChunkData data, view.container().read(kChunkDeformation, mesh));
-    ByteReader reader(data.bytes());
-    const auto header = reader.read<SourceMeshHeader>();
-    if (!header)
-        return fail(view, Issue::chunk_size, "deformation", mesh, "too short for its header");
-    for (uint32_t i = 0; i < header->array_count; ++i)
-    {
-        const auto array = reader.read<SourceArray>();
-        if (!array || array->element_size == 0 ||
-            !checkedPart(data.bytes(), array->offset, array->count, array->element_size))
-            return fail(view, Issue::meaning_range, "deformation", mesh,
-                        "array " + std::to_string(i) + " lies outside the chunk");
-    }
-    return success();
-}
-
 } // namespace
 
 Status checkTexts(const PackView& view)
@@ -107,14 +85,6 @@ Status checkTexts(const PackView& view)
     HEARTH_TRY(checkNames(view, "camera", view.cameras()));
     HEARTH_TRY(checkNames(view, "light", view.lights()));
     return checkNames(view, "mesh", view.meshes());
-}
-
-Status checkDeformations(const PackView& view)
-{
-    for (uint32_t i = 0; i < view.meshes().size(); ++i)
-        if (view.meshes()[i].skinned != 0 || view.meshes()[i].morph_target_count != 0)
-            HEARTH_TRY(checkDeformation(view, i));
-    return success();
 }
 
 } // namespace check
@@ -148,7 +118,6 @@ Status checkPack(const PackView& view)
     HEARTH_TRY(check::checkShadowSpheres(view));
     HEARTH_TRY(checkHierarchy(view));
     HEARTH_TRY(check::checkMaterialsOfClusters(view));
-    HEARTH_TRY(check::checkDeformations(view));
     return check::checkDeformedMeshes(view);
 }
 

@@ -109,6 +109,7 @@ Status PackView::readTables()
     HEARTH_TRY(table(kChunkAnimations, animations_));
     HEARTH_TRY(table(kChunkChannels, channels_));
     HEARTH_TRY(table(kChunkKeys, keys_));
+    HEARTH_TRY(table(kChunkKeyBits, key_bits_));
     HEARTH_TRY(table(kChunkMorphWeights, morph_weights_));
     HEARTH_TRY(table(kChunkMeshes, meshes_));
     HEARTH_TRY(table(kChunkLevels, levels_));

@@ -278,6 +278,7 @@ public:
     std::span<const AnimationRecord> animations() const { return animations_.span(); }
     std::span<const AnimationChannelRecord> channels() const { return channels_.span(); }
     std::span<const float> keys() const { return keys_.span(); }
+    std::span<const uint32_t> keyBits() const { return key_bits_.span(); }
     std::span<const float> morphWeights() const { return morph_weights_.span(); }
     std::span<const MeshRecord> meshes() const { return meshes_.span(); }
     std::span<const LevelRecord> levels() const { return levels_.span(); }
@@ -327,6 +328,7 @@ private:
     Records<AnimationRecord> animations_;
     Records<AnimationChannelRecord> channels_;
     Records<float> keys_;
+    Records<uint32_t> key_bits_;
     Records<float> morph_weights_;
     Records<MeshRecord> meshes_;
     Records<LevelRecord> levels_;

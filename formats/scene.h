@@ -25,6 +25,7 @@ inline constexpr uint32_t kChunkJoints = fourCC("JOIN");        ///< JointRecord
 inline constexpr uint32_t kChunkAnimations = fourCC("ANIM");    ///< AnimationRecord[]
 inline constexpr uint32_t kChunkChannels = fourCC("ACHN");      ///< AnimationChannelRecord[]
 inline constexpr uint32_t kChunkKeys = fourCC("AKEY");          ///< f32[]: times and values of all channels
+inline constexpr uint32_t kChunkKeyBits = fourCC("AKBT");       ///< u32[]: packed keys
 inline constexpr uint32_t kChunkMorphWeights = fourCC("MWGT");  ///< f32[]: rest weights of morph targets
 
 /// Nodes keep their order and index of the source. A parent may stand after its child; there are no cycles.
@@ -216,7 +217,7 @@ struct AnimationRecord
     StringRef name;
     Range channels;
     float duration;
-    uint32_t reserved;
+    float error;
 };
 
 enum class AnimationPath : uint32_t
@@ -234,7 +235,17 @@ enum class Interpolation : uint32_t
     cubic_spline = 2,
 };
 
-/// values: key_count * components floats, times three (in-tangent, value, out-tangent) for a cubic spline.
+enum class KeyEncoding : uint32_t
+{
+    floats = 0,
+    packed = 1,
+};
+
+/// More bits than a float has digits gain nothing.
+inline constexpr uint32_t kMostKeyFieldBits = 24;
+
+/// Floats: key_count times, and key_count * components values, times three (in-tangent, value, out-tangent) for a
+/// cubic spline. Packed: see FORMAT.md; channel_keys.h reads both.
 struct AnimationChannelRecord
 {
     uint32_t node;
@@ -244,7 +255,10 @@ struct AnimationChannelRecord
     uint32_t key_count;
     uint32_t first_time;
     uint32_t first_value;
-    uint32_t reserved;
+    uint32_t encoding;
+    uint32_t first_word;
+    uint8_t value_bits[3];
+    uint8_t time_bits;
 };
 
 } // namespace hearth::formats
@@ -260,7 +274,8 @@ HEARTH_RECORD(hearth::formats::NodeRecord, 120,
               HEARTH_FIELD(hearth::formats::NodeRecord, rotation, "unit quaternion x y z w"),
               HEARTH_FIELD(hearth::formats::NodeRecord, scale, ""),
               HEARTH_FIELD(hearth::formats::NodeRecord, parent_from_node, "row-major 3x4"),
-              HEARTH_FIELD(hearth::formats::NodeRecord, morph_weights, "floats of chunk MWGT"));
+              HEARTH_FIELD(hearth::formats::NodeRecord, morph_weights,
+                           "floats of chunk MWGT, one for each target of the mesh"));
 HEARTH_RECORD(hearth::formats::InstanceRecord, 64,
               HEARTH_FIELD(hearth::formats::InstanceRecord, world_from_object, "row-major 3x4, rest pose"),
               HEARTH_FIELD(hearth::formats::InstanceRecord, mesh, "mesh"),
@@ -342,21 +357,30 @@ HEARTH_RECORD(hearth::formats::JointRecord, 64, HEARTH_FIELD(hearth::formats::Jo
               HEARTH_FIELD(hearth::formats::JointRecord, reserved, "0"),
               HEARTH_FIELD(hearth::formats::JointRecord, joint_from_bind,
                            "inverse bind matrix, row-major 3x4"));
-HEARTH_RECORD(hearth::formats::AnimationRecord, 24,
-              HEARTH_FIELD(hearth::formats::AnimationRecord, name, "may be empty"),
-              HEARTH_FIELD(hearth::formats::AnimationRecord, channels, "records of chunk ACHN"),
-              HEARTH_FIELD(hearth::formats::AnimationRecord, duration,
-                           "seconds: the last key of all channels"),
-              HEARTH_FIELD(hearth::formats::AnimationRecord, reserved, "0"));
-HEARTH_RECORD(hearth::formats::AnimationChannelRecord, 32,
-              HEARTH_FIELD(hearth::formats::AnimationChannelRecord, node, "node that moves"),
-              HEARTH_FIELD(hearth::formats::AnimationChannelRecord, path,
-                           "0 translation, 1 rotation, 2 scale, 3 morph weights"),
-              HEARTH_FIELD(hearth::formats::AnimationChannelRecord, interpolation,
-                           "0 step, 1 linear, 2 cubic spline"),
-              HEARTH_FIELD(hearth::formats::AnimationChannelRecord, components, "floats of one value"),
-              HEARTH_FIELD(hearth::formats::AnimationChannelRecord, key_count, ""),
-              HEARTH_FIELD(hearth::formats::AnimationChannelRecord, first_time,
-                           "float of chunk AKEY; key_count times"),
-              HEARTH_FIELD(hearth::formats::AnimationChannelRecord, first_value, "float of chunk AKEY"),
-              HEARTH_FIELD(hearth::formats::AnimationChannelRecord, reserved, "0"));
+HEARTH_RECORD(
+    hearth::formats::AnimationRecord, 24,
+    HEARTH_FIELD(hearth::formats::AnimationRecord, name, "may be empty"),
+    HEARTH_FIELD(hearth::formats::AnimationRecord, channels, "records of chunk ACHN"),
+    HEARTH_FIELD(hearth::formats::AnimationRecord, duration,
+                 "seconds: not before the last key of all channels"),
+    HEARTH_FIELD(hearth::formats::AnimationRecord, error,
+                 "metres in the world: how far a vertex may be from where the source's clip takes it"));
+HEARTH_RECORD(
+    hearth::formats::AnimationChannelRecord, 40,
+    HEARTH_FIELD(hearth::formats::AnimationChannelRecord, node, "node that moves"),
+    HEARTH_FIELD(hearth::formats::AnimationChannelRecord, path,
+                 "0 translation, 1 rotation, 2 scale, 3 morph weights"),
+    HEARTH_FIELD(hearth::formats::AnimationChannelRecord, interpolation, "0 step, 1 linear, 2 cubic spline"),
+    HEARTH_FIELD(hearth::formats::AnimationChannelRecord, components, "floats of one value"),
+    HEARTH_FIELD(hearth::formats::AnimationChannelRecord, key_count, ""),
+    HEARTH_FIELD(hearth::formats::AnimationChannelRecord, first_time,
+                 "float of chunk AKEY; key_count times, or the table of packed times"),
+    HEARTH_FIELD(hearth::formats::AnimationChannelRecord, first_value,
+                 "float of chunk AKEY; packed: x, y, z of the code 0, and the step of codes"),
+    HEARTH_FIELD(hearth::formats::AnimationChannelRecord, encoding, "0 floats, 1 packed"),
+    HEARTH_FIELD(hearth::formats::AnimationChannelRecord, first_word, "packed: word of chunk AKBT; else 0"),
+    HEARTH_FIELD(hearth::formats::AnimationChannelRecord, value_bits,
+                 "packed: bits of the codes of x, y, z, at most 24; else 0"),
+    HEARTH_FIELD(
+        hearth::formats::AnimationChannelRecord, time_bits,
+        "packed: bits of a key's place in the table of times, at most 24; 0: they follow each other"));

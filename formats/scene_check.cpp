@@ -47,7 +47,8 @@ Status checkMeshOfNode(const PackView& view, size_t i)
     if (!noneOrBelow(node.mesh, view.meshes().size()))
         return fail(view, Issue::meaning_reference, "node", i, "mesh " + std::to_string(node.mesh));
     const uint32_t targets = node.mesh == kNone ? 0 : view.meshes()[node.mesh].morph_target_count;
-    if (node.morph_weights.count != 0 && node.morph_weights.count != targets)
+    // a weight for each of them also keeps the number of targets plausible
+    if (node.morph_weights.count != targets)
         return fail(view, Issue::meaning_value, "node", i,
                     std::to_string(node.morph_weights.count) + " morph weights for " +
                         std::to_string(targets) + " targets");

@@ -80,12 +80,12 @@ AuthoredLevel takeTriangles(const PreparedMesh& prepared, size_t& first, size_t 
 } // namespace
 
 JoinedMesh joinAuthored(mesh::SourceMesh source, std::span<const mesh::SourceMesh> authored,
-                        uint32_t influences)
+                        uint32_t influences, const MeshMotion* motion)
 {
     JoinedMesh joined;
     if (authored.empty())
     {
-        joined.mesh = prepareMesh(std::move(source), influences);
+        joined.mesh = prepareMesh(std::move(source), influences, motion);
         return joined;
     }
     // triangles are numbered in place of their materials, so that it shows which of them are kept
@@ -103,7 +103,7 @@ JoinedMesh joinAuthored(mesh::SourceMesh source, std::span<const mesh::SourceMes
     }
     source.triangle_materials.resize(materials.size());
     std::iota(source.triangle_materials.begin(), source.triangle_materials.end(), 0u);
-    joined.mesh = prepareMesh(std::move(source), influences);
+    joined.mesh = prepareMesh(std::move(source), influences, motion);
 
     size_t first = 0;
     AuthoredLevel finest = takeTriangles(joined.mesh, first, ends[0], materials);

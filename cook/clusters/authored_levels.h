@@ -34,7 +34,7 @@ struct JoinedMesh
 /// what they have besides, and what they lack is 0, white, or made up from the normal. A level that has not fewer
 /// triangles than the one before it, or than the source, is left out: it would cost more and show less.
 JoinedMesh joinAuthored(mesh::SourceMesh source, std::span<const mesh::SourceMesh> authored,
-                        uint32_t influences = 8);
+                        uint32_t influences = 8, const MeshMotion* motion = nullptr);
 
 /// Compare the attributes of a level with those of the source, whose triangles are `source_corners`: at the middles of at
 /// most 131072 of these, evenly through their order, and the points of the level that are nearest to them.

@@ -59,11 +59,11 @@ Hierarchy buildHierarchy(mesh::SourceMesh source, std::span<const mesh::SourceMe
 {
     Hierarchy hierarchy;
     fillSourceCounts(source, hierarchy.mesh);
-    JoinedMesh joined = joinAuthored(std::move(source), authored, config.influences);
-    joined.mesh.motion = motion;
+    JoinedMesh joined = joinAuthored(std::move(source), authored, config.influences, motion);
     Build build{
         std::move(joined.mesh), config, {}, joined.levels, std::vector<uint32_t>(authored.size(), kNone)};
     hierarchy.counts.influence_loss = build.mesh.influence_loss;
+    hierarchy.counts.influence_displacement = build.mesh.influence_displacement;
     if (build.mesh.triangleCount() > 0)
     {
         buildLevels(build);

@@ -8,7 +8,9 @@
 #include "cook/mesh/source_mesh.h"
 #include "formats/mesh.h"
 
+#include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -31,7 +33,8 @@ struct PreparedMesh
     std::vector<uint32_t> position_of_vertex; ///< for each vertex
     const MeshMotion* motion = nullptr;       ///< of a deformed mesh; null: nothing moves it
     mesh::InfluenceLoss influence_loss;
-    std::vector<float> morph_steps; ///< of each morph target's deltas; a power of two
+    std::optional<double> influence_displacement; ///< as in BuildCounts
+    std::vector<float> morph_steps;               ///< of each morph target's deltas; a power of two
 
     size_t triangleCount() const { return corners.size() / 3; }
     bool deforms() const { return !vertices.joint_sets.empty() || !vertices.morph_targets.empty(); }
@@ -39,6 +42,14 @@ struct PreparedMesh
 
 /// Most vertices of a cluster: fewer than the format's limit where the morph targets of two would not fit into a page.
 uint32_t clusterVertexLimit(const PreparedMesh& mesh);
+
+/// So many triangles as whole clusters hold, or all where they are less than one.
+inline size_t fullClusters(size_t triangles)
+{
+    return triangles < formats::kClusterMaxTriangles
+               ? triangles
+               : triangles / formats::kClusterMaxTriangles * formats::kClusterMaxTriangles;
+}
 
 /// A cluster's triangles: three u8 indices into its own list of vertices.
 struct ClusterShape
@@ -88,6 +99,7 @@ void appendVertices(mesh::SourceMesh& to, const mesh::SourceMesh& from);
 /// Move to the grid, weld, drop triangles without area and those that the grid takes an edge from, merge equal vertices.
 /// What deforms the mesh comes to what its pages can hold: `influences` (4 or 8) of each vertex at most, in codes, and
 /// morph deltas in steps.
-PreparedMesh prepareMesh(mesh::SourceMesh source, uint32_t influences = 8);
+PreparedMesh prepareMesh(mesh::SourceMesh source, uint32_t influences = 8,
+                         const MeshMotion* motion = nullptr);
 
 } // namespace hearth::clusters

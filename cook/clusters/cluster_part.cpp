@@ -225,13 +225,6 @@ Status writeClustersPart(const ContainerReader& part, const std::string& output_
     }
     HEARTH_TRY(writer.endChunk());
 
-    // joints, weights and morph targets go on as they are: their cooking needs the source's vertices
-    for (uint32_t i = 0; i < mesh_count; ++i)
-        if (tables.meshes[i].skinned != 0 || tables.meshes[i].morph_target_count != 0)
-        {
-            HEARTH_ASSIGN_OR_RETURN(const mesh::SourceMesh source, mesh::readSourceMesh(part, i));
-            HEARTH_TRY(mesh::writeDeformation(writer, i, source));
-        }
     HEARTH_TRY(writer.addText(kChunkStrings, tables.strings));
     HEARTH_TRY(addTable(writer, kChunkMeshes, tables.meshes));
     HEARTH_TRY(addTable(writer, kChunkLevels, tables.levels));

@@ -49,6 +49,11 @@ void printWarning(const Arguments& arguments, std::string detail)
     std::fprintf(stderr, "%s\n", formatMessage(warning).c_str());
 }
 
+std::string displacementText(std::optional<double> metres)
+{
+    return metres ? fmt::format("up to {:.3g} m", *metres) : std::string("at any distance");
+}
+
 void printWarnings(const Arguments& arguments, std::span<const clusters::MeshStatistics> meshes)
 {
     uint64_t stuck_groups = 0;
@@ -63,6 +68,14 @@ void printWarnings(const Arguments& arguments, std::span<const clusters::MeshSta
                                          target.triangles ? std::to_string(*target.triangles)
                                                           : fmt::format("{} levels", mesh.levels.size())));
     }
+    for (const clusters::MeshStatistics& mesh : meshes)
+        if (const uint32_t vertices = mesh.counts.influence_loss.vertex_count; vertices > 0)
+            printWarning(
+                arguments,
+                fmt::format("mesh {} '{}' loses the least influences of {} vertices, which are then {} "
+                            "from where these would carry them",
+                            mesh.index, mesh.name, vertices,
+                            displacementText(mesh.counts.influence_displacement)));
     for (const clusters::MeshStatistics& mesh : meshes)
         for (size_t i = 0; i < mesh.authored_levels.size(); ++i)
             if (mesh.authored_levels[i] == formats::kNone)
@@ -148,7 +161,7 @@ int run(const Arguments& arguments)
     if (!profile.ok())
         return fail(profile.error());
     const clusters::SourcePart source =
-        clusters::openSourcePart(arguments.input, arguments.lods, arguments.output);
+        clusters::openSourcePart(arguments.input, {arguments.lods, arguments.profile}, arguments.output);
     if (!source.part)
         return source.exit_code;
     const Status status = cook(arguments, *profile, *source.part);

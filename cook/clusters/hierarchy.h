@@ -64,6 +64,9 @@ struct BuildCounts
     uint64_t stuck_groups = 0;      ///< roots besides the one that ends the hierarchy
     uint64_t loose_pieces = 0; ///< pieces of triangles whose distance was bounded without closing the search
     mesh::InfluenceLoss influence_loss; ///< what the source's influences beyond Config::influences were
+    /// How far a vertex may be from where these too would carry it (influence_displacement.h); nothing where that has no bound,
+    /// or the motion is not known.
+    std::optional<double> influence_displacement;
 };
 
 /// One mesh as formats/mesh.h describes it, with indices that start at 0: clusters, groups and pages are ordered

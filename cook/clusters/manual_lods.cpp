@@ -79,9 +79,10 @@ private:
 };
 
 /// Words of a vertex with places on grids in full: 3 of the position, then the normal's code, the tangent, two of each UV
-/// set, two of the colour. What a mesh lacks is 0.
-constexpr size_t kPositionWord = 0, kNormalWord = 3, kTangentWord = 4, kUvWord = 5, kColorWord = 13;
-using FullVertex = std::array<uint32_t, 15>;
+/// set, two of the colour, eight of the influences. What a mesh lacks is 0.
+constexpr size_t kPositionWord = 0, kNormalWord = 3, kTangentWord = 4, kUvWord = 5, kColorWord = 13,
+                 kInfluenceWord = 15;
+using FullVertex = std::array<uint32_t, 23>;
 
 struct HashOfVertex
 {
@@ -115,6 +116,8 @@ FullVertex fullVertex(const ClusterRecord& cluster, const ClusterGeometry& geome
     if (geometry.has(kVertexColor))
         for (uint32_t k = 0; k < (geometry.has(kVertexFineColor) ? 2u : 1u); ++k)
             full[kColorWord + k] = geometry.word(v, attributeWord(layout, kVertexColor) + k);
+    for (uint32_t i = 0; i < influencesOf(layout); ++i)
+        full[kInfluenceWord + i] = geometry.word(v, attributeWord(layout, kVertexInfluences) + i);
     return full;
 }
 
@@ -150,7 +153,7 @@ public:
             for (size_t i = 0; i < size; ++i)
                 bytes.push_back(static_cast<std::byte>(value >> (8 * i)));
         };
-        const std::array<GridRange, 15> ranges = gridRanges(layout);
+        const GridRanges ranges = gridRanges(layout);
         const bool fine = (layout & kVertexFineNormal) != 0;
         for (const FullVertex& vertex : vertices_)
         {
@@ -171,6 +174,8 @@ public:
                 put(vertex[kColorWord], 4);
             if (layout & kVertexFineColor)
                 put(vertex[kColorWord + 1], 4);
+            for (uint32_t i = 0; i < influencesOf(layout); ++i)
+                put(vertex[kInfluenceWord + i], 4);
         }
         HEARTH_ASSERT(bytes.size() == vertices_.size() * vertexWords(layout) * 4);
         return bytes;
@@ -201,9 +206,11 @@ private:
         }
     };
 
-    std::array<GridRange, 15> gridRanges(uint32_t layout) const
+    using GridRanges = std::array<GridRange, std::tuple_size_v<FullVertex>>;
+
+    GridRanges gridRanges(uint32_t layout) const
     {
-        std::array<GridRange, 15> ranges;
+        GridRanges ranges;
         for (size_t word = 0; word < ranges.size(); ++word)
         {
             GridRange& range = ranges[word];

@@ -29,7 +29,7 @@ struct ManualLods
 };
 
 /// Count the chain whose meshes are cuts of the hierarchy: each the finest that has few enough triangles. A vertex takes
-/// the bytes that it has in a narrow cluster of the hierarchy, an index 16 bits, or 32 in meshes of more than 65536
+/// the bytes that it has in a narrow cluster of the hierarchy, morph targets aside, an index 16 bits, or 32 in meshes of more than 65536
 /// vertices. Time and memory as for a few copies of the mesh.
 ManualLods measureManualLods(const Hierarchy& hierarchy);
 

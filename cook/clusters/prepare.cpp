@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/clusters/cluster.h"
+#include "cook/clusters/influence_displacement.h"
 #include "cook/mesh/deformation.h"
 #include "cook/mesh/triangles.h"
 #include "cook/mesh/weld.h"
@@ -143,11 +144,23 @@ uint32_t clusterVertexLimit(const PreparedMesh& mesh)
     return static_cast<uint32_t>(std::clamp<size_t>(limit, 3, kClusterMaxVertices));
 }
 
-PreparedMesh prepareMesh(mesh::SourceMesh source, uint32_t influences)
+PreparedMesh prepareMesh(mesh::SourceMesh source, uint32_t influences, const MeshMotion* motion)
 {
     PreparedMesh prepared;
+    prepared.motion = motion;
+    mesh::SourceMesh all; // of joints and weights alone
+    if (source.joint_sets.size() * 4 > influences)
+    {
+        all.joint_sets = source.joint_sets;
+        all.weight_sets = source.weight_sets;
+    }
     prepared.influence_loss = mesh::reduceInfluences(source, influences);
     prepared.morph_steps = mesh::snapMorphTargets(source);
+    if (prepared.influence_loss.vertex_count == 0)
+        prepared.influence_displacement = 0;
+    else if (motion != nullptr && motion->skin != nullptr)
+        prepared.influence_displacement = influenceDisplacement(all, source, *motion);
+    all = {};
     prepared.attributes = mesh::attributesOf(source);
     const std::vector<uint8_t> degenerate = degenerateTriangles(source);
     prepared.grid = mesh::snapToGrid(source);

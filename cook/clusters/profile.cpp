@@ -228,7 +228,8 @@ Status readRules(const toml::table& table, std::string_view name, const Place& p
 
 Result<Profile> profileOf(const toml::table& root, const std::string& path)
 {
-    HEARTH_TRY(tableAt(root, {path, ""}, {"clusters"}));
+    // [animation] is for hearth-import
+    HEARTH_TRY(tableAt(root, {path, ""}, {"animation", "clusters"}));
     Profile profile;
     const toml::node* node = root.get("clusters");
     if (node == nullptr)

@@ -65,7 +65,7 @@ int passOn(const tools::ChildEnd& end, const std::string& source, const std::str
         .exit_code;
 }
 
-SourcePart importSource(const std::string& source, std::span<const std::string> lods,
+SourcePart importSource(const std::string& source, const ImportArguments& arguments,
                         const std::string& output)
 {
     // first, so that it goes last: signals wait until the folder is gone
@@ -75,8 +75,10 @@ SourcePart importSource(const std::string& source, std::span<const std::string> 
         return failed(folder.error());
     const std::string part = folder->path() + "/import.part";
     std::vector<std::string> command{tools::programFolder() + "/hearth-import", source, "-o", part};
-    for (const std::string& lod : lods)
+    for (const std::string& lod : arguments.lods)
         command.insert(command.end(), {"--lod", lod});
+    if (!arguments.profile.empty())
+        command.insert(command.end(), {"--profile", arguments.profile});
     const auto child = children.start(command);
     if (!child.ok())
         return failed(child.error());
@@ -90,12 +92,12 @@ SourcePart importSource(const std::string& source, std::span<const std::string> 
 
 } // namespace
 
-SourcePart openSourcePart(const std::string& path, std::span<const std::string> lods,
+SourcePart openSourcePart(const std::string& path, const ImportArguments& arguments,
                           const std::string& output)
 {
     if (!isContainer(path))
-        return importSource(path, lods, output);
-    if (!lods.empty())
+        return importSource(path, arguments, output);
+    if (!arguments.lods.empty())
         return failed(
             {Issue::usage, path, "", "is an import part: --lod is for hearth-import, which wrote it"});
     return opened(path);

@@ -17,12 +17,18 @@ struct SourcePart
     int exit_code = 0;                            ///< of the process, on failure
 };
 
+/// What hearth-import is told, where it runs; an import part has been told before.
+struct ImportArguments
+{
+    std::span<const std::string> lods; ///< "N=FILE"
+    std::string profile;               ///< empty: none
+};
+
 /// Open an import part; a file that is no container goes through the program hearth-import beside this one, into a
 /// folder that is gone when this returns: what is open stays readable. Problems are told on stderr.
 ///
-/// lods    "N=FILE" as hearth-import takes them; an import part has its own
 /// output  names the folder for temporary files where TMPDIR does not
-SourcePart openSourcePart(const std::string& path, std::span<const std::string> lods,
+SourcePart openSourcePart(const std::string& path, const ImportArguments& arguments,
                           const std::string& output);
 
 } // namespace hearth::clusters

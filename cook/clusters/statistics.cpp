@@ -141,21 +141,24 @@ Json totalsJson(std::span<const MeshStatistics> meshes)
 
 Json meshJson(const MeshStatistics& mesh)
 {
-    Json json{{"index", mesh.index},
-              {"name", mesh.name},
-              {"source", {{"triangles", mesh.source_triangles}, {"vertices", mesh.source_vertices}}},
-              {"degenerate_triangles", mesh.degenerate_triangles},
-              {"levels", Json::array()},
-              {"groups", mesh.groups},
-              {"clusters", mesh.clusters},
-              {"pages", mesh.pages},
-              {"groups_by_outcome", countsJson(mesh.counts)},
-              {"loose_pieces", mesh.counts.loose_pieces},
-              {"lost_influences",
-               {{"vertices", mesh.counts.influence_loss.vertex_count},
-                {"most_weight", mesh.counts.influence_loss.most_weight},
-                {"mean_weight", mesh.counts.influence_loss.mean_weight}}},
-              {"bytes", bytesJson(mesh)}};
+    Json json{
+        {"index", mesh.index},
+        {"name", mesh.name},
+        {"source", {{"triangles", mesh.source_triangles}, {"vertices", mesh.source_vertices}}},
+        {"degenerate_triangles", mesh.degenerate_triangles},
+        {"levels", Json::array()},
+        {"groups", mesh.groups},
+        {"clusters", mesh.clusters},
+        {"pages", mesh.pages},
+        {"groups_by_outcome", countsJson(mesh.counts)},
+        {"loose_pieces", mesh.counts.loose_pieces},
+        {"lost_influences",
+         {{"vertices", mesh.counts.influence_loss.vertex_count},
+          {"most_weight", mesh.counts.influence_loss.most_weight},
+          {"mean_weight", mesh.counts.influence_loss.mean_weight},
+          {"displacement",
+           mesh.counts.influence_displacement ? Json(*mesh.counts.influence_displacement) : Json(nullptr)}}},
+        {"bytes", bytesJson(mesh)}};
     for (const LevelStatistics& level : mesh.levels)
         json["levels"].push_back(levelJson(level));
     if (!mesh.targets.empty())

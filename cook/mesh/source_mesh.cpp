@@ -35,8 +35,6 @@ public:
         contents_.push_back(std::as_bytes(std::span(values)));
     }
 
-    bool empty() const { return arrays_.empty(); }
-
     std::vector<std::byte> pack(SourceMeshHeader header)
     {
         header.array_count = static_cast<uint32_t>(arrays_.size());
@@ -185,18 +183,6 @@ Status writeSourceMesh(ContainerWriter& writer, uint32_t index, const SourceMesh
     const auto name = std::as_bytes(std::span(mesh.name));
     bytes.insert(bytes.end(), name.begin(), name.end());
     return writer.addChunk({.type = kChunkSourceMesh, .index = index}, bytes, 1, Codec::none);
-}
-
-Status writeDeformation(ContainerWriter& writer, uint32_t index, const SourceMesh& mesh)
-{
-    ArrayPacker packer;
-    addDeformation(packer, mesh);
-    if (packer.empty())
-        return success();
-    SourceMeshHeader header = headerOf(mesh);
-    header.name = {};
-    const std::vector<std::byte> bytes = packer.pack(header);
-    return writer.addChunk({.type = kChunkDeformation, .index = index}, bytes, 1, Codec::zstd);
 }
 
 Result<SourceMesh> readSourceMesh(const ContainerReader& reader, uint32_t index)

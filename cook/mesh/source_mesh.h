@@ -62,7 +62,4 @@ Status writeSourceMesh(formats::ContainerWriter& writer, uint32_t index, const S
 /// Read chunk SMSH `index` back. errors: chunk_missing, chunk_size, index_out_of_range and those of the container.
 Result<SourceMesh> readSourceMesh(const formats::ContainerReader& reader, uint32_t index);
 
-/// Write joints, weights and morph targets alone as chunk DEFM `index`; nothing if the mesh has none.
-Status writeDeformation(formats::ContainerWriter& writer, uint32_t index, const SourceMesh& mesh);
-
 } // namespace hearth::mesh

@@ -13,10 +13,11 @@ namespace hearth::motion
 
 /// Add the box of three components of a translation or scale. Splines are held by their Bezier control points, which
 /// are subdivided until they lie close.
-void addValues(const formats::AnimationChannelRecord& channel, std::span<const float> keys, Box3d& box);
+void addValues(const formats::MotionTables& tables, const formats::AnimationChannelRecord& channel,
+               Box3d& box);
 
 /// Add the range of component `component`, a morph weight.
-void addValues(const formats::AnimationChannelRecord& channel, std::span<const float> keys,
+void addValues(const formats::MotionTables& tables, const formats::AnimationChannelRecord& channel,
                uint32_t component, Interval& range);
 
 /// Quaternions of any length but 0. What they stand for is the cone of each piece's points: rotations between the keys
@@ -28,20 +29,7 @@ struct RotationPoints
 };
 
 /// Add the points of a rotation channel.
-void addRotations(const formats::AnimationChannelRecord& channel, std::span<const float> keys,
+void addRotations(const formats::MotionTables& tables, const formats::AnimationChannelRecord& channel,
                   RotationPoints& points);
-
-/// Seconds, both ends included.
-struct TimeSpan
-{
-    double from = 0;
-    double to = 0;
-};
-
-/// The same for the channel in a part of its time alone.
-void addValuesIn(TimeSpan time, const formats::AnimationChannelRecord& channel, std::span<const float> keys,
-                 Box3d& box);
-void addRotationsIn(TimeSpan time, const formats::AnimationChannelRecord& channel,
-                    std::span<const float> keys, RotationPoints& points);
 
 } // namespace hearth::motion

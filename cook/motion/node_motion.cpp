@@ -123,13 +123,13 @@ void addChannel(const MotionTables& tables, const AnimationChannelRecord& channe
     switch (static_cast<AnimationPath>(channel.path))
     {
     case AnimationPath::translation:
-        addValues(channel, tables.keys, gathered.translations);
+        addValues(tables, channel, gathered.translations);
         break;
     case AnimationPath::rotation:
-        addRotations(channel, tables.keys, gathered.rotations);
+        addRotations(tables, channel, gathered.rotations);
         break;
     case AnimationPath::scale:
-        addValues(channel, tables.keys, gathered.scales);
+        addValues(tables, channel, gathered.scales);
         break;
     case AnimationPath::weights:
         break;
@@ -280,7 +280,7 @@ std::vector<Interval> morphWeightRanges(const MotionTables& tables, uint32_t nod
              tables.channels.subspan(animation.channels.first, animation.channels.count))
             if (channel.node == node && static_cast<AnimationPath>(channel.path) == AnimationPath::weights)
                 for (uint32_t i = 0; i < std::min<size_t>(channel.components, targets); ++i)
-                    addValues(channel, tables.keys, i, ranges[i]);
+                    addValues(tables, channel, i, ranges[i]);
     for (Interval& range : ranges)
         range.grow(kRoundingMargin * range.magnitude());
     return ranges;

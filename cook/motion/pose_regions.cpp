@@ -2,6 +2,8 @@
 #include "cook/motion/pose_regions.h"
 
 #include "cook/motion/quaternion.h"
+#include "cook/motion/slerp_model.h"
+#include "formats/channel_keys.h"
 
 #include <algorithm>
 #include <bit>
@@ -24,144 +26,174 @@ constexpr uint32_t kLeastLeaves = 8;
 // Blends are cut down to this share of the way between two clips.
 constexpr double kLeastWeights = 1.0 / 64;
 
+// How many radians, between quaternions, a rotation counts as that can be any.
 constexpr double kAnyRotation = std::numbers::pi / 2;
-// Wider spans of rotations count as any rotation.
-constexpr double kMostAngle = 0.78;
-// What the arc cosine of rounded quaternions loses.
-constexpr double kAngleMargin = 3e-8;
+
+// What a polynomial leaves out of a turn by so many radians in all, as a share of it, over their square. Measured: with
+// a hundred times more, boxes of the fox come out 1.9 times the tightest, with this 1.6, for the same work.
+constexpr double kBend = 0.005;
 
 double angleBetween(const Quaternion& a, const Quaternion& b)
 {
-    return std::acos(std::min(1.0, std::abs(dot(a, b)))) + kAngleMargin;
+    return std::acos(std::min(1.0, std::abs(dot(a, b))));
 }
 
-void setRotations(NodeSpan& span, const RotationPoints& points)
+/// Seconds at which a channel has a key, in order.
+std::vector<double> keyTimes(const MotionTables& tables, const AnimationRecord& animation)
 {
-    Quaternion sum{};
-    for (const Quaternion& q : points.points)
+    std::vector<double> times;
+    for (const AnimationChannelRecord& channel :
+         tables.channels.subspan(animation.channels.first, animation.channels.count))
     {
-        const double factor = (dot(q, points.points.front()) < 0 ? -1 : 1) / length(q);
-        for (size_t i = 0; i < 4; ++i)
-            sum[i] += factor * q[i];
+        const ChannelKeys keys(tables.keys, tables.key_bits, channel);
+        for (uint32_t key = 0; key < keys.count(); ++key)
+            times.push_back(keys.time(key));
     }
-    span.rotation = normalizedOrNone(sum);
-    span.angle = points.unbounded ? kAnyRotation : 0;
-    for (const Quaternion& q : points.points)
-        span.angle = std::max(span.angle, angleBetween(span.rotation, scaled(q, 1 / length(q))));
-    if (!(span.angle <= kMostAngle))
-        span.angle = kAnyRotation;
+    std::sort(times.begin(), times.end());
+    times.erase(std::unique(times.begin(), times.end()), times.end());
+    return times;
 }
 
-void join(Box3d& box, const Box3d& other)
+/// At the key that is nearest to the middle of a span, or there if all are near its ends.
+double cutOf(TimeSpan span, std::span<const double> key_times)
 {
-    for (size_t i = 0; i < 3; ++i)
+    const double middle = 0.5 * (span.from + span.to), quarter = 0.25 * (span.to - span.from);
+    const auto later = std::lower_bound(key_times.begin(), key_times.end(), middle);
+    double cut = middle, distance = quarter;
+    const auto propose = [&](double time)
     {
-        box[i].add(other[i].low);
-        box[i].add(other[i].high);
-    }
-}
-
-NodeSpan joined(const NodeSpan& a, const NodeSpan& b)
-{
-    NodeSpan span = a;
-    join(span.translations, b.translations);
-    join(span.scales, b.scales);
-    span.rotation = slerp(a.rotation, b.rotation, 0.5);
-    span.angle = std::max(angleBetween(span.rotation, a.rotation) + a.angle,
-                          angleBetween(span.rotation, b.rotation) + b.angle);
-    if (!(span.angle <= kMostAngle))
-        span.angle = kAnyRotation;
-    return span;
-}
-
-/// The blend of two boxes with weights around a middle one.
-Box3d blended(const Box3d& from, const Box3d& to, const PoseRegion& region)
-{
-    Box3d box;
-    for (size_t i = 0; i < 3; ++i)
-        for (const double weight : {region.low_weight, region.high_weight})
+        if (std::abs(time - middle) < distance)
         {
-            box[i].add((1 - weight) * from[i].low + weight * to[i].low);
-            box[i].add((1 - weight) * from[i].high + weight * to[i].high);
+            distance = std::abs(time - middle);
+            cut = time;
         }
-    return box;
+    };
+    if (later != key_times.begin())
+        propose(*std::prev(later));
+    if (later != key_times.end())
+        propose(*later);
+    return cut;
 }
 
-double size(const NodeSpan& span)
+/// What a node does in a span of time: what polynomials say, and what they leave out.
+struct Motion
 {
-    return 2 * span.angle +
-           length(half(span.translations)) /
-               (length(middle(span.translations)) + length(half(span.translations)) + 1e-30) +
-           length(half(span.scales));
+    double smooth = 0;
+    double rough = 0;
+};
+
+void addMotion(const NodeSpan& span, Motion& motion)
+{
+    const auto add = [&](const TimeCurve& curve, double share)
+    {
+        motion.smooth += share * (length(curve.terms[1]) + length(curve.terms[2]));
+        motion.rough += share * std::min(curve.remainder, kAnyRotation);
+    };
+    add(span.rotation, 2);
+    add(span.scale, 1);
+    const double size = length(span.translation.terms[0]) + length(span.translation.terms[1]) +
+                        length(span.translation.terms[2]) + span.translation.remainder;
+    add(span.translation, 1 / (size + 1e-30));
+}
+
+/// (1 - w) from + w to.
+VectorModel blended(const TimeCurve& from, const TimeCurve& to, Interval weights)
+{
+    const double weight = weights.middle(), half = weights.half();
+    VectorModel model;
+    for (size_t i = 0; i < 3; ++i)
+    {
+        const double a[3] = {from.terms[0][i], from.terms[1][i], from.terms[2][i]};
+        const double b[3] = {to.terms[0][i], to.terms[1][i], to.terms[2][i]};
+        const auto term = [&](size_t at) -> double& { return model.terms[at][i]; };
+        term(0) = (1 - weight) * a[0] + weight * b[0];
+        term(kFirstLinear) = (1 - weight) * a[1];
+        term(kFirstLinear + 1) = weight * b[1];
+        term(kFirstLinear + 2) = half * (b[0] - a[0]);
+        term(termOf(0, 0)) = (1 - weight) * a[2];
+        term(termOf(1, 1)) = weight * b[2];
+        term(termOf(0, 2)) = -half * a[1];
+        term(termOf(1, 2)) = half * b[1];
+    }
+    model.remainder = half * (length(from.terms[2]) + length(to.terms[2])) +
+                      std::max(std::lerp(from.remainder, to.remainder, weights.low),
+                               std::lerp(from.remainder, to.remainder, weights.high));
+    return model;
+}
+
+Value vectorValue(Double3 v)
+{
+    return {v.x, v.y, v.z, 0};
 }
 
 } // namespace
 
-PoseRegions::PoseRegions(const MotionTables& tables, std::span<const NodeMotion> nodes) : nodes_(nodes)
+PoseRegions::PoseRegions(const MotionTables& tables, std::span<const NodeMotion> nodes)
+    : tables_(tables), nodes_(nodes)
 {
     for (const NodePose& pose : restPose(tables).nodes)
-    {
-        NodeSpan span;
-        add(span.translations, pose.translation);
-        add(span.scales, pose.scale);
-        setRotations(span, {{pose.rotation}, false});
-        rest_.push_back(span);
-    }
-    clips_.push_back(restClip());
+        rest_.push_back({curveOf(vectorValue(pose.translation)), curveOf(pose.rotation),
+                         curveOf(vectorValue(pose.scale))});
+    Clip rest;
+    rest.times.resize(2);
+    rest.parts = std::make_unique<Part[]>(2);
+    clips_.push_back(std::move(rest));
     for (const AnimationRecord& animation : tables.animations)
-        clips_.push_back(clipOf(tables, animation));
+        clips_.push_back(clipOf(animation));
 }
 
-PoseRegions::Clip PoseRegions::restClip() const
+PoseRegions::Clip PoseRegions::clipOf(const AnimationRecord& animation) const
 {
     Clip clip;
-    clip.spans = rest_; // part 0 is not used
-    clip.spans.insert(clip.spans.end(), rest_.begin(), rest_.end());
+    clip.animation = &animation;
+    const auto share = static_cast<uint32_t>(kLeavesOfAllClips / tables_.animations.size());
+    clip.leaves = std::bit_floor(std::clamp(share, kLeastLeaves, kMostLeaves));
+    clip.times.resize(2 * clip.leaves);
+    clip.parts = std::make_unique<Part[]>(2 * clip.leaves);
+    const std::vector<double> key_times = keyTimes(tables_, animation);
+    clip.times[1] = {0, animation.duration, true};
+    for (uint32_t part = 1; part < clip.leaves; ++part)
+    {
+        const TimeSpan& time = clip.times[part];
+        const double cut = cutOf(time, key_times);
+        clip.times[2 * part] = {time.from, cut, false};
+        clip.times[2 * part + 1] = {cut, time.to, time.last};
+    }
     return clip;
 }
 
-PoseRegions::Clip PoseRegions::clipOf(const MotionTables& tables, const AnimationRecord& animation) const
+std::vector<NodeSpan> PoseRegions::spansOf(const Clip& clip, uint32_t part) const
 {
-    Clip clip;
-    const auto share = static_cast<uint32_t>(kLeavesOfAllClips / tables.animations.size());
-    clip.leaves = std::bit_floor(std::clamp(share, kLeastLeaves, kMostLeaves));
-    const size_t count = nodes_.size();
-    clip.spans.resize(2 * clip.leaves * count);
-    for (uint32_t leaf = 0; leaf < clip.leaves; ++leaf)
+    std::vector<NodeSpan> spans = rest_;
+    if (clip.animation == nullptr)
+        return spans;
+    const Range channels = clip.animation->channels;
+    for (const AnimationChannelRecord& channel : tables_.channels.subspan(channels.first, channels.count))
     {
-        const double step = double{animation.duration} / clip.leaves;
-        const TimeSpan time{leaf * step, (leaf + 1) * step};
-        NodeSpan* const spans = &clip.spans[(clip.leaves + leaf) * count];
-        std::copy(rest_.begin(), rest_.end(), spans);
-        for (const AnimationChannelRecord& channel :
-             tables.channels.subspan(animation.channels.first, animation.channels.count))
+        NodeSpan& span = spans[channel.node];
+        switch (static_cast<AnimationPath>(channel.path))
         {
-            NodeSpan& span = spans[channel.node];
-            RotationPoints rotations;
-            switch (static_cast<AnimationPath>(channel.path))
-            {
-            case AnimationPath::translation:
-                span.translations = {};
-                addValuesIn(time, channel, tables.keys, span.translations);
-                break;
-            case AnimationPath::rotation:
-                addRotationsIn(time, channel, tables.keys, rotations);
-                setRotations(span, rotations);
-                break;
-            case AnimationPath::scale:
-                span.scales = {};
-                addValuesIn(time, channel, tables.keys, span.scales);
-                break;
-            case AnimationPath::weights:
-                break;
-            }
+        case AnimationPath::translation:
+            span.translation = vectorCurve(clip.times[part], tables_, channel);
+            break;
+        case AnimationPath::rotation:
+            span.rotation = rotationCurve(clip.times[part], tables_, channel);
+            break;
+        case AnimationPath::scale:
+            span.scale = vectorCurve(clip.times[part], tables_, channel);
+            break;
+        case AnimationPath::weights:
+            break;
         }
     }
-    for (uint32_t part = clip.leaves - 1; part > 0; --part)
-        for (size_t node = 0; node < count; ++node)
-            clip.spans[part * count + node] =
-                joined(clip.spans[2 * part * count + node], clip.spans[(2 * part + 1) * count + node]);
-    return clip;
+    return spans;
+}
+
+const NodeSpan& PoseRegions::span(uint32_t clip, uint32_t part, uint32_t node) const
+{
+    Part& found = clips_[clip].parts[part];
+    std::call_once(found.once, [&] { found.spans = spansOf(clips_[clip], part); });
+    return found.spans[node];
 }
 
 std::vector<PoseRegion> PoseRegions::all() const
@@ -191,14 +223,6 @@ PoseRegion PoseRegions::sample(size_t number) const
     return {from, leaf(from, share(0.628706728)), to, leaf(to, share(0.538597197)), weight, weight};
 }
 
-double PoseRegions::motionIn(uint32_t clip, uint32_t part, std::span<const uint32_t> nodes) const
-{
-    double motion = 0;
-    for (const uint32_t node : nodes)
-        motion += size(span(clip, part, node));
-    return motion;
-}
-
 std::optional<std::array<PoseRegion, 2>> PoseRegions::halves(const PoseRegion& region,
                                                              std::span<const uint32_t> nodes) const
 {
@@ -206,18 +230,23 @@ std::optional<std::array<PoseRegion, 2>> PoseRegions::halves(const PoseRegion& r
     const bool can_cut_from = region.from_span < clips_[region.from_clip].leaves && region.low_weight < 1;
     const bool can_cut_to = region.to_span < clips_[region.to_clip].leaves && region.high_weight > 0;
     double between = 0;
+    Motion from_motion, to_motion;
     for (const uint32_t node : nodes)
     {
         const NodeSpan& from = span(region.from_clip, region.from_span, node);
         const NodeSpan& to = span(region.to_clip, region.to_span, node);
-        between += 2 * angleBetween(from.rotation, to.rotation);
+        between += 2 * angleBetween(from.rotation.terms[0], to.rotation.terms[0]);
+        addMotion(from, from_motion);
+        addMotion(to, to_motion);
     }
-    const double of_from =
-        can_cut_from ? motionIn(region.from_clip, region.from_span, nodes) * (1 - region.low_weight) : -1;
-    const double of_to =
-        can_cut_to ? motionIn(region.to_clip, region.to_span, nodes) * region.high_weight : -1;
-    // around its middle the blend goes half of its way to either side
-    const double of_weights = weights > kLeastWeights ? 0.5 * between * weights : -1;
+    const double from_share = 1 - region.low_weight, to_share = region.high_weight;
+    const double along_weights = 0.5 * (between + from_motion.smooth + to_motion.smooth) * weights;
+    const double all = from_motion.smooth * from_share + to_motion.smooth * to_share + along_weights;
+    // what polynomials leave out grows with the third power
+    const double bend = std::min(1.0, kBend * all * all);
+    const double of_from = can_cut_from ? (from_motion.rough + from_motion.smooth * bend) * from_share : -1;
+    const double of_to = can_cut_to ? (to_motion.rough + to_motion.smooth * bend) * to_share : -1;
+    const double of_weights = weights > kLeastWeights ? along_weights * bend : -1;
     std::array<PoseRegion, 2> halves{region, region};
     if (of_from < 0 && of_to < 0 && of_weights < 0)
         return std::nullopt;
@@ -236,26 +265,30 @@ std::optional<std::array<PoseRegion, 2>> PoseRegions::halves(const PoseRegion& r
     return halves;
 }
 
-NodeSpan PoseRegions::spanOf(const PoseRegion& region, uint32_t node) const
+NodeModel PoseRegions::modelOf(const PoseRegion& region, uint32_t node) const
 {
     const NodeSpan& from = span(region.from_clip, region.from_span, node);
     const NodeSpan& to = span(region.to_clip, region.to_span, node);
-    NodeSpan blend;
-    blend.translations = blended(from.translations, to.translations, region);
-    blend.scales = blended(from.scales, to.scales, region);
-    blend.rotation = slerp(from.rotation, to.rotation, 0.5 * (region.low_weight + region.high_weight));
-    // two arcs whose ends are near each other are nowhere farther apart than that over the cosine of half their length
-    // (Jacobi fields of the sphere); then along the arc by half of the weights
-    const double arc = angleBetween(from.rotation, to.rotation);
-    const double longest = arc + from.angle + to.angle;
-    if (longest < kAnyRotation - 0.02)
-        blend.angle = std::max(from.angle, to.angle) / std::cos(0.5 * longest) +
-                      0.5 * (region.high_weight - region.low_weight) * arc + kAngleMargin;
-    else
-        blend.angle = kAnyRotation;
-    if (!(blend.angle <= kMostAngle))
-        blend.angle = kAnyRotation;
-    return blend;
+    const Interval weights{region.low_weight, region.high_weight};
+    const TaylorModel<4> rotation = slerpModel(from.rotation, to.rotation, weights);
+    return {blended(from.translation, to.translation, weights),
+            rotation.remainder < 1 ? rotation : anyRotation(), blended(from.scale, to.scale, weights)};
+}
+
+NodePose PoseRegions::middleOf(const PoseRegion& region, uint32_t node) const
+{
+    const NodeSpan& from = span(region.from_clip, region.from_span, node);
+    const NodeSpan& to = span(region.to_clip, region.to_span, node);
+    const double weight = 0.5 * (region.low_weight + region.high_weight);
+    const auto between = [&](const TimeCurve& a, const TimeCurve& b)
+    {
+        return Double3{std::lerp(a.terms[0][0], b.terms[0][0], weight),
+                       std::lerp(a.terms[0][1], b.terms[0][1], weight),
+                       std::lerp(a.terms[0][2], b.terms[0][2], weight)};
+    };
+    return {between(from.translation, to.translation),
+            slerp(normalizedOrNone(from.rotation.terms[0]), normalizedOrNone(to.rotation.terms[0]), weight),
+            between(from.scale, to.scale)};
 }
 
 } // namespace hearth::motion

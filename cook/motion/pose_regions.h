@@ -4,17 +4,30 @@
 #pragma once
 
 #include "cook/motion/node_motion.h"
+#include "cook/motion/taylor_model.h"
+#include "cook/motion/time_curve.h"
+
+#include <memory>
+#include <mutex>
 
 namespace hearth::motion
 {
 
-/// Where a node is in its parent for a while: around a middle.
+/// Where a node is in its parent for a span of time.
 struct NodeSpan
 {
-    Box3d translations;
-    Box3d scales;
-    formats::Quaternion rotation{0, 0, 0, 1}; ///< the middle, of length 1
-    double angle = 0; ///< radians between quaternions: how far from the middle; a right angle: any rotation
+    TimeCurve translation;
+    TimeCurve rotation;
+    TimeCurve scale;
+};
+
+/// Where a node is in its parent in a region of poses: x0 is the time in the first clip, x1 that in the second, x2 the
+/// weight, each from -1 to 1 over the region.
+struct NodeModel
+{
+    VectorModel translation;
+    TaylorModel<4> rotation; ///< of length 1 up to its remainder, up to its sign
+    VectorModel scale;
 };
 
 /// Two spans of time, by their place in the trees of two clips, and the weights of the second in the blend.
@@ -28,9 +41,11 @@ struct PoseRegion
     double high_weight = 1;
 };
 
+/// Any number of threads may ask at once.
 class PoseRegions
 {
 public:
+    /// tables, nodes  outlive it
     PoseRegions(const formats::MotionTables& tables, std::span<const NodeMotion> nodes);
 
     /// Regions that hold all poses together: the clips, the rest pose as one more, and all blends of two.
@@ -45,27 +60,40 @@ public:
                                                     std::span<const uint32_t> nodes) const;
 
     /// What a node does in a region.
-    NodeSpan spanOf(const PoseRegion& region, uint32_t node) const;
+    NodeModel modelOf(const PoseRegion& region, uint32_t node) const;
+
+    /// A pose of the node in the region, or near it: all nodes at the middle of the times and weights.
+    formats::NodePose middleOf(const PoseRegion& region, uint32_t node) const;
+
+    /// Of a part of a clip.
+    TimeSpan timeOf(uint32_t clip, uint32_t span) const { return clips_[clip].times[span]; }
 
     /// Nodes with a matrix alone.
     const std::optional<Affine3d>& fixed(uint32_t node) const { return nodes_[node].fixed; }
 
 private:
-    /// Spans of the nodes in the dyadic parts of a clip's time: part 1 is all of it, 2 i and 2 i + 1 the halves of i.
-    struct Clip
+    /// Filled when it is asked for.
+    struct Part
     {
-        uint32_t leaves = 1;
-        std::vector<NodeSpan> spans; ///< [part * node count + node]
+        std::once_flag once;
+        std::vector<NodeSpan> spans; ///< by node
     };
 
-    Clip clipOf(const formats::MotionTables& tables, const formats::AnimationRecord& animation) const;
-    Clip restClip() const;
-    const NodeSpan& span(uint32_t clip, uint32_t part, uint32_t node) const
+    /// A clip's time in parts: 1 is all of it, 2 i and 2 i + 1 what i is cut into. Cuts are at keys where there are any
+    /// near the middle: between keys, curves are smooth.
+    struct Clip
     {
-        return clips_[clip].spans[part * nodes_.size() + node];
-    }
-    double motionIn(uint32_t clip, uint32_t part, std::span<const uint32_t> nodes) const;
+        const formats::AnimationRecord* animation = nullptr; ///< null: the rest pose
+        uint32_t leaves = 1;
+        std::vector<TimeSpan> times;   ///< by part; 0 is not used
+        std::unique_ptr<Part[]> parts; ///< as many
+    };
 
+    Clip clipOf(const formats::AnimationRecord& animation) const;
+    std::vector<NodeSpan> spansOf(const Clip& clip, uint32_t part) const;
+    const NodeSpan& span(uint32_t clip, uint32_t part, uint32_t node) const;
+
+    formats::MotionTables tables_;
     std::span<const NodeMotion> nodes_;
     std::vector<NodeSpan> rest_;
     std::vector<Clip> clips_;

@@ -1,9 +1,8 @@
-// Joints as one of them sees them while poses stay in a region: transforms around a middle one.
+// Joints as one of them sees them while poses stay in a region: transforms that depend on where in it.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include "cook/motion/matrix_set.h"
-#include "cook/motion/pose_regions.h"
+#include "cook/motion/transform_model.h"
 
 #include <vector>
 
@@ -17,12 +16,26 @@ public:
     /// joints  nodes of the joints
     RegionChain(std::span<const formats::NodeRecord> nodes, uint32_t main, std::span<const uint32_t> joints);
 
-    /// Nodes whose poses count.
-    std::span<const uint32_t> nodes() const { return moving_; }
+    /// The links between the main bone and some of the joints, each behind the one that it hangs on.
+    /// joints  by the order of the constructor
+    std::vector<uint32_t> linksTo(std::span<const uint32_t> joints) const;
 
-    /// Transforms from each joint's node to the main bone's; false where one has no bounds.
-    /// balls  one for each joint, in the order of the constructor
-    bool place(const PoseRegions& regions, const PoseRegion& region, std::vector<MatrixBall>& balls) const;
+    /// The node whose pose makes a link.
+    uint32_t nodeOf(uint32_t link) const { return links_[link].node; }
+
+    /// Where `place` puts the model of a joint.
+    uint32_t linkOf(uint32_t joint) const { return link_of_joint_[joint]; }
+
+    /// Transforms from joints' nodes to the main bone's; false where one has no bounds.
+    /// links   of linksTo
+    /// models  by link
+    bool place(const PoseRegions& regions, const PoseRegion& region, std::span<const uint32_t> links,
+               std::vector<TransformModel>& models) const;
+
+    /// The transforms in the middle of the region alone.
+    /// transforms  one for each joint, in the order of the constructor
+    bool middle(const PoseRegions& regions, const PoseRegion& region,
+                std::vector<Affine3d>& transforms) const;
 
 private:
     struct Link
@@ -34,7 +47,6 @@ private:
 
     std::vector<Link> links_; ///< link 0 is the main bone's node itself
     std::vector<uint32_t> link_of_joint_;
-    std::vector<uint32_t> moving_;
 };
 
 } // namespace hearth::motion

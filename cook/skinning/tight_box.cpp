@@ -6,15 +6,14 @@
 
 #include <algorithm>
 #include <numeric>
-#include <queue>
 
 namespace hearth::skinning
 {
 
 using motion::Box3d;
 using motion::Interval;
-using motion::MatrixBall;
 using motion::PoseRegion;
+using motion::TransformModel;
 
 namespace
 {
@@ -25,6 +24,12 @@ constexpr double kGoodEnough = 0.04;
 
 // Boxes of less than this times the volume of what was looked at stay as they are.
 constexpr double kLooseVolume = 1.5;
+
+// And those are tight enough: what is left goes to looser ones.
+constexpr double kTightVolume = 1.3;
+
+// Its volume is looked at after so many regions.
+constexpr size_t kRegionsBetweenLooks = 200;
 
 // Poses that are looked at before.
 constexpr size_t kSamples = 24;
@@ -51,10 +56,17 @@ public:
             addVertex(main, cluster, vertices[v], v);
     }
 
-    std::span<const uint32_t> nodes() const { return chain_.nodes(); }
+    /// The nodes that move some of the vertices.
+    std::vector<uint32_t> nodesOf(std::span<const uint16_t> vertices) const
+    {
+        std::vector<uint32_t> nodes = chain_.linksTo(jointsOf(vertices));
+        for (uint32_t& link : nodes)
+            link = chain_.nodeOf(link);
+        return nodes;
+    }
 
     /// Of placing all vertices.
-    size_t workOfAll() const { return kWorkOfNode * chain_.nodes().size() + influences_.size(); }
+    size_t workOfAll() const { return kWorkOfNode * nodesOf(all()).size() + influences_.size(); }
 
     ActiveVertices all() const
     {
@@ -63,34 +75,59 @@ public:
         return vertices;
     }
 
+    /// Add where the vertices are in the middle of a region.
+    void addMiddle(const PoseRegion& region, Box3d& reached)
+    {
+        if (!chain_.middle(regions_, region, middles_))
+            return;
+        for (Affine3d& middle : middles_)
+            middle = *skin_.bindFromJoint(main_) * middle;
+        for (const Own& own : owns_)
+        {
+            Double3 place = own.place;
+            for (size_t i = own.first; i < own.end; ++i)
+                place = place + transformPoint(middles_[influences_[i].joint], influences_[i].place) *
+                                    influences_[i].weight;
+            add(reached, place);
+        }
+    }
+
     /// Where vertices can be in a region, one box for each; false where there are no bounds.
-    /// reached  grows by where the middle of the region puts them
+    /// reached  grows by places that vertices come to for sure
     bool place(const PoseRegion& region, std::span<const uint16_t> vertices, Box3d& reached,
                std::vector<Box3d>& boxes, size_t& work)
     {
-        work += kWorkOfNode * chain_.nodes().size();
-        if (!chain_.place(regions_, region, balls_))
+        const std::vector<uint32_t> joints = jointsOf(vertices), links = chain_.linksTo(joints);
+        work += kWorkOfNode * links.size();
+        if (!chain_.place(regions_, region, links, models_))
             return false;
-        centers_.clear();
-        for (const MatrixBall& ball : balls_)
-            centers_.push_back(*skin_.bindFromJoint(main_) * ball.center);
+        affine_.resize(joints_.size());
+        for (const uint32_t joint : joints)
+            affine_[joint] = inMain(models_[chain_.linkOf(joint)]);
         boxes.clear();
         for (const uint16_t v : vertices)
         {
             const Own& own = owns_[v];
-            Double3 place = own.place;
+            std::array<std::array<double, motion::kTerms>, 3> terms{};
+            terms[0][0] = own.place.x;
+            terms[1][0] = own.place.y;
+            terms[2][0] = own.place.z;
             double slack = own.slack;
             for (size_t i = own.first; i < own.end; ++i)
             {
                 const Influence& influence = influences_[i];
-                place = place + transformPoint(centers_[influence.joint], influence.place) * influence.weight;
-                slack += bind_norm_ * influence.weight * balls_[influence.joint].slackAt(influence.place);
+                addPlace(affine_[influence.joint], influence.place, influence.weight, terms);
+                slack += bind_norm_ * influence.weight *
+                         models_[chain_.linkOf(influence.joint)].slackAt(influence.place);
             }
             work += own.end - own.first;
-            add(reached, place);
             Box3d box;
-            add(box, place - Double3{slack, slack, slack});
-            add(box, place + Double3{slack, slack, slack});
+            for (size_t axis = 0; axis < 3; ++axis)
+            {
+                box[axis] = motion::rangeOf(terms[axis]);
+                box[axis].grow(slack);
+                addCorners(terms[axis], slack, reached[axis]);
+            }
             boxes.push_back(box);
         }
         return true;
@@ -100,7 +137,7 @@ private:
     /// A joint that moves a vertex besides the main bone.
     struct Influence
     {
-        size_t joint; ///< of joints_
+        uint32_t joint; ///< of joints_
         double weight;
         Double3 place; ///< of the vertex, in the joint
     };
@@ -112,6 +149,77 @@ private:
         size_t first; ///< of its influences
         size_t end;
     };
+
+    /// A polynomial for each number of a transform's rows.
+    using AffineTerms = std::array<std::array<std::array<double, motion::kTerms>, 4>, 3>;
+
+    AffineTerms inMain(const TransformModel& model) const
+    {
+        const Affine3d& bind_from_main = *skin_.bindFromJoint(main_);
+        AffineTerms affine;
+        for (size_t term = 0; term < motion::kTerms; ++term)
+        {
+            const std::array<double, 9>& m = model.linear.terms[term];
+            const std::array<double, 3>& place = model.place.terms[term];
+            Affine3d transform;
+            for (size_t row = 0; row < 3; ++row)
+            {
+                std::copy_n(&m[row * 3], 3, transform.m[row]);
+                transform.m[row][3] = 0;
+            }
+            const Double3 shift =
+                Double3{place[0], place[1], place[2]} - transformVector(transform, model.pivot);
+            transform.m[0][3] = shift.x;
+            transform.m[1][3] = shift.y;
+            transform.m[2][3] = shift.z;
+            for (size_t row = 0; row < 3; ++row)
+                for (size_t column = 0; column < 4; ++column)
+                {
+                    double sum = term == 0 && column == 3 ? bind_from_main.m[row][3] : 0;
+                    for (size_t k = 0; k < 3; ++k)
+                        sum += bind_from_main.m[row][k] * transform.m[k][column];
+                    affine[row][column][term] = sum;
+                }
+        }
+        return affine;
+    }
+
+    static void addPlace(const AffineTerms& affine, Double3 point, double weight,
+                         std::array<std::array<double, motion::kTerms>, 3>& terms)
+    {
+        const double x = point.x * weight, y = point.y * weight, z = point.z * weight;
+        for (size_t axis = 0; axis < 3; ++axis)
+            for (size_t term = 0; term < motion::kTerms; ++term)
+                terms[axis][term] += affine[axis][0][term] * x + affine[axis][1][term] * y +
+                                     affine[axis][2][term] * z + affine[axis][3][term] * weight;
+    }
+
+    /// Add what a polynomial comes to at the two corners where its linear part is largest, less the slack.
+    static void addCorners(const std::array<double, motion::kTerms>& terms, double slack, Interval& reached)
+    {
+        const auto side = [&](size_t a) { return terms[motion::kFirstLinear + a] < 0 ? -1.0 : 1.0; };
+        double even = terms[0] + terms[4] + terms[5] + terms[6];
+        for (size_t a = 0; a < 3; ++a)
+            for (size_t b = a + 1; b < 3; ++b)
+                even += side(a) * side(b) * terms[motion::termOf(a, b)];
+        const double linear = std::abs(terms[1]) + std::abs(terms[2]) + std::abs(terms[3]);
+        reached.high = std::max(reached.high, even + linear - slack);
+        reached.low = std::min(reached.low, even - linear + slack);
+    }
+
+    /// Those of joints_ that move some of the vertices.
+    std::vector<uint32_t> jointsOf(std::span<const uint16_t> vertices) const
+    {
+        std::vector<bool> moves(joints_.size());
+        for (const uint16_t v : vertices)
+            for (size_t i = owns_[v].first; i < owns_[v].end; ++i)
+                moves[influences_[i].joint] = true;
+        std::vector<uint32_t> joints;
+        for (uint32_t joint = 0; joint < joints_.size(); ++joint)
+            if (moves[joint])
+                joints.push_back(joint);
+        return joints;
+    }
 
     static std::vector<uint32_t> jointsOf(uint32_t main, const DeformedCluster& cluster)
     {
@@ -135,7 +243,7 @@ private:
             if (!(cluster.weights[i] > 0) || joint == main)
                 continue;
             const auto at = std::lower_bound(joints_.begin(), joints_.end(), joint);
-            influences_.push_back({static_cast<size_t>(at - joints_.begin()), cluster.weights[i],
+            influences_.push_back({static_cast<uint32_t>(at - joints_.begin()), cluster.weights[i],
                                    transformPoint(skin_.jointFromBind(joint), vertex.middle)});
             stretch += cluster.weights[i] * skin_.relative(main, joint)->set().norm;
         }
@@ -151,8 +259,9 @@ private:
     double bind_norm_;
     std::vector<Influence> influences_;
     std::vector<Own> owns_;
-    std::vector<MatrixBall> balls_;
-    std::vector<Affine3d> centers_;
+    std::vector<TransformModel> models_;
+    std::vector<AffineTerms> affine_;
+    std::vector<Affine3d> middles_;
 };
 
 void join(Box3d& box, const Box3d& other)
@@ -213,55 +322,72 @@ struct Open
     friend bool operator<(const Open& a, const Open& b) { return a.beyond < b.beyond; }
 };
 
-/// Looks for the smallest box, the worst region first.
-class Search
+} // namespace
+
+class BoxSearch::Regions
 {
 public:
-    Search(RegionPlaces& places, const motion::PoseRegions& regions, const Box3d& box)
-        : places_(places), regions_(regions), box_(box)
+    Regions(const Box3d& box, uint32_t main, const DeformedCluster& cluster, const Deformation& deformation,
+            std::span<const MorphedVertex> vertices)
+        : places_(main, cluster, deformation, vertices), regions_(*deformation.regions), box_(box)
     {
-    }
-
-    const Box3d& reached() const { return reached_; }
-
-    /// Look at a pose in each of a few small regions.
-    void sample()
-    {
-        const ActiveVertices all = places_.all();
-        size_t work = 0;
         for (size_t i = 0; i < kSamples; ++i)
-            places_.place(regions_.sample(i), all, reached_, boxes_, work);
+            places_.addMiddle(regions_.sample(i), reached_);
     }
 
-    Box3d run(size_t most_work)
+    bool isLoose() const { return reached_[0].empty() || volume(box_) > kLooseVolume * volume(reached_); }
+
+    bool done() const { return started_ && (open_.empty() || tight_); }
+
+    size_t run(size_t most_work)
     {
         size_t work = 0;
-        const std::vector<PoseRegion> all = regions_.all();
-        // looking at each once already costs too much: many clips, or many clusters that ask
-        if (all.size() * places_.workOfAll() > most_work / 2)
-            return box_;
-        for (const PoseRegion& region : all)
-            look({region, places_.all(), box_, 0}, work);
-        Box3d rest; // of regions that cannot be cut
-        while (!open_.empty() && work < most_work)
+        if (!started_ && !start(most_work, work))
+            return work;
+        while (!done() && work < most_work)
         {
-            const Open worst = open_.top();
-            open_.pop();
-            if (const auto halves = regions_.halves(worst.region, places_.nodes()))
+            if (++regions_since_look_ == kRegionsBetweenLooks)
+            {
+                regions_since_look_ = 0;
+                tight_ = volume(box()) < kTightVolume * volume(reached_);
+            }
+            std::pop_heap(open_.begin(), open_.end());
+            const Open worst = std::move(open_.back());
+            open_.pop_back();
+            if (beyond(worst.box, grown(reached_)) <= 0)
+                continue;
+            if (const auto halves = regions_.halves(worst.region, places_.nodesOf(worst.vertices)))
                 for (const PoseRegion& half : *halves)
                     look({half, worst.vertices, worst.box, 0}, work);
             else
-                join(rest, worst.box);
+                join(reached_, worst.box); // as if it were reached: nothing smaller can be had
         }
+        return work;
+    }
+
+    Box3d box() const
+    {
+        if (!started_)
+            return box_;
         Box3d result = grown(reached_);
-        if (!rest[0].empty())
-            join(result, rest);
-        for (; !open_.empty(); open_.pop())
-            join(result, open_.top().box);
+        for (const Open& open : open_)
+            join(result, open.box);
         return common(result, box_);
     }
 
 private:
+    /// Look at each root once, unless that costs too much: many clips, or many clusters that share the work.
+    bool start(size_t most_work, size_t& work)
+    {
+        const std::vector<PoseRegion> all = regions_.all();
+        if (all.size() * places_.workOfAll() > most_work / 2)
+            return false;
+        started_ = true;
+        for (const PoseRegion& region : all)
+            look({region, places_.all(), box_, 0}, work);
+        return true;
+    }
+
     /// Put a region among the open ones, unless all of its vertices stay where others were.
     void look(Open region, size_t& work)
     {
@@ -282,35 +408,48 @@ private:
             region.box = common(region.box, box);
         }
         region.beyond = beyond(region.box, reached_);
-        open_.push(std::move(region));
+        open_.push_back(std::move(region));
+        std::push_heap(open_.begin(), open_.end());
     }
 
-    RegionPlaces& places_;
+    RegionPlaces places_;
     const motion::PoseRegions& regions_;
     Box3d box_;
     Box3d reached_;
+    bool started_ = false;
+    bool tight_ = false;
+    size_t regions_since_look_ = 0;
     std::vector<Box3d> boxes_;
-    std::priority_queue<Open> open_;
+    std::vector<Open> open_; ///< a heap, the worst in front
 };
 
-} // namespace
-
-bool isLoose(const Box3d& box, uint32_t main, const DeformedCluster& cluster, const Deformation& deformation,
-             std::span<const MorphedVertex> vertices)
+BoxSearch::BoxSearch(const Box3d& box, uint32_t main, const DeformedCluster& cluster,
+                     const Deformation& deformation, std::span<const MorphedVertex> vertices)
+    : regions_(std::make_unique<Regions>(box, main, cluster, deformation, vertices))
 {
-    RegionPlaces places(main, cluster, deformation, vertices);
-    Search search(places, *deformation.regions, box);
-    search.sample();
-    return search.reached()[0].empty() || volume(box) > kLooseVolume * volume(search.reached());
+}
+BoxSearch::BoxSearch(BoxSearch&&) noexcept = default;
+BoxSearch& BoxSearch::operator=(BoxSearch&&) noexcept = default;
+BoxSearch::~BoxSearch() = default;
+
+bool BoxSearch::isLoose() const
+{
+    return regions_->isLoose();
 }
 
-Box3d tightened(const Box3d& box, uint32_t main, const DeformedCluster& cluster,
-                const Deformation& deformation, std::span<const MorphedVertex> vertices, size_t work)
+bool BoxSearch::done() const
 {
-    RegionPlaces places(main, cluster, deformation, vertices);
-    Search search(places, *deformation.regions, box);
-    search.sample();
-    return search.run(work);
+    return regions_->done();
+}
+
+size_t BoxSearch::run(size_t most_work)
+{
+    return regions_->run(most_work);
+}
+
+Box3d BoxSearch::box() const
+{
+    return regions_->box();
 }
 
 } // namespace hearth::skinning

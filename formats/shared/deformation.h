@@ -49,6 +49,10 @@ struct Pose
     Float3
         free_center;   ///< of a free pose: a sphere that holds the whole instance, from the instance's origin
     float free_radius; ///< times the instance's scale_max
+    float free_stretch; ///< of bind boxes around their middles: the largest absolute morph weight, 1 at least
+    uint unused_x;
+    uint unused_y;
+    uint unused_z;
 };
 
 /// Of Pose::flags. The pose is not one of the clips or between two of them: bounds of clips say nothing.
@@ -72,7 +76,7 @@ struct DeformedCluster
     uint joint;
     Float3 box_max;
     uint cone;       ///< as Cluster::cone
-    Float3 bind_min; ///< bind pose
+    Float3 bind_min; ///< bind pose, with morph weights from -1 to 1
     float cone_back;
     Float3 bind_max;
     uint first_joint; ///< word
@@ -85,7 +89,7 @@ struct DeformedCluster
 /// In rows of the buffer.
 HEARTH_CONSTANT uint kPaletteRows = 6;
 HEARTH_CONSTANT uint kDeformedClusterRows = 5;
-HEARTH_CONSTANT uint kPoseRows = 2;
+HEARTH_CONSTANT uint kPoseRows = 3;
 
 /// Half the side of a box that holds everything.
 HEARTH_CONSTANT float kUnbounded = 1e15f;
@@ -153,12 +157,13 @@ HEARTH_FUNCTION CarriedBox emptyFreeBox(HEARTH_IN(Instance) instance)
 }
 
 /// A vertex lies between the places to which each of its joints alone would carry it: so does the cluster in the box
-/// around the boxes, whatever the weights.
+/// around the boxes, whatever the weights. Where morph targets have the box larger than the vertices, it is larger by no more
+/// than its half: stretched by a weight it holds what that weight does.
 HEARTH_FUNCTION CarriedBox grownBy(HEARTH_IN(CarriedBox) box, HEARTH_IN(PaletteRow) joint, Float3 bind_min,
-                                   Float3 bind_max)
+                                   Float3 bind_max, float stretch)
 {
     HEARTH_PRECISE Float3 center = (bind_min + bind_max) * 0.5f;
-    HEARTH_PRECISE Float3 half_size = (bind_max - bind_min) * 0.5f;
+    HEARTH_PRECISE Float3 half_size = (bind_max - bind_min) * (0.5f * stretch);
     Float3 row_x = row3(joint.world_from_bind_x);
     Float3 row_y = row3(joint.world_from_bind_y);
     Float3 row_z = row3(joint.world_from_bind_z);

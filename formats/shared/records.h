@@ -226,6 +226,9 @@ HEARTH_CONSTANT uint kCullResting = 32;
 
 /// Of Instance::flags, beside formats::InstanceFlags: the instance has moved since it was loaded.
 HEARTH_CONSTANT uint kInstanceMoves = 0x80000000u;
+/// It is mirrored where it was not when it was loaded, or the other way round: its bin draws the wrong side of its triangles
+/// unless their corners are taken in the other order.
+HEARTH_CONSTANT uint kInstanceTurned = 0x40000000u;
 
 /// What culling a frame without the occlusion test is one of; with it, two follow each other.
 HEARTH_CONSTANT uint kPhaseWhole = 0;

@@ -66,6 +66,8 @@ void addSource(Plan& plan, const std::string& programs, const std::string& folde
                     source});
     for (const std::string& lod : options.lods)
         plan.back().command.insert(plan.back().command.end(), {"--lod", lod});
+    if (!options.profile.empty())
+        plan.back().command.insert(plan.back().command.end(), {"--profile", options.profile});
     for (const char* kind : {"textures", "clusters"})
         plan.push_back({kind,
                         index,

@@ -54,6 +54,20 @@ void addPages(MeshSummary& summary, std::span<const PageRecord> pages)
     }
 }
 
+/// 0 where the mesh is rigid, or nothing is known yet: bounds come last.
+uint64_t boundsBytes(const PackView& pack, uint32_t mesh)
+{
+    uint64_t bytes = 0;
+    for (const DeformedMeshRecord& record : pack.deformedMeshes())
+        if (record.mesh == mesh)
+        {
+            bytes += sizeof(DeformedMeshRecord);
+            for (const DeformedClusterRecord& cluster : recordsOf(pack.deformedClusters(), record.clusters))
+                bytes += sizeof(cluster) + cluster.joints.count * sizeof(uint32_t);
+        }
+    return bytes;
+}
+
 MeshSummary summarizeMesh(const PackView& pack, uint32_t index)
 {
     const MeshRecord& mesh = pack.meshes()[index];
@@ -78,8 +92,7 @@ MeshSummary summarizeMesh(const PackView& pack, uint32_t index)
                            mesh.clusters.count * sizeof(ClusterRecord);
     addClusters(summary, recordsOf(pack.clusters(), mesh.clusters));
     addPages(summary, recordsOf(pack.pages(), mesh.pages));
-    if (const ChunkEntry* deformation = pack.container().find(kChunkDeformation, index))
-        summary.deformation_bytes = deformation->stored_size;
+    summary.bounds_bytes = boundsBytes(pack, index);
     return summary;
 }
 
@@ -106,6 +119,18 @@ std::string stringOf(const Json& object, const char* key)
     return found != object.end() && found->is_string() ? found->get<std::string>() : std::string();
 }
 
+uint64_t countOf(const Json& object, const char* key)
+{
+    const auto found = object.find(key);
+    return found != object.end() && found->is_number_unsigned() ? found->get<uint64_t>() : 0;
+}
+
+double numberOf(const Json& object, const char* key)
+{
+    const auto found = object.find(key);
+    return found != object.end() && found->is_number() ? found->get<double>() : 0;
+}
+
 /// The members of an array that are objects.
 std::vector<Json> objectsOf(const Json& object, const char* key)
 {
@@ -129,16 +154,16 @@ MetaSummary readMeta(std::string_view json)
     if (const auto tool = root.find("tool"); tool != root.end() && tool->is_object())
         meta.tool_version = stringOf(*tool, "version");
     for (const Json& source : objectsOf(root, "sources"))
-    {
-        const auto bytes = source.find("bytes");
-        const bool has_bytes = bytes != source.end() && bytes->is_number_unsigned();
         meta.sources.push_back(
-            {stringOf(source, "name"), has_bytes ? bytes->get<uint64_t>() : 0, stringOf(source, "xxh3")});
-    }
+            {stringOf(source, "name"), countOf(source, "bytes"), stringOf(source, "xxh3")});
     if (const auto counts = root.find("counts"); counts != root.end() && counts->is_object())
         for (const auto& [key, value] : counts->items())
             if (value.is_number_unsigned())
                 meta.counts[key] = value.get<uint64_t>();
+    for (const Json& clip : objectsOf(root, "clips"))
+        meta.clips.push_back({countOf(clip, "keys_before"), countOf(clip, "keys"),
+                              countOf(clip, "bytes_before"), countOf(clip, "bytes"),
+                              numberOf(clip, "stated_error"), numberOf(clip, "proven_error")});
     for (const Json& message : objectsOf(root, "messages"))
         meta.messages.push_back({stringOf(message, "source"), stringOf(message, "code"),
                                  stringOf(message, "pointer"), stringOf(message, "text")});

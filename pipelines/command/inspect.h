@@ -44,7 +44,7 @@ struct MeshSummary
     uint64_t page_bytes = 0;        ///< decoded
     uint64_t stored_page_bytes = 0; ///< as they lie in the file
     uint64_t record_bytes = 0;      ///< of its tables
-    uint64_t deformation_bytes = 0; ///< stored
+    uint64_t bounds_bytes = 0;      ///< of what chunks DMSH, DCLU and DJNT say of it
 };
 
 struct MessageSummary
@@ -62,12 +62,24 @@ struct SourceSummary
     std::string hash;
 };
 
+/// What import made of a clip.
+struct ClipSummary
+{
+    uint64_t keys_before = 0;
+    uint64_t keys = 0;
+    uint64_t bytes_before = 0;
+    uint64_t bytes = 0;
+    double stated_error = 0; ///< metres
+    double proven_error = 0;
+};
+
 /// META, as far as it could be read.
 struct MetaSummary
 {
     std::string tool_version;
     std::vector<SourceSummary> sources;
     std::map<std::string, uint64_t> counts; ///< of the source files: "triangles", "vertices", "faces", ...
+    std::vector<ClipSummary> clips;         ///< in the order of the animations
     std::vector<MessageSummary> messages;
     std::vector<std::string> dropped;
 };

@@ -53,7 +53,7 @@ Json meshJson(const MeshSummary& mesh, uint32_t index)
                     {"triangles", ratio(mesh.triangles, uint64_t{mesh.clusters} * kClusterMaxTriangles)}};
     json["bytes"] = {{"vertices", mesh.vertex_bytes}, {"indices", mesh.index_bytes},
                      {"pages", mesh.page_bytes},      {"pages_stored", mesh.stored_page_bytes},
-                     {"records", mesh.record_bytes},  {"deformation", mesh.deformation_bytes}};
+                     {"records", mesh.record_bytes},  {"bounds", mesh.bounds_bytes}};
     return json;
 }
 
@@ -92,6 +92,14 @@ Json listJson(size_t count, MakeJson makeJson)
     return list;
 }
 
+/// What the import of a clip did to it.
+Json clipJson(const ClipSummary& clip)
+{
+    return {{"keys", {{"source", clip.keys_before}, {"kept", clip.keys}}},
+            {"bytes", {{"source", clip.bytes_before}, {"kept", clip.bytes}}},
+            {"errors", {{"stated", clip.stated_error}, {"proven", clip.proven_error}}}};
+}
+
 Json sceneJson(const PackView& pack, const PackSummary& summary)
 {
     const auto camera = [&](uint32_t i) -> Json
@@ -127,10 +135,14 @@ Json sceneJson(const PackView& pack, const PackSummary& summary)
     const auto animation = [&](uint32_t i) -> Json
     {
         const AnimationRecord& record = pack.animations()[i];
-        return {{"index", i},
-                {"name", pack.text(record.name)},
-                {"channels", record.channels.count},
-                {"seconds", record.duration}};
+        Json json{{"index", i},
+                  {"name", pack.text(record.name)},
+                  {"channels", record.channels.count},
+                  {"seconds", record.duration},
+                  {"error", record.error}};
+        if (i < summary.meta.clips.size())
+            json.update(clipJson(summary.meta.clips[i]));
+        return json;
     };
     return {
         {"nodes", pack.nodes().size()},
@@ -173,7 +185,7 @@ Json totalsJson(const PackView& pack, const PackSummary& summary)
         total.page_bytes += mesh.page_bytes;
         total.stored_page_bytes += mesh.stored_page_bytes;
         total.record_bytes += mesh.record_bytes;
-        total.deformation_bytes += mesh.deformation_bytes;
+        total.bounds_bytes += mesh.bounds_bytes;
     }
     uint64_t image_bytes = 0;
     for (const ChunkEntry& entry : pack.container().chunks())
@@ -192,7 +204,7 @@ Json totalsJson(const PackView& pack, const PackSummary& summary)
               {"pages", total.page_bytes},
               {"pages_stored", total.stored_page_bytes},
               {"records", total.record_bytes},
-              {"deformation", total.deformation_bytes},
+              {"bounds", total.bounds_bytes},
               {"images_stored", image_bytes}}}};
 }
 

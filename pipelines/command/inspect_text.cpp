@@ -57,8 +57,8 @@ std::string meshText(const MeshSummary& mesh, size_t index)
     if (mesh.degenerate_triangles > 0)
         text += fmt::format("  {} triangles without area are left out\n", mesh.degenerate_triangles);
     if (mesh.skinned || mesh.morph_targets > 0)
-        text += fmt::format("  {}{} morph targets, {}\n", mesh.skinned ? "skinned, " : "", mesh.morph_targets,
-                            readableSize(mesh.deformation_bytes));
+        text += fmt::format("  {}{} morph targets, bounds {}\n", mesh.skinned ? "skinned, " : "",
+                            mesh.morph_targets, readableSize(mesh.bounds_bytes));
     if (mesh.levels.empty())
         return text + "  no triangles\n";
     text += "  level  clusters   triangles  largest error      positions  normals            UVs\n";

@@ -35,14 +35,6 @@ Direction turned(const Transform& t, Float3 v, bool transposed)
     return d;
 }
 
-double determinantOf(const Transform& t)
-{
-    const auto& m = t.m;
-    return m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) -
-           m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
-           m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
-}
-
 } // namespace
 
 bool bakeTransform(mesh::SourceMesh& mesh, const Transform& transform)
@@ -66,7 +58,7 @@ bool bakeTransform(mesh::SourceMesh& mesh, const Transform& transform)
     // normals stand upright on the surface: they turn by the transpose of the inverse
     for (Float3& normal : mesh.normals)
         normal = unitOr(turned(*inverse, normal, true), normal);
-    const bool mirrored = determinantOf(transform) < 0;
+    const bool mirrored = determinant(transform) < 0;
     for (Float4& tangent : mesh.tangents)
     {
         const Float3 t = {tangent.x, tangent.y, tangent.z};

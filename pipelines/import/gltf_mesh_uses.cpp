@@ -110,4 +110,18 @@ SkinState skinState(const mesh::SourceMesh& mesh, const std::vector<bool>& used,
     return moves ? SkinState::usable : SkinState::idle;
 }
 
+bool skinMirrors(const std::vector<bool>& used, const GltfSkin& skin, const InverseBinds& inverse_binds,
+                 std::span<const Transform> world_from_node)
+{
+    HEARTH_ASSERT(used.size() <= skin.joints.size());
+    ptrdiff_t mirroring = 0;
+    for (size_t joint = 0; joint < used.size(); ++joint)
+        if (used[joint])
+        {
+            const double turned = determinant(world_from_node[skin.joints[joint]] * inverse_binds[joint]);
+            mirroring += turned < 0 ? 1 : turned > 0 ? -1 : 0;
+        }
+    return mirroring > 0;
+}
+
 } // namespace hearth::import

@@ -44,4 +44,9 @@ enum class SkinState
 SkinState skinState(const mesh::SourceMesh& mesh, const std::vector<bool>& used, const GltfSkin& skin,
                     const InverseBinds& inverse_binds, std::span<const Transform> world_from_node);
 
+/// Whether most of the joints that are used turn the mesh into its mirror image in the rest pose, which turns its
+/// triangles over. `used` may not be longer than the skin (asserted).
+bool skinMirrors(const std::vector<bool>& used, const GltfSkin& skin, const InverseBinds& inverse_binds,
+                 std::span<const Transform> world_from_node);
+
 } // namespace hearth::import

@@ -67,14 +67,17 @@ private:
 Result<MeshWriter::Read> MeshWriter::read(const MeshUse& use)
 {
     HEARTH_ASSIGN_OR_RETURN(mesh::SourceMesh mesh, reader_.read(use.mesh));
-    MeshSummary summary{mesh.triangleCount() > 0, {}, SkinState::idle, mesh.morph_targets.size()};
+    MeshSummary summary{mesh.triangleCount() > 0, {}, SkinState::idle, false, mesh.morph_targets.size()};
     if (use.skin != kNone)
     {
         summary.used_joints = usedJoints(mesh);
         // a skin with too few joints is the scene's to refuse
         if (const GltfSkin& skin = model_.skins[use.skin]; summary.used_joints.size() <= skin.joints.size())
-            summary.skin =
-                skinState(mesh, summary.used_joints, skin, inverse_binds_[use.skin], world_from_node_);
+        {
+            const InverseBinds& inverse_binds = inverse_binds_[use.skin];
+            summary.skin = skinState(mesh, summary.used_joints, skin, inverse_binds, world_from_node_);
+            summary.skin_mirrors = skinMirrors(summary.used_joints, skin, inverse_binds, world_from_node_);
+        }
     }
     if (summary.skin != SkinState::usable)
         dropInfluences(mesh);

@@ -150,15 +150,21 @@ Status SceneWriter::writeNode(uint32_t node)
     return success();
 }
 
-/// A skinned mesh stands where its joints carry it; the transform of its own node does not count.
+/// A skinned mesh stands where its joints carry it; the transform of its own node does not count. Which way its triangles
+/// turn is the instance's to say: where the joints mirror, the instance does.
 Transform SceneWriter::objectTransform(uint32_t node)
 {
     if (model_.nodes[node].skin == kNone)
         return world_from_node_[node];
-    switch (meshes_[uses_.of_node[node]].skin)
+    const MeshSummary& mesh = meshes_[uses_.of_node[node]];
+    switch (mesh.skin)
     {
     case SkinState::usable:
-        return {};
+    {
+        Transform reflection;
+        reflection.m[0][0] = mesh.skin_mirrors ? -1 : 1;
+        return reflection;
+    }
     case SkinState::idle:
         tally_.degraded("a skin that does not move its mesh: the mesh is drawn where its node is",
                         nodePointer(node));

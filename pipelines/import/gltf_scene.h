@@ -15,6 +15,7 @@ struct MeshSummary
     bool has_triangles = false;
     std::vector<bool> used_joints;
     SkinState skin = SkinState::idle; ///< usable: the mesh has joints and weights
+    bool skin_mirrors = false;        ///< the joints show the mesh's mirror image
     size_t morph_target_count = 0;
 };
 

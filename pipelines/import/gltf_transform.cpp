@@ -33,4 +33,12 @@ double distance(const Transform& a, const Transform& b)
     return largest;
 }
 
+double determinant(const Transform& t)
+{
+    const auto& m = t.m;
+    return m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) -
+           m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
+           m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
+}
+
 } // namespace hearth::import

@@ -22,4 +22,7 @@ Transform transformFromColumns(std::span<const float, 16> columns);
 /// Largest difference between two transforms' entries.
 double distance(const Transform& a, const Transform& b);
 
+/// Of the linear part: below 0 where the transform mirrors.
+double determinant(const Transform& t);
+
 } // namespace hearth::import

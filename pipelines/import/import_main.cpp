@@ -1,9 +1,11 @@
 // hearth-import: reads a source asset and writes the import part.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/clips/clip_settings.h"
 #include "cook/tools/lod_files.h"
 #include "cook/tools/private_folder.h"
 #include "formats/program.h"
 #include "pipelines/import/authored_files.h"
+#include "pipelines/import/part_clips.h"
 #include "pipelines/import/read_source.h"
 
 #include <CLI/CLI.hpp>
@@ -20,6 +22,7 @@ struct Arguments
     std::string source;
     std::string output;
     std::vector<std::string> lods;
+    std::string profile;
     double crease_angle_deg = 60;
 };
 
@@ -47,14 +50,23 @@ Status readAll(const Arguments& arguments, std::span<const tools::LodFile> lods,
     return import::addAuthoredFiles(lods, folder.path(), options, part);
 }
 
+Result<clips::StatedError> statedError(const Arguments& arguments)
+{
+    if (arguments.profile.empty())
+        return clips::StatedError{0, clips::kDefaultShareOfSize};
+    return clips::readStatedError(arguments.profile);
+}
+
 Status run(const Arguments& arguments)
 {
+    HEARTH_ASSIGN_OR_RETURN(const clips::StatedError stated_error, statedError(arguments));
     HEARTH_ASSIGN_OR_RETURN(const std::vector<tools::LodFile> lods, tools::parseLodFiles(arguments.lods));
     HEARTH_ASSIGN_OR_RETURN(import::PartBuilder part,
                             import::PartBuilder::create(arguments.output, arguments.source));
     const Status read = readAll(arguments, lods, part);
     printWarnings(part);
     HEARTH_TRY(read);
+    import::compressClips(part, stated_error);
     return part.finish();
 }
 
@@ -72,6 +84,7 @@ int program(int argc, char** argv)
                    "degrees: sharper edges of a mesh without normals stay hard; 180: none does")
         ->capture_default_str()
         ->check(CLI::Range(0.0, 180.0));
+    app.add_option("--profile", arguments.profile, "TOML file: the error that clips may have");
     app.footer("Examples:\n"
                "  hearth-import scene.glb -o scene.import.part\n"
                "  hearth-import rock.glb --lod 1=rock_mid.glb --lod 2=rock_low.glb -o rock.import.part\n"

@@ -70,6 +70,14 @@ std::string countsJson(const SourceCounts& counts, size_t meshes, size_t images,
                        counts.materials, counts.joints, counts.animations, counts.morph_targets);
 }
 
+std::string clipJson(const clips::ClipStatistics& clip)
+{
+    return fmt::format(R"({{"keys_before":{},"keys":{},"bytes_before":{},"bytes":{},"stated_error":{},)"
+                       R"("proven_error":{}}})",
+                       clip.keys_before, clip.keys_after, clip.bytes_before, clip.bytes_after,
+                       clip.stated_error, clip.proven_error);
+}
+
 void cut(std::string& text)
 {
     constexpr size_t kMaxLength = 300;
@@ -113,6 +121,7 @@ StringRef PartBuilder::intern(std::string_view text)
 
 Status PartBuilder::addMesh(const mesh::SourceMesh& mesh)
 {
+    moved_vertices_.push_back(movedVertices(mesh));
     return mesh::writeSourceMesh(writer_, mesh_count_++, mesh);
 }
 
@@ -120,7 +129,9 @@ Status PartBuilder::addLod(uint32_t of, const mesh::SourceMesh& mesh)
 {
     HEARTH_ASSERT(of < mesh_count_);
     lods_.push_back({of, mesh_count_});
-    return addMesh(mesh);
+    HEARTH_TRY(addMesh(mesh));
+    add(moved_vertices_[of], moved_vertices_.back());
+    return success();
 }
 
 Result<uint32_t> PartBuilder::addImage(ImageRecord record, const DecodedImage& image)
@@ -178,12 +189,15 @@ std::string PartBuilder::report() const
         if (warning.issue == Issue::dropped)
             dropped.push_back(quoteJson(warning.detail));
     }
+    std::vector<std::string> clips;
+    for (const clips::ClipStatistics& clip : clip_statistics)
+        clips.push_back(clipJson(clip));
     return fmt::format(
         R"({{"schema":"hearth.import/1","tool":{{"name":"hearth-import","version":{}}},"source":{},)"
-        R"("sources":{},"counts":{},"messages":{},"messages_left_out":{},"dropped":{}}})",
+        R"("sources":{},"counts":{},"clips":{},"messages":{},"messages_left_out":{},"dropped":{}}})",
         quoteJson(HEARTH_VERSION), quoteJson(source_name_.substr(source_name_.rfind('/') + 1)),
         joined(sources), countsJson(counts, mesh_count_ - lods_.size(), images_.size(), instances.size()),
-        joined(messages), warnings_left_out_, joined(dropped));
+        joined(clips), joined(messages), warnings_left_out_, joined(dropped));
 }
 
 Status PartBuilder::finish()
@@ -202,6 +216,8 @@ Status PartBuilder::finish()
     HEARTH_TRY(writer_.addRecords<AnimationRecord>(kChunkAnimations, animations));
     HEARTH_TRY(writer_.addRecords<AnimationChannelRecord>(kChunkChannels, channels));
     HEARTH_TRY(writer_.addRecords<float>(kChunkKeys, keys));
+    if (!key_bits.empty())
+        HEARTH_TRY(writer_.addRecords<uint32_t>(kChunkKeyBits, key_bits));
     HEARTH_TRY(writer_.addRecords<float>(kChunkMorphWeights, morph_weights));
     if (!lods_.empty())
         HEARTH_TRY(writer_.addRecords<AuthoredLodRecord>(kChunkAuthoredLods, lods_));

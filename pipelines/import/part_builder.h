@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
+#include "cook/clips/compress.h"
 #include "cook/mesh/source_mesh.h"
 #include "formats/container_writer.h"
 #include "formats/scene.h"
+#include "pipelines/import/moved_vertices.h"
 
 #include <map>
 #include <string>
@@ -83,11 +85,15 @@ public:
     std::vector<formats::AnimationRecord> animations;
     std::vector<formats::AnimationChannelRecord> channels;
     std::vector<float> keys;
+    std::vector<uint32_t> key_bits;
     std::vector<float> morph_weights;
+    std::vector<clips::ClipStatistics> clip_statistics; ///< of compressed animations, for the report
     SourceCounts counts;
 
     const std::string& sourceName() const { return source_name_; }
     uint32_t imageCount() const { return static_cast<uint32_t>(images_.size()); }
+    /// Of a mesh and its levels of detail.
+    const MovedVertices& movedVerticesOf(uint32_t mesh) const { return moved_vertices_[mesh]; }
     bool hasLods() const { return !lods_.empty(); }
 
     /// Take over the sources and messages of another part, whose meshes become part of this one.
@@ -118,6 +124,7 @@ private:
     std::vector<formats::ImageRecord> images_;
     uint32_t mesh_count_ = 0;
     std::vector<formats::AuthoredLodRecord> lods_;
+    std::vector<MovedVertices> moved_vertices_; ///< of each mesh
     std::vector<Error> warnings_;
     uint64_t warnings_left_out_ = 0;
     std::vector<SourceFile> sources_;

@@ -116,7 +116,7 @@ bool advancePast(const Source& source, Offsets& next)
            advance(next.lights, scene.lights().size()) && advance(next.materials, scene.materials().size()) &&
            advance(next.images, scene.images().size()) && advance(next.skins, scene.skins().size()) &&
            advance(next.joints, scene.joints().size()) && advance(next.channels, scene.channels().size()) &&
-           advance(next.keys, scene.keys().size()) &&
+           advance(next.keys, scene.keys().size()) && advance(next.key_words, scene.keyBits().size()) &&
            advance(next.morph_weights, scene.morphWeights().size()) &&
            advance(next.meshes, meshes.meshes().size()) && advance(next.levels, meshes.levels().size()) &&
            advance(next.groups, meshes.groups().size()) && advance(next.clusters, meshes.clusters().size()) &&
@@ -178,6 +178,15 @@ Status writeTable(ContainerWriter& writer, std::span<const Source> sources, uint
     return writer.addRecords<T>(type, merged);
 }
 
+/// The packed keys of all sources; no chunk where there are none.
+Status writeKeyBits(ContainerWriter& writer, std::span<const Source> sources)
+{
+    std::vector<uint32_t> merged;
+    for (const Source& source : sources)
+        merged.insert(merged.end(), source.import_part.keyBits().begin(), source.import_part.keyBits().end());
+    return merged.empty() ? success() : writer.addRecords<uint32_t>(kChunkKeyBits, merged);
+}
+
 Status writeScene(ContainerWriter& writer, std::span<const Source> sources)
 {
     const auto write = [&]<typename T>(uint32_t type, std::span<const T> (PackView::*table)() const)
@@ -194,6 +203,7 @@ Status writeScene(ContainerWriter& writer, std::span<const Source> sources)
     HEARTH_TRY(write(kChunkAnimations, &PackView::animations));
     HEARTH_TRY(write(kChunkChannels, &PackView::channels));
     HEARTH_TRY(write(kChunkKeys, &PackView::keys));
+    HEARTH_TRY(writeKeyBits(writer, sources));
     return write(kChunkMorphWeights, &PackView::morphWeights);
 }
 
@@ -284,8 +294,6 @@ Status writePack(const std::string& path, std::span<const Source> sources)
     HEARTH_TRY(writeMeshes(writer, sources));
     HEARTH_TRY(writeDeformedMeshes(writer, sources));
     HEARTH_TRY(writePages(writer, sources));
-    for (const Source& source : sources)
-        HEARTH_TRY(copyChunks(writer, source.clusters_part, kChunkDeformation, source.offsets.meshes));
     for (const Source& source : sources)
         HEARTH_TRY(copyChunks(writer, source.textures_part, kChunkImageData, source.offsets.images));
     return writer.finish();

@@ -80,11 +80,11 @@ void addPart(Json& merged, const Json& meta, const Json& asset)
 
 Result<std::string> mergedMeta(std::span<const PartMetas> sources, const std::string& name)
 {
-    Json merged{
-        {"schema", "hearth.meta/1"},        {"tool", {{"name", "hearth"}, {"version", HEARTH_VERSION}}},
-        {"sources", Json::array()},         {"settings", Json::object()},
-        {"counts", Json::object()},         {"messages", Json::array()},
-        {"messages_left_out", uint64_t{0}}, {"dropped", Json::array()}};
+    Json merged{{"schema", "hearth.meta/1"}, {"tool", {{"name", "hearth"}, {"version", HEARTH_VERSION}}},
+                {"sources", Json::array()},  {"settings", Json::object()},
+                {"counts", Json::object()},  {"clips", Json::array()},
+                {"messages", Json::array()}, {"messages_left_out", uint64_t{0}},
+                {"dropped", Json::array()}};
     for (const PartMetas& source : sources)
     {
         Json asset = "";
@@ -100,6 +100,7 @@ Result<std::string> mergedMeta(std::span<const PartMetas> sources, const std::st
                 asset = assetName(meta);
                 appendAll(merged["sources"], memberOf(meta, "sources"));
                 addCounts(merged["counts"], memberOf(meta, "counts"));
+                appendAll(merged["clips"], memberOf(meta, "clips"));
             }
             addPart(merged, meta, asset);
         }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/link/rebase.h"
 
+#include "formats/channel_keys.h"
+
 namespace hearth::link
 {
 
@@ -106,6 +108,8 @@ void rebase(AnimationChannelRecord& channel, const Offsets& offsets)
     shift(channel.node, offsets.nodes);
     shift(channel.first_time, offsets.keys);
     shift(channel.first_value, offsets.keys);
+    if (isPacked(channel))
+        shift(channel.first_word, offsets.key_words);
 }
 
 void rebase(MeshRecord& mesh, const Offsets& offsets)

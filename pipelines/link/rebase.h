@@ -22,6 +22,7 @@ struct Offsets
     uint32_t joints = 0;
     uint32_t channels = 0;
     uint32_t keys = 0;
+    uint32_t key_words = 0;
     uint32_t morph_weights = 0;
     uint32_t meshes = 0;
     uint32_t levels = 0;

@@ -440,7 +440,7 @@ typedef struct hearth_lod_knot
 typedef struct hearth_move
 {
     uint32_t instance;
-    float world_from_object[3][4]; /* rows; finite; mirrors where the transform that was loaded did */
+    float world_from_object[3][4]; /* rows; finite */
 } hearth_move;
 
 /* An affine transform in double precision, rows (1.2). */

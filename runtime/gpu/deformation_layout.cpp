@@ -23,6 +23,9 @@ constexpr size_t kRowWords = 4;
 // are wider by so much of the mesh's reach.
 constexpr float kSkinningSlack = 2 * shared::kRoundingSlack;
 
+// Morphed places are sums of hundreds of terms at most, each rounded.
+constexpr float kMorphRounding = 1.0001f;
+
 /// Appends records to a table of rows.
 class RowWriter
 {
@@ -66,12 +69,6 @@ Box3 widenedBy(const Box3& box, float margin)
     return box.empty() ? box : Box3{box.min - all, box.max + all};
 }
 
-Box3 everywhere()
-{
-    const Float3 far{shared::kUnbounded, shared::kUnbounded, shared::kUnbounded};
-    return {-far, far};
-}
-
 /// What culling is told of the meshes of chunk DMSH.
 class ClusterTable
 {
@@ -81,12 +78,15 @@ public:
     {
     }
 
-    /// The bind pose says where vertices are that are not morphed.
+    /// In the bind pose, with morph weights from -1 to 1.
     Box3 bindBox(const formats::DeformedMeshRecord& mesh) const
     {
         const shared::MeshBounds& bounds = bounds_[mesh.mesh];
-        return pack_.meshes()[mesh.mesh].morph_target_count > 0 ? everywhere()
-                                                                : Box3{bounds.box_min, bounds.box_max};
+        float reach = 0;
+        for (const formats::DeformedClusterRecord& cluster :
+             recordsOf(pack_.deformedClusters(), mesh.clusters))
+            reach = std::max(reach, cluster.morph_reach);
+        return widenedBy({bounds.box_min, bounds.box_max}, reach * kMorphRounding);
     }
 
     float slack(const formats::DeformedMeshRecord& mesh) const
@@ -113,7 +113,7 @@ private:
         const formats::MeshRecord& record = pack_.meshes()[mesh.mesh];
         const Box3 box = widenedBy({deformed.box_min, deformed.box_max}, slack(mesh));
         const Box3 bind =
-            record.morph_target_count > 0 ? everywhere() : formats::boxOf(cluster, record.grid_step);
+            widenedBy(formats::boxOf(cluster, record.grid_step), deformed.morph_reach * kMorphRounding);
         return {.box_min = box.min,
                 .joint = deformed.joint,
                 .box_max = box.max,
@@ -324,6 +324,9 @@ bool poseInstance(const DeformedInstance& instance, const InstancePose& pose, Po
     rows.record = instance.record;
     rows.record.scale_max = 0;
     shared::CarriedBox free_box = shared::emptyFreeBox(instance.record);
+    float stretch = 1;
+    for (const float weight : pose.morph_weights)
+        stretch = std::max(stretch, std::abs(weight));
     for (const Affine3d& world_from_bind : pose.world_from_bind)
     {
         const auto origin_from_bind = narrowed(relativeTo(anchor, world_from_bind));
@@ -333,7 +336,8 @@ bool poseInstance(const DeformedInstance& instance, const InstancePose& pose, Po
         std::memcpy(next, &row, sizeof(row));
         next += sizeof(row);
         rows.record.scale_max = std::max(rows.record.scale_max, scaleBound(*origin_from_bind));
-        free_box = shared::grownBy(free_box, row, instance.box_in_bind.min, instance.box_in_bind.max);
+        free_box =
+            shared::grownBy(free_box, row, instance.box_in_bind.min, instance.box_in_bind.max, stretch);
     }
     const auto weights = std::as_bytes(pose.morph_weights);
     std::copy(weights.begin(), weights.end(), next);
@@ -344,7 +348,11 @@ bool poseInstance(const DeformedInstance& instance, const InstancePose& pose, Po
                         .cluster_row = instance.cluster_row,
                         .flags = 0,
                         .free_center = {},
-                        .free_radius = 0};
+                        .free_radius = 0,
+                        .free_stretch = stretch,
+                        .unused_x = 0,
+                        .unused_y = 0,
+                        .unused_z = 0};
     const Float3 origin{anchored->m[0][3], anchored->m[1][3], anchored->m[2][3]};
     setTransform(rows.record, pose.free ? Affine3{} : *anchored, origin);
     rows.bounds.grid_step = 0; // of no grid: nothing of a deformed instance is looked for by it

@@ -37,8 +37,8 @@ Result<InstanceMove> moveInstance(const Scene& scene, uint32_t instance, const A
         return fail("its new transform is not finite");
     formats::InstanceRecord record = scene.instances[instance];
     const bool mirrored = (record.flags & formats::kInstanceMirrored) != 0;
-    if (const float turned = determinant(world_from_object); turned != 0 && (turned < 0) != mirrored)
-        return fail("its new transform mirrors, the one that was loaded did not, or the other way round");
+    if (const float volume = determinant(world_from_object); volume != 0 && (volume < 0) != mirrored)
+        record.flags = (record.flags ^ formats::kInstanceMirrored) | shared::kInstanceTurned;
     record.world_from_object = world_from_object;
     record.scale_max = scaleBound(world_from_object);
     record.flags |= shared::kInstanceMoves;

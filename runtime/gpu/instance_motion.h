@@ -17,8 +17,7 @@ struct InstanceMove
     shared::InstanceInverse inverse{};
 };
 
-/// `world_from_object` is finite, and mirrors where the transform that was loaded did: an instance keeps its bin.
-/// errors: usage.
+/// `world_from_object` is finite; it may mirror what was loaded unmirrored, and the other way round. errors: usage.
 Result<InstanceMove> moveInstance(const Scene& scene, uint32_t instance, const Affine3& world_from_object);
 
 /// Two small copies for each. Between barriers of the caller: after all that reads the tables, before what shall see

@@ -34,7 +34,7 @@ CasterCorner casterCorner()
     Instance instance = instances[visible[slot].instance];
     DrawnPose pose = drawnPose(visible[slot].instance, slot);
     ShadowLight light = shadows.lights[light_row];
-    uint turn = gl_VertexIndex % 3u;
+    uint turn = cornerInBin(instance, gl_VertexIndex % 3u);
     vec3 points[3]; // the corner itself, then the other two in their order
     for (uint i = 0u; i < 3u; ++i)
     {

@@ -19,7 +19,8 @@ Pose loadPose(uint row)
 {
     uvec4 first = deformation[row];
     vec4 second = deformationFloats(row + 1u);
-    return Pose(first.x, first.y, first.z, first.w, second.xyz, second.w);
+    float stretch = deformationFloats(row + 2u).x;
+    return Pose(first.x, first.y, first.z, first.w, second.xyz, second.w, stretch, 0u, 0u, 0u);
 }
 
 PaletteRow loadJoint(Pose pose, uint joint)
@@ -46,10 +47,12 @@ CarriedBox boxInPose(Instance instance, Pose pose, DeformedCluster cluster)
     PaletteRow main_joint = loadJoint(pose, cluster.joint);
     if ((pose.flags & kPoseFree) == 0u)
         return boxInClips(instance, main_joint, cluster);
-    CarriedBox box = grownBy(emptyFreeBox(instance), main_joint, cluster.bind_min, cluster.bind_max);
+    CarriedBox box = grownBy(emptyFreeBox(instance), main_joint, cluster.bind_min, cluster.bind_max,
+                             pose.free_stretch);
     // the first is the main one; without a skin there are none
     for (uint i = 1u; i < cluster.joint_count; ++i)
-        box = grownBy(box, loadJoint(pose, deformationWord(cluster.first_joint + i)), cluster.bind_min, cluster.bind_max);
+        box = grownBy(box, loadJoint(pose, deformationWord(cluster.first_joint + i)), cluster.bind_min, cluster.bind_max,
+                      pose.free_stretch);
     return box;
 }
 

@@ -85,6 +85,12 @@ uint cornerVertex(ClusterDraw draw, uint triangle, uint corner)
     return word >> ((index & 3u) * 8u) & 0xFFu;
 }
 
+// Of three corners, in the order in which the instance's bin sees the front of its triangles.
+uint cornerInBin(Instance instance, uint corner)
+{
+    return (instance.flags & kInstanceTurned) == 0u ? corner : (3u - corner) % 3u;
+}
+
 // Address of the first word of a vertex of a cluster.
 uint vertexAddress(ClusterDraw draw, uint vertex) { return draw.address + vertex * vertexWords(draw.vertex_layout); }
 

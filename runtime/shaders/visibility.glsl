@@ -25,7 +25,7 @@ CornerOfSlot cornerOfSlot()
     if (triangle < triangleCount(corner.draw))
     {
         Instance instance = instances[visible[slot].instance];
-        uint index = cornerVertex(corner.draw, triangle, gl_VertexIndex % 3u);
+        uint index = cornerVertex(corner.draw, triangle, cornerInBin(instance, gl_VertexIndex % 3u));
         corner.vertex = vertexAddress(corner.draw, index);
         DrawnPose pose = drawnPose(visible[slot].instance, slot);
         corner.position = clipPosition(view, drawnPosition(instance, corner.draw, pose, index, view.eye));

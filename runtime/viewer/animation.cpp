@@ -22,7 +22,7 @@ std::string listClips(const formats::PackView& pack)
     return text.empty() ? "none" : text;
 }
 
-Result<pack::ClipTime> findClip(const std::string& name, double seconds, const formats::PackView& pack)
+Result<pack::ClipTime> clipOfName(const std::string& name, double seconds, const formats::PackView& pack)
 {
     const auto animation = pack::findAnimation(pack, name);
     if (!animation)
@@ -37,7 +37,8 @@ pack::ClipTime after(pack::ClipTime clip, double seconds)
     return clip;
 }
 
-Status parseSeconds(const char* option, std::string_view text, double& seconds)
+template <typename Seconds>
+Status parseSeconds(const char* option, std::string_view text, Seconds& seconds)
 {
     const auto number = parseNumber<double>(text);
     if (!number)
@@ -70,7 +71,7 @@ Status parseBlend(std::string_view text, AnimationSettings& settings)
 
 } // namespace
 
-void addAnimationOptions(CommandLine& command_line, AnimationSettings& settings)
+void addClipOptions(CommandLine& command_line, AnimationSettings& settings)
 {
     command_line.addValue("--animation",
                           [&](std::string_view text)
@@ -80,9 +81,41 @@ void addAnimationOptions(CommandLine& command_line, AnimationSettings& settings)
                           });
     command_line.addValue("--time", [&](std::string_view text)
                           { return parseSeconds("--time", text, settings.seconds); });
+}
+
+void addAnimationOptions(CommandLine& command_line, AnimationSettings& settings)
+{
+    addClipOptions(command_line, settings);
     command_line.addValue("--time-step", [&](std::string_view text)
                           { return parseSeconds("--time-step", text, settings.step_seconds); });
     command_line.addValue("--blend", [&](std::string_view text) { return parseBlend(text, settings); });
+}
+
+Result<std::optional<pack::ClipTime>> findClip(const AnimationSettings& settings,
+                                               const formats::PackView& pack)
+{
+    if (!settings.clip)
+        return std::optional<pack::ClipTime>{};
+    HEARTH_ASSIGN_OR_RETURN(const pack::ClipTime clip,
+                            clipOfName(*settings.clip, settings.seconds.value_or(0), pack));
+    return std::optional(clip);
+}
+
+Status FramePose::take(const pack::PosePlayer& player, const gpu::Scene& scene)
+{
+    moves_.clear();
+    poses_.clear();
+    for (const pack::MovedInstance& moved : player.places())
+    {
+        HEARTH_ASSIGN_OR_RETURN(const gpu::InstanceMove move,
+                                gpu::moveInstance(scene, moved.instance, moved.world_from_object));
+        moves_.push_back(move);
+    }
+    for (const pack::PosedInstance& posed : player.posed())
+        poses_.push_back({.instance = posed.instance,
+                          .world_from_bind = posed.world_from_bind,
+                          .morph_weights = posed.morph_weights});
+    return success();
 }
 
 Result<Animation> Animation::create(const AnimationSettings& settings, const formats::PackView& pack)
@@ -90,14 +123,11 @@ Result<Animation> Animation::create(const AnimationSettings& settings, const for
     Animation animation(pack);
     animation.weight_ = settings.weight;
     animation.step_seconds_ = settings.step_seconds;
-    if (settings.clip)
-    {
-        HEARTH_ASSIGN_OR_RETURN(animation.clip_, findClip(*settings.clip, settings.seconds, pack));
-    }
+    HEARTH_ASSIGN_OR_RETURN(animation.clip_, findClip(settings, pack));
     if (settings.blended)
     {
         HEARTH_ASSIGN_OR_RETURN(animation.blended_,
-                                findClip(*settings.blended, settings.blended_seconds, pack));
+                                clipOfName(*settings.blended, settings.blended_seconds, pack));
     }
     return animation;
 }
@@ -113,21 +143,7 @@ void Animation::goTo(size_t frame)
 
 Status Animation::update(const gpu::Scene& scene)
 {
-    moves_.clear();
-    poses_.clear();
-    if (!clip_)
-        return success();
-    for (const pack::MovedInstance& moved : player_.places())
-    {
-        HEARTH_ASSIGN_OR_RETURN(const gpu::InstanceMove move,
-                                gpu::moveInstance(scene, moved.instance, moved.world_from_object));
-        moves_.push_back(move);
-    }
-    for (const pack::PosedInstance& posed : player_.posed())
-        poses_.push_back({.instance = posed.instance,
-                          .world_from_bind = posed.world_from_bind,
-                          .morph_weights = posed.morph_weights});
-    return success();
+    return clip_ ? pose_.take(player_, scene) : success();
 }
 
 } // namespace hearth::viewer

@@ -16,16 +16,39 @@ namespace hearth::viewer
 
 struct AnimationSettings
 {
-    std::optional<std::string> clip; ///< by its name or number; none: the scene is at rest
-    double seconds = 0;
-    std::optional<std::string> blended; ///< a second one
+    std::optional<std::string> clip{};    ///< by its name or number; none: the scene is at rest
+    std::optional<double> seconds{};      ///< of the clip; none: its start
+    std::optional<std::string> blended{}; ///< a second one
     double blended_seconds = 0;
     double weight = 0;       ///< of the second clip, 0 to 1
     double step_seconds = 0; ///< that both go on by from frame to frame
 };
 
-/// The options --animation, --time, --time-step and --blend; the settings outlive the command line.
+/// The options --animation and --time; the settings outlive the command line.
+void addClipOptions(CommandLine& command_line, AnimationSettings& settings);
+/// Those, --time-step and --blend.
 void addAnimationOptions(CommandLine& command_line, AnimationSettings& settings);
+
+/// The moment of --animation and --time; nothing where no clip is named.
+/// errors: usage, where the pack has no such clip.
+Result<std::optional<pack::ClipTime>> findClip(const AnimationSettings& settings,
+                                               const formats::PackView& pack);
+
+/// What a scene's next frame must be told to show the pose of a player.
+class FramePose
+{
+public:
+    /// errors: those of gpu::moveInstance.
+    Status take(const pack::PosePlayer& player, const gpu::Scene& scene);
+
+    /// Valid until the next pose is taken, and what the player says until its next pose.
+    std::span<const gpu::InstanceMove> moves() const { return moves_; }
+    std::span<const gpu::InstancePose> poses() const { return poses_; }
+
+private:
+    std::vector<gpu::InstanceMove> moves_;
+    std::vector<gpu::InstancePose> poses_;
+};
 
 /// Plays what the settings say, of one pack, which outlives it.
 class Animation
@@ -40,10 +63,10 @@ public:
     const pack::PosePlayer& player() const { return player_; }
 
     /// What the scene's next frame must be told to show the pose. Valid until the next call of either.
-    /// errors: usage, where an instance turns into its mirror image.
+    /// errors: those of gpu::moveInstance.
     Status update(const gpu::Scene& scene);
-    std::span<const gpu::InstanceMove> moves() const { return moves_; }
-    std::span<const gpu::InstancePose> poses() const { return poses_; }
+    std::span<const gpu::InstanceMove> moves() const { return pose_.moves(); }
+    std::span<const gpu::InstancePose> poses() const { return pose_.poses(); }
 
 private:
     explicit Animation(const formats::PackView& pack) : player_(pack) {}
@@ -53,8 +76,7 @@ private:
     double weight_ = 0;
     double step_seconds_ = 0;
     pack::PosePlayer player_;
-    std::vector<gpu::InstanceMove> moves_;
-    std::vector<gpu::InstancePose> poses_;
+    FramePose pose_;
 };
 
 } // namespace hearth::viewer

@@ -35,7 +35,7 @@ struct Character
     std::vector<float> keys;
     std::vector<DeformedCluster> clusters;
 
-    MotionTables tables() const { return {nodes, skins, joints, animations, channels, keys, {}}; }
+    MotionTables tables() const { return {nodes, skins, joints, animations, channels, keys, {}, {}}; }
 };
 
 void addSkeleton(Character& character)

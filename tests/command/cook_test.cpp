@@ -22,6 +22,7 @@ constexpr const char* kImport = R"(#!/bin/sh
 case "$1" in
   *malformed*) echo "$1|/meshes/0: error: is bad [E1101] hint: mend it" >&2; exit 65 ;;
   *missing*) echo "$1: error: cannot open [E1001] hint: look" >&2; exit 66 ;;
+  *told*) echo "$5|line 2, there: error: is bad [E1501] hint: mend it" >&2; exit 65 ;;
   *silent*) exit 65 ;;
   *strange*) echo "terminate called" >&2; exit 1 ;;
   *crash*) echo "contract broken" >&2; kill -SEGV $$ ;;
@@ -125,8 +126,10 @@ TEST_F(Cook, colourIsThereOnDemandOnly)
     EXPECT_FALSE(colored({"CLICOLOR_FORCE=1", "NO_COLOR=1"}));
 }
 
-TEST_F(Cook, givesItsProfileToTheClusters)
+TEST_F(Cook, givesItsProfileToTheImportAndTheClusters)
 {
+    expectFailure(cook({"told.gltf", "-o", "a.hearth", "--profile", "house.toml"}), 65,
+                  "house.toml|line 2, there: error: is bad");
     expectFailure(cook({"a.gltf", "-o", "a.hearth", "--profile", "house.toml"}), 65,
                   "house.toml|line 1, here: error: is bad");
 }

@@ -91,7 +91,9 @@ TEST_F(Inspect, countsWhatEachMeshHas)
     EXPECT_TRUE(json["meshes"][1]["levels"].empty());
     EXPECT_EQ(json["meshes"][2]["morph_targets"], 1);
     EXPECT_TRUE(json["meshes"][2]["skinned"].get<bool>());
-    EXPECT_GT(json["meshes"][2]["bytes"]["deformation"], 0);
+    EXPECT_EQ(json["meshes"][0]["bytes"]["bounds"], 0);
+    EXPECT_EQ(json["meshes"][2]["bytes"]["bounds"], 48 + 48 + 2 * 4) << "a cluster that two joints move";
+    EXPECT_EQ(json["totals"]["bytes"]["bounds"], 48 + 48 + 2 * 4);
 }
 
 TEST_F(Inspect, countsTheScene)
@@ -125,6 +127,20 @@ TEST_F(Inspect, aJointOfTwoSkinsIsOneJoint)
     skin.joints = {2, 1};
     model.skins.push_back(skin);
     EXPECT_EQ(inspected(model)["scene"]["joints"], 2);
+}
+
+TEST_F(Inspect, saysWhatBecameOfEachClip)
+{
+    PackModel model = smallPack();
+    model.meta = R"({"clips":[{"keys_before":9,"keys":4,"bytes_before":500,"bytes":90,"stated_error":0.5,)"
+                 R"("proven_error":0.25},{"keys":"many"}]})";
+    const Json animations = inspected(model)["scene"]["animations"];
+    EXPECT_EQ(animations[0]["keys"], Json({{"source", 9}, {"kept", 4}}));
+    EXPECT_EQ(animations[0]["bytes"], Json({{"source", 500}, {"kept", 90}}));
+    EXPECT_EQ(animations[0]["errors"], Json({{"stated", 0.5}, {"proven", 0.25}}));
+    EXPECT_EQ(animations[1]["keys"], Json({{"source", 0}, {"kept", 0}}));
+    EXPECT_FALSE(animations[2].contains("keys"));
+    EXPECT_EQ(animations[2]["error"], 0.25);
 }
 
 TEST_F(Inspect, passesOnWhatMetaTells)

@@ -80,7 +80,7 @@ std::string nameOf(const PackView& scene, uint32_t animation)
 class PosedExtract
 {
 public:
-    explicit PosedExtract(const std::string& source) : model_(DeformedModel::import(source))
+    explicit PosedExtract(const std::string& source) : model_(DeformedModel::importExactly(source))
     {
         if (model_ == nullptr)
             return;

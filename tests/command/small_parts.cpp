@@ -15,7 +15,7 @@ namespace
 {
 
 const uint32_t kClusterChunks[] = {kChunkMeshes,    kChunkLevels,      kChunkGroups, kChunkClusters,
-                                   kChunkPageTable, kChunkPageParents, kChunkPages,  kChunkDeformation};
+                                   kChunkPageTable, kChunkPageParents, kChunkPages};
 
 const uint32_t kSkinningChunks[] = {kChunkDeformedMeshes, kChunkDeformedClusters, kChunkClusterJoints};
 

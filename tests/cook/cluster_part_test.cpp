@@ -70,8 +70,6 @@ TEST(ClustersPart, holdsTheHierarchiesOfAllMeshes)
     EXPECT_EQ(view->text(view->meshes()[3].name), "terrain");
     EXPECT_EQ(view->meshes()[1].clusters.count, 0u) << "a mesh without triangles keeps its index";
     EXPECT_EQ(view->meshes()[2].skinned, 1u);
-    EXPECT_NE(view->container().find(formats::kChunkDeformation, 2), nullptr);
-    EXPECT_EQ(view->container().find(formats::kChunkDeformation, 0), nullptr);
 }
 
 /// An import part of three rocks, and records that say which are levels of others.

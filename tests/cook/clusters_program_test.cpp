@@ -143,6 +143,12 @@ TEST_F(ClustersProgram, followsAProfile)
     EXPECT_EQ(bad.exit_code, 65);
     EXPECT_NE(bad.err.find("bad.toml|line 2, clusters.levels[0].keep: error:"), std::string::npos) << bad.err;
     EXPECT_FALSE(sandbox_.has("bad.part"));
+
+    // what is for the import goes there
+    sandbox_.write("clips.toml", "[animation]\nerror = -1\n");
+    const test::ProgramEnd clips = run({"rock.obj", "-o", "bad.part", "--profile", "clips.toml"});
+    EXPECT_EQ(clips.exit_code, 65);
+    EXPECT_NE(clips.err.find("clips.toml|line 2, animation.error: error:"), std::string::npos) << clips.err;
 }
 
 TEST_F(ClustersProgram, codesNormalsAsAProfileSays)

@@ -10,8 +10,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <map>
 
 namespace hearth::test
 {
@@ -108,6 +110,34 @@ void expectNoCracks(const Hierarchy& hierarchy, const DeformedClusters& decoded)
     }
 }
 
+/// What somebody might make by hand of a character: all vertices of a cell at the place of the first of them, which keeps
+/// its joints and weights.
+mesh::SourceMesh madeByHand(const mesh::SourceMesh& source, float cell)
+{
+    std::map<std::array<int, 3>, uint32_t> vertex_of_cell;
+    mesh::SourceMesh level = source;
+    level.indices.clear();
+    level.triangle_materials.clear();
+    std::vector<uint32_t> moved;
+    for (uint32_t v = 0; v < source.vertexCount(); ++v)
+    {
+        const Float3 p = source.positions[v] * (1 / cell);
+        const std::array<int, 3> key{static_cast<int>(std::floor(p.x)), static_cast<int>(std::floor(p.y)),
+                                     static_cast<int>(std::floor(p.z))};
+        moved.push_back(vertex_of_cell.emplace(key, v).first->second);
+    }
+    for (size_t t = 0; t < source.triangleCount(); ++t)
+    {
+        const uint32_t a = moved[source.indices[t * 3]], b = moved[source.indices[t * 3 + 1]],
+                       c = moved[source.indices[t * 3 + 2]];
+        if (a == b || b == c || c == a)
+            continue;
+        level.indices.insert(level.indices.end(), {a, b, c});
+        level.triangle_materials.push_back(source.triangle_materials[t]);
+    }
+    return level;
+}
+
 void expectSound(const std::string& source)
 {
     const auto model = DeformedModel::import(source);
@@ -157,6 +187,41 @@ TEST(DeformedError, ofTheCharacterHoldsInEveryPose)
     ASSERT_EQ(std::system((std::string(HEARTH_BIN) + "/hearth-samples character -o '" + file + "'").c_str()),
               0);
     expectSound(file);
+}
+
+TEST(DeformedError, ofLevelsMadeByHandHoldsInEveryPose)
+{
+    const TemporaryFolder folder;
+    const std::string file = folder.file("character.glb");
+    ASSERT_EQ(
+        std::system((std::string(HEARTH_BIN) + "/hearth-samples character --triangles 8000 -o '" + file + "'")
+                        .c_str()),
+        0);
+    const auto model = DeformedModel::import(file);
+    ASSERT_NE(model, nullptr);
+    const DeformedModel::Mesh& mesh = model->meshes().at(0);
+    const auto owned = model->motion().of(mesh.index, mesh.source);
+    ASSERT_TRUE(owned.ok());
+    const mesh::SourceMesh levels[] = {madeByHand(mesh.source, 0.04f), madeByHand(mesh.source, 0.12f)};
+    ASSERT_LT(levels[1].triangleCount() * 2, levels[0].triangleCount());
+    const Hierarchy hierarchy = clusters::buildHierarchy(mesh.source, levels, {}, &owned->motion);
+    const Status valid = clusters::validateHierarchy(mesh.source, hierarchy, levels);
+    EXPECT_TRUE(valid.ok()) << formatMessage(valid.error());
+    for (size_t i = 0; i < 2; ++i)
+    {
+        const uint32_t level = hierarchy.authored_levels[i];
+        ASSERT_NE(level, kNone) << "level " << i << " by hand is not used";
+        EXPECT_EQ(hierarchy.levels[level].triangle_count, levels[i].triangleCount());
+        EXPECT_GT(hierarchy.levels[level].max_error, 0);
+    }
+    const DeformedClusters decoded(hierarchy);
+    Figures figures;
+    MeshPoses poses(motionTables(model->scene()), mesh.node, 11);
+    expectBounded(mesh.source, hierarchy, decoded, poses.rest(), figures);
+    for (size_t i = 0; i < kPoses; ++i)
+        expectBounded(mesh.source, hierarchy, decoded, poses.next(), figures);
+    std::printf("levels by hand of %zu and %zu triangles: measured at least %.2f of a level's bound\n",
+                levels[0].triangleCount(), levels[1].triangleCount(), figures.least_ratio);
 }
 
 TEST(DeformedPages, holdAsManyTargetsAsAFaceHas)

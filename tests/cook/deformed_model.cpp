@@ -7,6 +7,7 @@
 
 #include <bit>
 #include <cstdlib>
+#include <fstream>
 
 namespace hearth::test
 {
@@ -180,10 +181,23 @@ std::vector<Float3> DeformedClusters::posed(const MeshPose& pose) const
 
 std::unique_ptr<DeformedModel> DeformedModel::import(const std::string& source)
 {
+    return importWith(source, "");
+}
+
+std::unique_ptr<DeformedModel> DeformedModel::importExactly(const std::string& source)
+{
+    return importWith(source, "[animation]\nerror = 0\n");
+}
+
+std::unique_ptr<DeformedModel> DeformedModel::importWith(const std::string& source,
+                                                         const std::string& profile)
+{
     const TemporaryFolder folder;
     const std::string part = folder.file("import.part");
-    const std::string command =
-        std::string(HEARTH_BIN) + "/hearth-import '" + source + "' -o '" + part + "' 2> /dev/null";
+    const std::string profile_file = folder.file("profile.toml");
+    std::ofstream(profile_file) << profile;
+    const std::string command = std::string(HEARTH_BIN) + "/hearth-import '" + source + "' -o '" + part +
+                                "' --profile '" + profile_file + "' 2> /dev/null";
     if (std::system(command.c_str()) != 0)
         return nullptr;
     auto reader = ContainerReader::open(part);

@@ -81,6 +81,9 @@ public:
     /// Import a source with the real program; null where that fails.
     static std::unique_ptr<DeformedModel> import(const std::string& source);
 
+    /// With the clips as the source has them.
+    static std::unique_ptr<DeformedModel> importExactly(const std::string& source);
+
     struct Mesh
     {
         uint32_t index;
@@ -92,6 +95,8 @@ public:
     const clusters::PartMotion& motion() const { return *motion_; }
 
 private:
+    static std::unique_ptr<DeformedModel> importWith(const std::string& source, const std::string& profile);
+
     std::unique_ptr<formats::PackView> scene_;
     std::unique_ptr<clusters::PartMotion> motion_;
     std::vector<Mesh> meshes_;

@@ -49,6 +49,20 @@ uint64_t bytesOf(const clusters::ManualLod& lod, uint64_t vertex_bytes)
     return lod.vertices * vertex_bytes + lod.triangles * 3 * (lod.vertices <= 65536 ? 2 : 4);
 }
 
+TEST(ManualLods, takeTheInfluencesOfVertices)
+{
+    mesh::SourceMesh mesh = shapes::grid(4);
+    mesh.joint_sets.assign(2, std::vector<mesh::Joints4>(mesh.vertexCount(), {{0, 1, 2, 3}}));
+    mesh.weight_sets.assign(2, std::vector<Float4>(mesh.vertexCount(), {0.125f, 0.125f, 0.125f, 0.125f}));
+    // what is one joint twice becomes one influence of four
+    const ManualLods four = clusters::measureManualLods(clusters::buildHierarchy(mesh));
+    ASSERT_EQ(four.lods.size(), 1u);
+    EXPECT_EQ(four.bytes, 25u * (8 + 4 + 16) + 32 * 3 * 2);
+    mesh.joint_sets[1].assign(mesh.vertexCount(), {{4, 5, 6, 7}});
+    const ManualLods eight = clusters::measureManualLods(clusters::buildHierarchy(mesh));
+    EXPECT_EQ(eight.bytes, 25u * (8 + 4 + 32) + 32 * 3 * 2);
+}
+
 TEST(ManualLods, ofOneClusterAreThatCluster)
 {
     // 25 vertices: a position and a normal of 8 bytes, a UV of 4

@@ -158,7 +158,9 @@ TEST(RotationSet, splineThroughNothingCanBeAnyRotation)
     const std::vector<float> keys{0,      1, /**/ 0, 0, 0, 0, 0, 0,  0, 1, 0, 0, 0, 0,
                                   /**/ 0, 0, 0,      0, 0, 0, 0, -1, 0, 0, 0, 0};
     AnimationChannelRecord channel = channelOf(Interpolation::cubic_spline, 4, 2);
-    addRotations(channel, keys, points);
+    MotionTables tables;
+    tables.keys = keys;
+    addRotations(tables, channel, points);
     EXPECT_TRUE(points.unbounded);
     EXPECT_TRUE(RotationSet::around(points).unbounded());
 }
@@ -169,7 +171,9 @@ TEST(AddValues, splinesOvershootIsInside)
     const std::vector<float> keys{0, 1, /**/ 0, 0, 4, /**/ -4, 0, 0};
     AnimationChannelRecord channel = channelOf(Interpolation::cubic_spline, 1, 2);
     Interval range;
-    addValues(channel, keys, 0, range);
+    MotionTables tables;
+    tables.keys = keys;
+    addValues(tables, channel, 0, range);
     EXPECT_GE(range.high, 1.0);
     EXPECT_LE(range.high, 1.02);
     EXPECT_LE(range.low, 0.0);
@@ -289,87 +293,6 @@ TEST(SkinMotion, nothingIsSeenFromAJointThatCanBeFlat)
     EXPECT_EQ(skin.relative(1, 0), nullptr);
     EXPECT_NE(skin.relative(0, 1), nullptr);
     EXPECT_TRUE(skin.canMirror(1));
-}
-
-namespace
-{
-
-/// The poses of small regions, held against what their spans say.
-void checkRegions(const test::CharacterSpec& spec)
-{
-    const test::Character character = test::randomCharacter(spec, 4);
-    const MotionTables tables = character.tables();
-    const std::vector<NodeMotion> nodes = nodeMotions(tables);
-    const PoseRegions regions(tables, nodes);
-    std::vector<uint32_t> all(nodes.size());
-    std::iota(all.begin(), all.end(), 0u);
-    std::mt19937 random(5);
-    std::uniform_real_distribution<double> uniform(0, 1);
-    for (int i = 0; i < 3000; ++i)
-    {
-        // a pose of one region, and that region cut down around it
-        const std::vector<PoseRegion> roots = regions.all();
-        PoseRegion region = roots[random() % roots.size()];
-        const double from_time = uniform(random), to_time = uniform(random), weight = uniform(random);
-        ScenePose from = restPose(tables), to = from, pose;
-        const auto sample = [&](uint32_t clip, double share, ScenePose& of_clip)
-        {
-            if (clip > 0)
-                sampleAnimation(tables, tables.animations[clip - 1],
-                                share * double{tables.animations[clip - 1].duration}, of_clip);
-        };
-        sample(region.from_clip, from_time, from);
-        sample(region.to_clip, to_time, to);
-        blendPoses(from, to, weight, pose);
-        const auto holds = [](uint32_t span, double share)
-        {
-            const double width = 1.0 / static_cast<double>(std::bit_floor(span));
-            const double start = static_cast<double>(span - std::bit_floor(span)) * width;
-            return share >= start && share <= start + width;
-        };
-        for (int cuts = static_cast<int>(random() % 16); cuts > 0; --cuts)
-            if (const auto halves = regions.halves(region, all))
-                for (const PoseRegion& half : *halves)
-                    if (weight >= half.low_weight && weight <= half.high_weight &&
-                        holds(half.from_span, from_time) && holds(half.to_span, to_time))
-                    {
-                        region = half;
-                        break;
-                    }
-        for (const uint32_t node : all)
-        {
-            const NodeSpan span = regions.spanOf(region, node);
-            const NodePose& local = pose.nodes[node];
-            const double translation[3] = {local.translation.x, local.translation.y, local.translation.z};
-            const double scale[3] = {local.scale.x, local.scale.y, local.scale.z};
-            for (size_t axis = 0; axis < 3; ++axis)
-            {
-                ASSERT_LE(std::abs(translation[axis] - span.translations[axis].middle()),
-                          span.translations[axis].half() + kRounding);
-                ASSERT_LE(std::abs(scale[axis] - span.scales[axis].middle()),
-                          span.scales[axis].half() + kRounding);
-            }
-            ASSERT_LE(std::acos(std::min(1.0, std::abs(dot(span.rotation, local.rotation)))),
-                      span.angle + 1e-7);
-        }
-    }
-}
-
-} // namespace
-
-TEST(PoseRegions, holdTheirPoses)
-{
-    checkRegions({.scale_low = 0.5, .scale_high = 1.5});
-}
-
-TEST(PoseRegions, holdPosesOfSplines)
-{
-    checkRegions({.splines = true});
-}
-
-TEST(PoseRegions, holdPosesOfSpins)
-{
-    checkRegions({.spins = true, .opposite = true});
 }
 
 } // namespace hearth::motion

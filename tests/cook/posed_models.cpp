@@ -3,6 +3,7 @@
 
 #include "cook/skinning/group_spheres.h"
 #include "cook/skinning/read_clusters.h"
+#include "formats/channel_keys.h"
 #include "formats/vertex_codec.h"
 
 #include <algorithm>
@@ -259,7 +260,8 @@ void PoseSource::sample(ScenePose& pose)
     {
         const AnimationChannelRecord& channel =
             tables_.channels[animation.channels.first + random_() % animation.channels.count];
-        time = tables_.keys[channel.first_time + random_() % channel.key_count];
+        time = double{ChannelKeys(tables_.keys, tables_.key_bits, channel)
+                          .time(static_cast<uint32_t>(random_() % channel.key_count))};
     }
     sampleAnimation(tables_, animation, time, pose);
 }

@@ -40,7 +40,7 @@ struct Character
 
     formats::MotionTables tables() const
     {
-        return {nodes, skins, joints, animations, channels, keys, morph_weights};
+        return {nodes, skins, joints, animations, channels, keys, morph_weights, {}};
     }
 };
 

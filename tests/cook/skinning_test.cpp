@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <gtest/gtest.h>
+#include <tuple>
 
 namespace hearth::skinning
 {
@@ -90,6 +91,80 @@ TEST(DeformedBounds, holdTwoHundredJoints)
 TEST(DeformedBounds, holdMorphTargets)
 {
     expectSound(figuresOf({.splines = true, .morph_targets = 5}));
+}
+
+TEST(DeformedBounds, holdFreePosesWithAnyMorphWeights)
+{
+    std::mt19937 random(7);
+    const auto value = [&](double most)
+    { return std::uniform_real_distribution<double>(-most, most)(random); };
+    Character character = test::randomCharacter({.morph_targets = 4, .far_influences = true}, 3);
+    test::computeBounds(character.tables(), character.mesh);
+    const auto joints = static_cast<uint32_t>(character.joints.size());
+    size_t vertices = 0, beyond_unmorphed = 0;
+    double nearest = 1;
+    for (int pose = 0; pose < 1000; ++pose)
+    {
+        std::vector<Affine3d> palette(joints);
+        for (Affine3d& joint : palette)
+            for (auto& row : joint.m)
+                for (double& cell : row)
+                    cell = value(2);
+        const double most = pose % 2 == 0 ? 1 : 5;
+        const double weights[] = {value(most), value(most), value(most), value(most)};
+        const double stretch = std::max(
+            {std::abs(weights[0]), std::abs(weights[1]), std::abs(weights[2]), std::abs(weights[3])});
+        for (size_t c = 0; c < character.mesh.clusters.size(); ++c)
+        {
+            const DeformedCluster& cluster = character.mesh.clusters[c];
+            motion::Box3d bind;
+            for (const Float3 position : cluster.positions)
+                motion::add(bind, widen(position));
+            const double grown = stretch * double{character.mesh.bounds[c].morph_reach};
+            // as FORMAT.md says: the union over the joints of the grown box, carried
+            const auto carried = [&](double by)
+            {
+                motion::Box3d all;
+                for (const uint16_t joint : cluster.joints)
+                    for (int corner = 0; corner < 8; ++corner)
+                        motion::add(
+                            all, transformPoint(palette[joint],
+                                                {(corner & 1) != 0 ? bind[0].high + by : bind[0].low - by,
+                                                 (corner & 2) != 0 ? bind[1].high + by : bind[1].low - by,
+                                                 (corner & 4) != 0 ? bind[2].high + by : bind[2].low - by}));
+                return all;
+            };
+            const motion::Box3d bound = carried(grown), unmorphed = carried(0);
+            for (size_t v = 0; v < cluster.positions.size(); ++v, ++vertices)
+            {
+                Double3 place = widen(cluster.positions[v]);
+                for (const MorphDeltas& morph : cluster.morphs)
+                    place = place + widen(morph.positions[v]) * weights[morph.target];
+                for (const auto& [position, low, high] : {std::tuple{place.x, bind[0].low, bind[0].high},
+                                                          {place.y, bind[1].low, bind[1].high},
+                                                          {place.z, bind[2].low, bind[2].high}})
+                    nearest = std::min(
+                        nearest,
+                        grown == 0 ? 1 : std::min(position - (low - grown), high + grown - position) / grown);
+                Double3 skinned;
+                for (size_t i = 0; i < cluster.influences; ++i)
+                    skinned =
+                        skinned + transformPoint(palette[cluster.joints[v * cluster.influences + i]], place) *
+                                      cluster.weights[v * cluster.influences + i];
+                constexpr double kRounding = 1e-9;
+                for (const auto& [axis, position] :
+                     {std::pair<size_t, double>{0, skinned.x}, {1, skinned.y}, {2, skinned.z}})
+                {
+                    EXPECT_GE(position, bound[axis].low - kRounding);
+                    EXPECT_LE(position, bound[axis].high + kRounding);
+                    beyond_unmorphed += unmorphed[axis].contains(position) ? 0u : 1u;
+                }
+            }
+        }
+    }
+    EXPECT_GT(vertices, 100000u);
+    EXPECT_GT(beyond_unmorphed, 100u) << "without the targets' reach the bound would not hold";
+    EXPECT_LT(nearest, 0.3) << "nothing uses the reach";
 }
 
 TEST(DeformedBounds, morphTargetsAloneAreTight)

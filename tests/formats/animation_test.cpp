@@ -28,6 +28,7 @@ struct Scene
     std::vector<AnimationRecord> animations{AnimationRecord{}};
     std::vector<AnimationChannelRecord> channels;
     std::vector<float> keys;
+    std::vector<uint32_t> key_bits;
     std::vector<float> morph_weights;
 
     uint32_t addNode(uint32_t parent, Float3 translation = {})
@@ -60,7 +61,10 @@ struct Scene
         ++animations[0].channels.count;
     }
 
-    MotionTables tables() const { return {nodes, skins, joints, animations, channels, keys, morph_weights}; }
+    MotionTables tables() const
+    {
+        return {nodes, skins, joints, animations, channels, keys, morph_weights, key_bits};
+    }
 
     ScenePose at(double time) const
     {
@@ -257,6 +261,70 @@ TEST(Animation, paletteCarriesTheBindPose)
     skinPalette(scene.tables(), skin, scene.worldOf(restPose(scene.tables())), palette);
     for (const Affine3d& world_from_bind : palette)
         EXPECT_DOUBLE_EQ(transformPoint(world_from_bind, {0.5, 0.5, 0}).y, 2.5);
+}
+
+TEST(Animation, packedKeysAreTheFloatsOfTheirCodes)
+{
+    // times 0, 3 and 5 of a table; x and z move in steps of a quarter
+    Scene packed;
+    packed.addNode(kNone);
+    packed.animations.push_back({});
+    packed.addChannel(0, AnimationPath::translation, Interpolation::linear, 3, {0, 1, 2, 3, 4, 5},
+                      {-1, 2, 0, 0.25f});
+    AnimationChannelRecord& channel = packed.channels[0];
+    channel.encoding = static_cast<uint32_t>(KeyEncoding::packed);
+    channel.key_count = 3;
+    channel.time_bits = 3;
+    channel.value_bits[0] = 3;
+    channel.value_bits[2] = 24;
+    // 30 bits a key: the second and the third lie in two words each
+    uint64_t bits[2]{};
+    const std::array<std::array<uint64_t, 3>, 3> keys{{{0, 7, 0xFFFFFF}, {3, 2, 0}, {5, 4, 0x800001}}};
+    for (size_t key = 0; key < keys.size(); ++key)
+    {
+        const uint64_t code = keys[key][0] | keys[key][1] << 3 | keys[key][2] << 6;
+        bits[key * 30 / 64] |= code << (key * 30 % 64);
+        if (key * 30 % 64 > 34)
+            bits[key * 30 / 64 + 1] |= code >> (64 - key * 30 % 64);
+    }
+    packed.key_bits = {static_cast<uint32_t>(bits[0]), static_cast<uint32_t>(bits[0] >> 32),
+                       static_cast<uint32_t>(bits[1])};
+    Scene floats;
+    floats.addNode(kNone);
+    floats.animations.push_back({});
+    floats.addChannel(
+        0, AnimationPath::translation, Interpolation::linear, 3, {0, 3, 5},
+        {-1 + 7 * 0.25f, 2, 0xFFFFFF * 0.25f, -1 + 2 * 0.25f, 2, 0, -1 + 4 * 0.25f, 2, 0x800001 * 0.25f});
+    for (double time = -1; time < 6; time += 0.125)
+    {
+        const Double3 is = packed.at(time).nodes[0].translation,
+                      wanted = floats.at(time).nodes[0].translation;
+        EXPECT_EQ(is.x, wanted.x) << time;
+        EXPECT_EQ(is.y, wanted.y) << time;
+        EXPECT_EQ(is.z, wanted.z) << time;
+    }
+}
+
+TEST(Animation, packedRotationsHaveTheLengthOne)
+{
+    // one key for each number that can be left out; the three others are .5
+    Scene scene;
+    scene.addNode(kNone);
+    scene.animations.push_back({});
+    scene.addChannel(0, AnimationPath::rotation, Interpolation::step, 4, {0, 1, 2, 3},
+                     {-0.5f, 0.5f, 0.5f, 0.25f});
+    scene.channels[0].encoding = static_cast<uint32_t>(KeyEncoding::packed);
+    scene.channels[0].value_bits[0] = 3;
+    // 5 bits a key: which one, and the code of the first of the others: -.5, -.25, 0 and .5
+    scene.key_bits = {0u | 0u << 2 | (1u | 1u << 2) << 5 | (2u | 2u << 2) << 10 | (3u | 4u << 2) << 15};
+    const std::array<Quaternion, 4> wanted{{{0.5, -0.5, 0.5, 0.5},
+                                            {-0.25, std::sqrt(0.4375), 0.5, 0.5},
+                                            {0, 0.5, std::sqrt(0.5), 0.5},
+                                            {0.5, 0.5, 0.5, 0.5}}};
+    for (size_t key = 0; key < wanted.size(); ++key)
+        for (size_t i = 0; i < 4; ++i)
+            EXPECT_NEAR(scene.at(static_cast<double>(key)).nodes[0].rotation[i], wanted[key][i], 1e-15)
+                << key << " " << i;
 }
 
 } // namespace hearth::test

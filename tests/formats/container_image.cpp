@@ -9,6 +9,7 @@
 #include <zstd.h>
 
 #include <cstring>
+#include <memory>
 
 namespace hearth::test
 {
@@ -93,6 +94,18 @@ ChunkImage zstdChunk(uint32_t type, uint32_t index, uint32_t element_size, std::
     chunk.stored.resize(ZSTD_compressBound(bytes.size()));
     chunk.stored.resize(
         ZSTD_compress(chunk.stored.data(), chunk.stored.size(), bytes.data(), bytes.size(), 1));
+    return chunk;
+}
+
+ChunkImage streamedChunk(uint32_t type, uint32_t index, uint32_t element_size,
+                         std::span<const std::byte> bytes)
+{
+    ChunkImage chunk = zstdChunk(type, index, element_size, bytes);
+    chunk.stored.resize(ZSTD_compressBound(bytes.size()));
+    const std::unique_ptr<ZSTD_CCtx, size_t (*)(ZSTD_CCtx*)> context(ZSTD_createCCtx(), ZSTD_freeCCtx);
+    ZSTD_CCtx_setParameter(context.get(), ZSTD_c_contentSizeFlag, 0);
+    chunk.stored.resize(
+        ZSTD_compress2(context.get(), chunk.stored.data(), chunk.stored.size(), bytes.data(), bytes.size()));
     return chunk;
 }
 

@@ -48,6 +48,10 @@ ChunkImage plainChunk(uint32_t type, uint32_t index, uint32_t element_size, std:
 /// The same compressed, always, by zstd.
 ChunkImage zstdChunk(uint32_t type, uint32_t index, uint32_t element_size, std::span<const std::byte> bytes);
 
+/// The same, but its frame does not name the size of what is in it, as streams do not.
+ChunkImage streamedChunk(uint32_t type, uint32_t index, uint32_t element_size,
+                         std::span<const std::byte> bytes);
+
 /// Lay the chunks out and fill in offsets, sizes, hashes and the header.
 AlignedBytes assemble(formats::ContainerKind kind, std::span<const ChunkImage> chunks);
 

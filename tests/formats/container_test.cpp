@@ -323,6 +323,19 @@ const std::vector<MalformedContainer>& malformedContainers()
              chunks.back().entry.size = 32;
              return assemble(ContainerKind::pack, chunks);
          }},
+        {"texelsOfUnnamedSize", Issue::chunk_codec,
+         []
+         {
+             std::vector<ChunkImage> chunks = smallPack().chunks(true);
+             // a frame whose header leaves the size out, with a window of 1 KiB and one raw block of 32 bytes
+             std::vector<std::byte>& frame = chunks.back().stored;
+             frame.clear();
+             for (const int byte : {0x28, 0xB5, 0x2F, 0xFD, 0, 0, 0x01, 0x01, 0})
+                 frame.push_back(static_cast<std::byte>(byte));
+             frame.resize(frame.size() + 32);
+             HEARTH_ASSERT(chunks.back().entry.size == 32);
+             return assemble(ContainerKind::pack, chunks);
+         }},
         {"texelsCutOff", Issue::chunk_codec,
          []
          {

@@ -49,8 +49,10 @@ const std::vector<MalformedPack>& malformedDeformations()
          [](PackModel& p) { p.deformed_clusters[0].cone_back = -1; }},
         {"deformedClusterReserved", Issue::meaning_padding, "deformed cluster 0",
          [](PackModel& p) { p.deformed_clusters[0].reserved = 1; }},
-        {"deformedClusterReservedEnd", Issue::meaning_padding, "deformed cluster 0",
-         [](PackModel& p) { p.deformed_clusters[0].reserved_end = 1; }},
+        {"deformedClusterMorphReach", Issue::meaning_value, "deformed cluster 0",
+         [](PackModel& p) { p.deformed_clusters[0].morph_reach = -1; }},
+        {"deformedClusterMorphReachNaN", Issue::meaning_value, "deformed cluster 0",
+         [](PackModel& p) { p.deformed_clusters[0].morph_reach = kNaN; }},
         {"deformedClusterWithoutJoints", Issue::meaning_value, "deformed cluster 0",
          [](PackModel& p)
          {

@@ -51,6 +51,20 @@ TEST(CheckPack, refusesAPart)
     EXPECT_EQ(pack.error().issue, Issue::container_kind);
 }
 
+TEST(CheckPack, refusesTexelsWhoseFrameDoesNotNameItsSize)
+{
+    const PackModel pack = smallPack();
+    std::vector<ChunkImage> chunks = pack.chunks(true);
+    for (ChunkImage& chunk : chunks)
+        if (chunk.entry.type == kChunkImageData && chunk.entry.index == 1)
+            chunk = streamedChunk(kChunkImageData, 1, 1, pack.image_data[1]);
+    const AlignedBytes bytes = assemble(ContainerKind::pack, chunks);
+    const auto opened = pack::Pack::fromBytes(bytes.span(), "pack");
+    ASSERT_FALSE(opened.ok());
+    EXPECT_EQ(opened.error().issue, Issue::chunk_codec);
+    EXPECT_EQ(opened.error().where, "chunk IMGD 1");
+}
+
 TEST(CheckHierarchy, needsOnlyTheMeshes)
 {
     PackModel all = smallPack();

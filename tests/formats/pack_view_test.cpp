@@ -54,6 +54,7 @@ TEST(PackView, givesEveryTable)
     EXPECT_EQ(view->animations().size(), model.animations.size());
     EXPECT_EQ(view->channels().size(), model.channels.size());
     EXPECT_TRUE(std::ranges::equal(view->keys(), model.keys));
+    EXPECT_TRUE(std::ranges::equal(view->keyBits(), model.key_bits));
     EXPECT_TRUE(std::ranges::equal(view->morphWeights(), model.morph_weights));
     EXPECT_EQ(view->meshes().size(), model.meshes.size());
     EXPECT_EQ(view->levels().size(), model.levels.size());

@@ -230,36 +230,6 @@ void addTriangle(PackModel& pack)
     endMesh(pack, 1);
 }
 
-/// Joints and weights of three vertices and one morph target, as chunk DEFM.
-std::vector<std::byte> deformation()
-{
-    constexpr struct
-    {
-        SourceSemantic semantic;
-        uint32_t element_size;
-    } kArrays[] = {
-        {SourceSemantic::joints, 8}, {SourceSemantic::weights, 16}, {SourceSemantic::morph_position, 12}};
-
-    SourceMeshHeader header{};
-    header.array_count = static_cast<uint32_t>(std::size(kArrays));
-    header.vertex_count = 3;
-    std::vector<std::byte> bytes;
-    appendValue(bytes, header);
-    uint64_t offset = sizeof(SourceMeshHeader) + std::size(kArrays) * sizeof(SourceArray);
-    for (const auto& kind : kArrays)
-    {
-        SourceArray array{};
-        array.semantic = static_cast<uint32_t>(kind.semantic);
-        array.offset = offset;
-        array.count = 3;
-        array.element_size = kind.element_size;
-        appendValue(bytes, array);
-        offset = (offset + array.count * array.element_size + 15) / 16 * 16;
-    }
-    bytes.resize(offset);
-    return bytes;
-}
-
 /// Bounds of the triangle, whose two joints never move.
 void addBounds(PackModel& pack)
 {
@@ -391,6 +361,8 @@ void addAnimation(PackModel& pack)
     const auto first_rotation = static_cast<uint32_t>(pack.keys.size());
     for (int i = 0; i < 6; ++i)
         pack.keys.insert(pack.keys.end(), {0, 0, 0, i % 3 == 1 ? 1.0f : 0.0f});
+    const auto first_packed = static_cast<uint32_t>(pack.keys.size());
+    pack.keys.insert(pack.keys.end(), {1, 0, 0, 0.5f, 0, 0, 0, 0});
     const auto first_weight = static_cast<uint32_t>(pack.keys.size());
     pack.keys.insert(pack.keys.end(), {0, 1});
     const auto channel = [](AnimationPath path, Interpolation interpolation)
@@ -415,9 +387,27 @@ void addAnimation(PackModel& pack)
     morph.components = 1;
     morph.key_count = 2;
     morph.first_value = first_weight;
-    pack.channels = {move, turn, morph};
+    // packed: the times 0 and 2 of those above, x from 1 in steps of a half; two half turns, about x and about y
+    AnimationChannelRecord packed_move = channel(AnimationPath::translation, Interpolation::linear);
+    packed_move.node = 1;
+    packed_move.components = 3;
+    packed_move.key_count = 2;
+    packed_move.first_value = first_packed;
+    packed_move.encoding = static_cast<uint32_t>(KeyEncoding::packed);
+    packed_move.value_bits[0] = 4;
+    packed_move.time_bits = 2;
+    AnimationChannelRecord packed_turn = packed_move;
+    packed_turn.path = static_cast<uint32_t>(AnimationPath::rotation);
+    packed_turn.components = 4;
+    packed_turn.first_word = 1;
+    packed_turn.first_value = first_packed + 4;
+    packed_turn.value_bits[0] = 0;
+    packed_turn.time_bits = 0;
+    pack.key_bits = {0u | 3u << 2 | 2u << 6 | 15u << 8, 0u | 1u << 2};
+    pack.channels = {move, turn, morph, packed_move, packed_turn};
     pack.animations.push_back({intern(pack, "move"), {0, 2}, 2, 0});
     pack.animations.push_back({intern(pack, "morph"), {2, 1}, 1, 0});
+    pack.animations.push_back({intern(pack, "packed"), {3, 2}, 2.5f, 0.25f});
 }
 
 } // namespace
@@ -464,6 +454,7 @@ std::vector<ChunkImage> PackModel::chunks(bool compressed) const
     table(kChunkAnimations, animations);
     table(kChunkChannels, channels);
     table(kChunkKeys, keys);
+    table(kChunkKeyBits, key_bits);
     table(kChunkMorphWeights, morph_weights);
     table(kChunkMeshes, meshes);
     table(kChunkLevels, levels);
@@ -475,9 +466,6 @@ std::vector<ChunkImage> PackModel::chunks(bool compressed) const
     table(kChunkDeformedClusters, deformed_clusters);
     table(kChunkClusterJoints, cluster_joints);
     list.push_back(plainChunk(kChunkPages, 0, 1, page_bytes));
-    for (uint32_t i = 0; i < deformations.size(); ++i)
-        if (!deformations[i].empty())
-            bytes(kChunkDeformation, i, 1, deformations[i]);
     for (uint32_t i = 0; i < image_data.size(); ++i)
         bytes(kChunkImageData, i, 1, image_data[i]);
     return list;
@@ -495,7 +483,6 @@ PackModel smallPack()
     endMesh(pack, 0);
     addTriangle(pack);
     addBounds(pack);
-    pack.deformations = {{}, {}, deformation()};
     pack.sealPages();
     return pack;
 }

@@ -31,6 +31,7 @@ struct PackModel
     std::vector<formats::AnimationRecord> animations;
     std::vector<formats::AnimationChannelRecord> channels;
     std::vector<float> keys;
+    std::vector<uint32_t> key_bits;
     std::vector<float> morph_weights;
     std::vector<formats::MeshRecord> meshes;
     std::vector<formats::LevelRecord> levels;
@@ -44,7 +45,6 @@ struct PackModel
     std::vector<formats::DeformedClusterRecord> deformed_clusters;
     std::vector<uint32_t> cluster_joints;
     std::vector<formats::DeformedGroupRecord> deformed_groups; ///< in parts alone
-    std::vector<std::vector<std::byte>> deformations;          ///< chunk DEFM of each mesh; none where empty
 
     /// Encode decoded_pages into page_bytes again, and set offset, size and hash of the page records.
     /// The second page is stored as it is, the others by zstd.

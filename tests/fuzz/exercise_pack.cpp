@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "tests/fuzz/exercise_pack.h"
 
+#include "formats/channel_keys.h"
 #include "runtime/pack/cut.h"
 #include "runtime/pack/pack.h"
 #include "runtime/pack/page_graph.h"
@@ -96,8 +97,12 @@ void useScene(const PackView& view)
     {
         const size_t values =
             size_t{channel.key_count} * channel.components * (channel.interpolation == 2 ? 3 : 1);
-        use(std::bit_cast<uint32_t>(view.keys()[channel.first_time + channel.key_count - 1]));
-        use(std::bit_cast<uint32_t>(view.keys()[channel.first_value + values - 1]));
+        const ChannelKeys keys(view.keys(), view.keyBits(), channel);
+        use(std::bit_cast<uint32_t>(keys.time(channel.key_count - 1)));
+        if (isPacked(channel))
+            use(std::bit_cast<uint64_t>(keys.value(channel.key_count - 1, 0, channel.components)[0]));
+        else
+            use(std::bit_cast<uint32_t>(view.keys()[channel.first_value + values - 1]));
     }
 }
 

@@ -232,7 +232,7 @@ TEST(GenerateTangents, giveUvsWithoutAreaSomeTangent)
     for (size_t i = 0; i < mesh.vertexCount(); ++i)
     {
         const Float4 t = mesh.tangents[i];
-        EXPECT_NEAR(length({t.x, t.y, t.z}), 1, 1e-6);
+        EXPECT_NEAR(length(Float3{t.x, t.y, t.z}), 1, 1e-6);
         EXPECT_NEAR(dot({t.x, t.y, t.z}, mesh.normals[i]), 0, 1e-6);
     }
 }
@@ -255,7 +255,7 @@ TEST(GenerateTangents, surviveRandomSoup)
     for (size_t i = 0; i < mesh.vertexCount(); ++i)
     {
         EXPECT_NEAR(length(mesh.normals[i]), 1, 1e-5);
-        EXPECT_NEAR(length({mesh.tangents[i].x, mesh.tangents[i].y, mesh.tangents[i].z}), 1, 1e-5);
+        EXPECT_NEAR(length(Float3{mesh.tangents[i].x, mesh.tangents[i].y, mesh.tangents[i].z}), 1, 1e-5);
     }
     for (const uint32_t index : mesh.indices)
         ASSERT_LT(index, mesh.vertexCount());

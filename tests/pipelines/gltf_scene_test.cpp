@@ -144,6 +144,30 @@ TEST(GltfInstancing, multipliesEachCopyIntoTheNode)
     EXPECT_TRUE(result.warnsOf(Issue::dropped, "instance attribute _ID"));
 }
 
+TEST(GltfInstancing, ofASkinnedMeshLeavesOneCopyWhereItsJointsAre)
+{
+    GltfData data = squareData();
+    data.add("VEC4", std::vector<uint8_t>(16));
+    data.add("VEC4", std::vector<float>{1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0});
+    data.add("VEC3", std::vector<float>{1, 0, 0, 0, 1, 0, 0, 0, 1});
+    const std::string meshes =
+        R"("meshes":[{"primitives":[{"attributes":{"POSITION":0,"JOINTS_0":2,"WEIGHTS_0":3},"indices":1}]}],)";
+    const std::string node =
+        R"("nodes":[{"mesh":0,%"extensions":{"EXT_mesh_gpu_instancing":{"attributes":{"TRANSLATION":4}}}},
+        {"translation":[5,0,0]}])";
+    const Imported skinned =
+        data.import(meshes + R"("skins":[{"joints":[1]}],)" + replaced(node, "%", R"("skin":0,)"));
+    ASSERT_TRUE(skinned.ok()) << skinned.message();
+    ASSERT_EQ(instancesOf(skinned).size(), 1u);
+    EXPECT_EQ(instancesOf(skinned)[0].world_from_object, Affine3{});
+    EXPECT_TRUE(skinned.warnsOf(Issue::dropped, "instancing of a skinned mesh is not kept"));
+    // without the skin the same node draws three
+    const Imported rigid = data.import(meshes + replaced(node, "%", ""));
+    ASSERT_TRUE(rigid.ok()) << rigid.message();
+    EXPECT_EQ(instancesOf(rigid).size(), 3u);
+    EXPECT_FALSE(rigid.warnsOf(Issue::dropped, "instancing"));
+}
+
 TEST(GltfInstancing, refusesCountsThatDifferAndTooManyCopies)
 {
     GltfData data = squareData();
@@ -293,6 +317,25 @@ TEST(GltfSkins, keepTheMeshAsItIsBound)
     EXPECT_EQ(mesh.positions[2], (Float3{1, 1, 0}));
     EXPECT_EQ(mesh.normals[2], (Float3{0, 0, 1}));
     EXPECT_TRUE(result.warnings.empty());
+}
+
+TEST(GltfSkins, sayWhichWayTrianglesTurnUnderTheirJoints)
+{
+    const auto instanceUnder = [](const std::string& root, const std::string& tip)
+    {
+        const Imported result =
+            importSkinned(true, R"("nodes":[{"mesh":0,"skin":0,"scale":[-1,1,1]},)" + root + "," + tip + "]");
+        EXPECT_TRUE(result.ok()) << result.message();
+        return instancesOf(result)[0];
+    };
+    const std::string plain_root = R"({"children":[2]})", plain_tip = R"({"translation":[0,1,0]})";
+    const std::string mirrored_root = R"({"scale":[1,1,-2],"children":[2]})";
+    // the scale of the mesh's own node does not count
+    EXPECT_EQ(instanceUnder(plain_root, plain_tip).flags, 0u);
+    EXPECT_EQ(instanceUnder(mirrored_root, plain_tip).flags, kInstanceMirrored);
+    EXPECT_EQ(instanceUnder(mirrored_root, R"({"scale":[-1,1,1]})").flags, 0u) << "one joint of each kind";
+    EXPECT_EQ(instanceUnder(R"({"scale":[-1,-1,-1],"children":[2]})", plain_tip).world_from_object.m[0][0],
+              -1.0f);
 }
 
 TEST(GltfSkins, withoutInverseBindMatricesBindWithoutThem)

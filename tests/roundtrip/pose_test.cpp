@@ -6,8 +6,13 @@
 #include "tests/runtime/gpu_fixture.h"
 #include "tests/runtime/test_scene.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
 
 namespace hearth::test
 {
@@ -75,6 +80,47 @@ private:
     std::mt19937 random_;
 };
 
+/// Give the character of a GLB a level of detail, MSFT_lod: the first half of its triangles. Returns how many these are.
+uint32_t addLevelOfHalf(const std::string& file)
+{
+    std::ifstream stream(file, std::ios::binary);
+    const std::string bytes{std::istreambuf_iterator<char>(stream), {}};
+    constexpr size_t kJson = 20; // behind the header and the chunk's own
+    uint32_t size = 0;
+    std::memcpy(&size, bytes.data() + 12, sizeof(size));
+    nlohmann::json json = nlohmann::json::parse(bytes.substr(kJson, size));
+    const auto node =
+        static_cast<size_t>(std::find_if(json["nodes"].begin(), json["nodes"].end(),
+                                         [](const nlohmann::json& n) { return n.contains("skin"); }) -
+                            json["nodes"].begin());
+    nlohmann::json mesh = json["meshes"][json["nodes"][node]["mesh"].get<size_t>()];
+    nlohmann::json accessor = json["accessors"][mesh["primitives"][0]["indices"].get<size_t>()];
+    const uint32_t triangles = accessor["count"].get<uint32_t>() / 6;
+    accessor["count"] = triangles * 3;
+    accessor.erase("min");
+    accessor.erase("max");
+    mesh["primitives"] = nlohmann::json::array({mesh["primitives"][0]});
+    mesh["primitives"][0]["indices"] = json["accessors"].size();
+    json["accessors"].push_back(accessor);
+    json["nodes"].push_back({{"mesh", json["meshes"].size()}, {"skin", json["nodes"][node]["skin"]}});
+    json["meshes"].push_back(mesh);
+    json["nodes"][node]["extensions"]["MSFT_lod"]["ids"] = {json["nodes"].size() - 1};
+    json["extensionsUsed"].push_back("MSFT_lod");
+
+    std::string text = json.dump();
+    text.resize((text.size() + 3) / 4 * 4, ' ');
+    std::string changed = bytes.substr(0, kJson) + text + bytes.substr(kJson + size);
+    const auto put = [&](size_t at, size_t value)
+    {
+        const auto word = static_cast<uint32_t>(value);
+        std::memcpy(changed.data() + at, &word, sizeof(word));
+    };
+    put(8, changed.size());
+    put(12, text.size());
+    std::ofstream(file, std::ios::binary) << changed;
+    return triangles;
+}
+
 class PoseTest : public GpuTest
 {
 protected:
@@ -116,6 +162,56 @@ TEST_F(PoseTest, cullingIsLosslessOnTheSampleCharacter)
     expectLossless(sample.pack(), 300, 81);
     EXPECT_LT(drawn_, all_);
     std::printf("character: %zu of %zu clusters drawn\n", drawn_, all_);
+}
+
+TEST_F(PoseTest, levelsMadeByHandSwitchAsAWholeInEveryPose)
+{
+    // half of the triangles are a level by hand: what it lacks is a hole, and its error
+    const roundtrip::ScratchFolder folder;
+    const std::string source = folder.path("character.glb"), cooked = folder.path("character.hearth");
+    ASSERT_EQ(
+        roundtrip::runProgram(roundtrip::Program::samples, {"character", "--triangles", "6000", "-o", source})
+            .exit_code,
+        0);
+    const uint32_t by_hand = addLevelOfHalf(source);
+    const auto end = roundtrip::runProgram(roundtrip::Program::hearth, {"cook", source, "-o", cooked});
+    ASSERT_EQ(end.exit_code, 0) << end.errors;
+    const auto opened = pack::Pack::open(cooked);
+    ASSERT_TRUE(opened.ok());
+    const formats::PackView& pack = opened->view();
+    const auto levels = formats::recordsOf(pack.levels(), pack.meshes()[0].levels);
+    const auto found =
+        std::find_if(levels.begin(), levels.end(),
+                     [&](const formats::LevelRecord& level) { return level.triangle_count == by_hand; });
+    ASSERT_NE(found, levels.end());
+    const auto authored = static_cast<uint8_t>(found - levels.begin());
+
+    RandomPoses poses(pack, 84);
+    const auto scene = upload(pack);
+    gpu::FrameTargets targets = makeTargets(96, 96);
+    size_t before = 0, at = 0;
+    for (int frame = 0; frame < 60; ++frame)
+    {
+        const RandomPoses::Frame now = poses.next(*scene);
+        const Camera camera = poses.camera();
+        DrawOptions options{.width = 96,
+                            .height = 96,
+                            .error_pixels = std::exp2(static_cast<float>(frame % 12) - 2),
+                            .moves = now.moves,
+                            .poses = now.poses};
+        const Picture some = draw(*scene, targets, camera, options);
+        options.flags = 0;
+        const Picture whole = draw(*scene, camera, options);
+        ASSERT_EQ(some.seen(), whole.seen()) << "frame " << frame;
+        size_t finer = 0;
+        for (const auto& slot : whole.list.slots)
+            finer += pack.clusters()[slot.cluster].level < authored ? 1u : 0u;
+        EXPECT_TRUE(finer == 0 || finer == whole.list.slots.size())
+            << "frame " << frame << " mixes both sides";
+        (finer == 0 ? at : before) += whole.list.slots.empty() ? 0u : 1u;
+    }
+    EXPECT_GT(before, 5u);
+    EXPECT_GT(at, 5u);
 }
 
 TEST_F(PoseTest, cullingIsLosslessOnRealAssets)

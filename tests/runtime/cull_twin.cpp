@@ -72,11 +72,11 @@ public:
     {
         if ((pose.flags & kPoseFree) == 0)
             return boxInClips(instance, joint(pose, cluster.joint), cluster);
-        CarriedBox box =
-            grownBy(emptyFreeBox(instance), joint(pose, cluster.joint), cluster.bind_min, cluster.bind_max);
+        CarriedBox box = grownBy(emptyFreeBox(instance), joint(pose, cluster.joint), cluster.bind_min,
+                                 cluster.bind_max, pose.free_stretch);
         for (uint32_t i = 1; i < cluster.joint_count; ++i)
             box = grownBy(box, joint(pose, words_[cluster.first_joint + i]), cluster.bind_min,
-                          cluster.bind_max);
+                          cluster.bind_max, pose.free_stretch);
         return box;
     }
 

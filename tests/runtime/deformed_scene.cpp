@@ -228,6 +228,23 @@ uint32_t mainJoint(const ClusterGeometry& geometry, std::vector<uint32_t>& joint
     return largest;
 }
 
+/// On any axis, all targets with a weight of 1 or -1.
+float morphReach(const ClusterGeometry& geometry)
+{
+    float reach = 0;
+    for (uint32_t v = 0; v < geometry.vertexCount(); ++v)
+    {
+        Float3 sum;
+        for (uint32_t i = 0; i < geometry.morphCount(); ++i)
+        {
+            const Float3 delta = geometry.morphPosition(i, v);
+            sum += {std::abs(delta.x), std::abs(delta.y), std::abs(delta.z)};
+        }
+        reach = std::max({reach, sum.x, sum.y, sum.z});
+    }
+    return reach * 1.00001f;
+}
+
 } // namespace
 
 std::vector<gpu::InstancePose> viewsOf(const std::vector<TestPose>& poses)
@@ -345,8 +362,6 @@ void DeformedScene::addDeformed(uint32_t mesh, uint32_t skin, uint32_t joint_cou
                                 std::mt19937& random)
 {
     PackModel& model = test_.model();
-    model.deformations.resize(model.meshes.size());
-    model.deformations.back().resize(sizeof(SourceMeshHeader));
     const uint32_t targets = model.meshes[mesh].morph_target_count;
     Mesh added{mesh, skin, {}};
     added.poses.push_back({0, std::vector<Affine3d>(joint_count), std::vector<float>(targets, 0.0f)});
@@ -404,6 +419,7 @@ void DeformedScene::boundMesh(const Mesh& mesh)
         cluster.box_min = box.min;
         cluster.box_max = box.max;
         setCone(corners, cluster);
+        cluster.morph_reach = morphReach(geometry);
         all.add(anchored[i]);
         model.deformed_clusters.push_back(cluster);
     }

@@ -22,9 +22,11 @@ class Screenshot : public testing::Test
 {
 protected:
     /// The window's picture is that of hearth-render in every pixel, and the validation layer is silent.
-    void expectSame(const std::vector<std::string>& options)
+    void expectSame(const std::vector<std::string>& options) { expectSame(sample_, options); }
+
+    void expectSame(const CookedSample& sample, const std::vector<std::string>& options)
     {
-        std::vector<std::string> arguments{sample_.packPath(), "--size", "320x240", "--validate"};
+        std::vector<std::string> arguments{sample.packPath(), "--size", "320x240", "--validate"};
         arguments.insert(arguments.end(), options.begin(), options.end());
         std::vector<std::string> view = arguments, render = arguments;
         view.insert(view.end(), {"--frames", "3", "--screenshot", folder_.path("view.png")});
@@ -39,6 +41,7 @@ protected:
     }
 
     const CookedSample& sample_ = cookedSample({"rock", 150000});
+    const CookedSample& character_ = cookedSample({"character", 20000});
     ScratchFolder folder_;
 };
 
@@ -74,6 +77,16 @@ TEST_F(Screenshot, ofASceneLargerThanItsBudget)
     EXPECT_GT(contentOf(file).size(), 1000u);
 }
 
+TEST_F(Screenshot, ofACharacterAtRestAndInMomentsOfItsClips)
+{
+    expectSame(character_, {});
+    const std::string rest = contentOf(folder_.path("view.png"));
+    expectSame(character_, {"--animation", "walk", "--time", "0.4"});
+    EXPECT_FALSE(rest == contentOf(folder_.path("view.png")));
+    expectSame(character_, {"--animation", "1", "--time", "0.9", "--view", "bones"});
+    expectSame(character_, {"--animation", "walk", "--time", "77", "--budget", "64M"});
+}
+
 TEST_F(Screenshot, failsWithTheMessagesOfOtherPrograms)
 {
     EXPECT_EQ(runProgram(HEARTH_VIEW_PROGRAM, {}).exit_code, 2);
@@ -84,6 +97,14 @@ TEST_F(Screenshot, failsWithTheMessagesOfOtherPrograms)
     const ProgramEnd nowhere = runProgram(
         HEARTH_VIEW_PROGRAM, {sample_.packPath(), "--frames", "1", "--screenshot", folder_.path("no/a.png")});
     EXPECT_EQ(nowhere.exit_code, 73) << nowhere.errors;
+    const std::vector<std::string> no_such_clip{character_.packPath(), "--animation", "Fly"};
+    std::vector<std::string> rendered = no_such_clip;
+    rendered.insert(rendered.end(), {"-o", folder_.path("a.png")});
+    const ProgramEnd clip = runProgram(HEARTH_VIEW_PROGRAM, no_such_clip);
+    EXPECT_EQ(clip.exit_code, 2);
+    const std::string said = clip.errors.substr(clip.errors.find("error"));
+    EXPECT_NE(said.find("\"Fly\""), std::string::npos) << clip.errors;
+    EXPECT_NE(runProgram(Program::render, rendered).errors.find(said), std::string::npos) << said;
 }
 
 } // namespace hearth::roundtrip

@@ -24,6 +24,20 @@ TEST(ViewOptions, areThoseOfADrawingAndItsOwn)
     EXPECT_EQ(options->shadows.options.max_maps, 5u);
 }
 
+TEST(ViewOptions, nameAClipAndAMomentOfIt)
+{
+    const char* const plays[] = {"a.hearth", "--animation", "Walk"};
+    const auto playing = viewer::parseViewOptions(plays);
+    ASSERT_TRUE(playing.ok());
+    EXPECT_EQ(playing->animation.clip, "Walk");
+    EXPECT_EQ(playing->animation.seconds, std::nullopt);
+    const char* const stands[] = {"a.hearth", "--animation=2", "--time", "-0.5"};
+    const auto standing = viewer::parseViewOptions(stands);
+    ASSERT_TRUE(standing.ok()) << formatMessage(standing.error());
+    EXPECT_EQ(standing->animation.clip, "2");
+    EXPECT_EQ(standing->animation.seconds, -0.5);
+}
+
 TEST(ViewNames, endWithTheOneThatNeedsShadows)
 {
     // the panel leaves the last one out where there are none
@@ -46,6 +60,10 @@ TEST(ViewOptions, mistakesAreNamed)
     expectUsage({"a.hearth", "--frames", "0"}, "--frames");
     expectUsage({"a.hearth", "--view", "shadow-maps"}, "--shadows");
     expectUsage({"a.hearth", "--screenshot", "a.png"}, "--frames");
+    expectUsage({"a.hearth", "--animation"}, "--animation");
+    for (const char* time : {"", "soon", "1s", "nan", "inf"})
+        expectUsage({"a.hearth", "--animation", "Walk", "--time", time}, "--time");
+    expectUsage({"a.hearth", "--animation", "Walk", "--blend", "Run,0,1"}, "--blend");
 }
 
 } // namespace hearth::test

@@ -18,14 +18,18 @@ constexpr double kStep = 1.0 / 60;
 class WindowTest : public testing::Test
 {
 protected:
-    void SetUp() override
+    void SetUp() override { open(sample_, {}); }
+
+    void open(const roundtrip::CookedSample& sample, const viewer::AnimationSettings& animation)
     {
-        viewer::DrawOptions options;
+        viewer_.reset(); // one at a time
+        viewer::ViewOptions options;
         options.width = 320;
         options.height = 240;
         options.validate = true;
         options.shadows.options.max_maps = 4;
-        Result<std::unique_ptr<viewer::Viewer>> viewer = viewer::Viewer::create(options, sample_.pack());
+        options.animation = animation;
+        Result<std::unique_ptr<viewer::Viewer>> viewer = viewer::Viewer::create(options, sample.pack());
         ASSERT_TRUE(viewer.ok()) << formatMessage(viewer.error());
         viewer_ = std::move(viewer).value();
         settings().panel = false; // where the mouse happens to be does not matter then
@@ -194,6 +198,39 @@ TEST_F(WindowTest, countsWhatTheTestsLeaveOut)
     settings().count_culling = false;
     play(5);
     EXPECT_FALSE(viewer_->figures().culling);
+}
+
+TEST_F(WindowTest, playsTheClipsOfACharacter)
+{
+    open(roundtrip::cookedSample({"character", 20000}), {.clip = "walk"});
+    const double begin = viewer_->playback().clip()->seconds;
+    play(12);
+    EXPECT_NEAR(viewer_->playback().clip()->seconds - begin, 0.2, 1e-9);
+    hold(SDL_SCANCODE_SPACE, 1);
+    const double still = viewer_->playback().clip()->seconds;
+    play(5);
+    EXPECT_EQ(viewer_->playback().clip()->seconds, still);
+    hold(SDL_SCANCODE_SPACE, 1);
+
+    settings().panel = true;
+    settings().playback.clip = 1;
+    EXPECT_EQ(play(5), 5u);
+    ASSERT_TRUE(viewer_->playback().leaving());
+    EXPECT_EQ(viewer_->playback().leaving()->animation, 0u);
+    settings().geometry_budget = 8u << 20; // the scene is loaded anew, and is where the clip has it
+    EXPECT_EQ(play(20), 20u);
+    EXPECT_FALSE(viewer_->playback().leaving());
+    settings().playback.clip.reset();
+    EXPECT_EQ(play(3), 3u);
+    EXPECT_FALSE(viewer_->playback().clip());
+}
+
+TEST_F(WindowTest, standsStillAtTheTimeThatIsGiven)
+{
+    open(roundtrip::cookedSample({"character", 20000}), {.clip = "1", .seconds = 0.75});
+    play(5);
+    EXPECT_EQ(viewer_->playback().clip()->seconds, 0.75);
+    EXPECT_FALSE(settings().playback.playing);
 }
 
 TEST_F(WindowTest, isClosed)

@@ -10,6 +10,8 @@ std::string viewHelp()
                        "Fly through a pack in a window.\n"
                        "\n") +
            kDrawHelp +
+           "      --animation CLIP    play a clip, by its name or number\n"
+           "      --time SECONDS      stand still at this time of it; beyond its keys it rests\n"
            "      --frames N          end after N pictures\n"
            "      --screenshot FILE   at the end of --frames: the picture without the panel, PNG; with "
            "--budget "
@@ -20,7 +22,7 @@ std::string viewHelp()
            "1 ... 0 the views in the order above; R back to the start, C prints --camera as it is, Tab hides "
            "the "
            "panel,\n"
-           "Esc ends\n"
+           "the space bar stops a clip and lets it go on, Esc ends\n"
            "Exit codes: 0, 2 usage, 65 malformed pack, 66 missing, 70 no display, no device or a defect, 73 "
            "cannot\n"
            "write, 74 I/O\n";
@@ -31,6 +33,7 @@ Result<ViewOptions> parseViewOptions(std::span<const char* const> arguments)
     ViewOptions options;
     CommandLine command_line;
     addDrawOptions(command_line, options);
+    addClipOptions(command_line, options.animation);
     command_line.addValue("--frames",
                           [&](std::string_view text) { return parseFrames(text, options.frames); });
     command_line.addText("--screenshot", options.screenshot);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
+#include "runtime/viewer/animation.h"
 #include "runtime/viewer/draw_options.h"
 
 namespace hearth::viewer
@@ -9,8 +10,9 @@ namespace hearth::viewer
 
 struct ViewOptions : DrawOptions
 {
-    uint32_t frames = 0;    ///< 0: until the window is closed
-    std::string screenshot; ///< of the last frame; empty: none
+    AnimationSettings animation; ///< it plays, or stands still at the time that is given
+    uint32_t frames = 0;         ///< 0: until the window is closed
+    std::string screenshot;      ///< of the last frame; empty: none
 };
 
 /// The text of --help.

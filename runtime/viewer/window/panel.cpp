@@ -68,6 +68,53 @@ void chooseCamera(ViewSettings& settings, const PanelFacts& facts)
     ImGui::EndCombo();
 }
 
+void chooseClip(PlaybackSettings& settings, std::span<const std::string> clips)
+{
+    constexpr const char* kRest = "none: at rest";
+    if (!ImGui::BeginCombo("Clip", settings.clip ? clips[*settings.clip].c_str() : kRest))
+        return;
+    if (ImGui::Selectable(kRest, !settings.clip))
+        settings.clip.reset();
+    for (uint32_t i = 0; i < clips.size(); ++i)
+    {
+        ImGui::PushID(static_cast<int>(i)); // several may have one name
+        if (ImGui::Selectable(clips[i].c_str(), settings.clip == i))
+            settings.clip = i;
+        ImGui::PopID();
+    }
+    ImGui::EndCombo();
+}
+
+void showClip(PlaybackSettings& settings, const PanelFacts& facts)
+{
+    const std::optional<pack::ClipTime> clip = facts.playback.clip();
+    if (!clip)
+        return;
+    double seconds = clip->seconds;
+    const double first = 0, last = facts.playback.duration(clip->animation);
+    if (ImGui::SliderScalar("Time", ImGuiDataType_Double, &seconds, &first, &last, "%.3f s",
+                            ImGuiSliderFlags_AlwaysClamp))
+        settings.go_to = seconds;
+    if (const std::optional<pack::ClipTime> leaving = facts.playback.leaving())
+        ImGui::Text("%.0f %% of it, the rest %s", facts.playback.weight() * 100,
+                    facts.clips[leaving->animation].c_str());
+}
+
+void buildAnimation(PlaybackSettings& settings, const PanelFacts& facts)
+{
+    if (facts.clips.empty() || !ImGui::CollapsingHeader("Animation", ImGuiTreeNodeFlags_DefaultOpen))
+        return;
+    constexpr float kFastest = 4, kLongestFade = 2;
+    chooseClip(settings, facts.clips);
+    showClip(settings, facts);
+    ImGui::Checkbox("Play", &settings.playing);
+    ImGui::SameLine();
+    ImGui::Checkbox("Loop", &settings.loop);
+    ImGui::SliderFloat("Speed", &settings.speed, -kFastest, kFastest, "%.2f", ImGuiSliderFlags_AlwaysClamp);
+    ImGui::SliderFloat("Fade", &settings.fade_seconds, 0, kLongestFade, "%.2f s",
+                       ImGuiSliderFlags_AlwaysClamp);
+}
+
 } // namespace
 
 Panel::Panel(const ViewSettings& settings, uint64_t geometry_bytes)
@@ -84,7 +131,7 @@ Panel::Panel(const ViewSettings& settings, uint64_t geometry_bytes)
 void Panel::build(ViewSettings& settings, const PanelFacts& facts)
 {
     ImGui::SetNextWindowPos({10, 10}, ImGuiCond_FirstUseEver);
-    ImGui::SetNextWindowSize({380, 460}, ImGuiCond_FirstUseEver);
+    ImGui::SetNextWindowSize({380, 560}, ImGuiCond_FirstUseEver);
     if (ImGui::Begin("Hearth"))
     {
         ImGui::Text("%s, %u x %u", facts.device.c_str(), facts.extent.width, facts.extent.height);
@@ -94,6 +141,7 @@ void Panel::build(ViewSettings& settings, const PanelFacts& facts)
             showProblem(std::to_string(dropped) + " lights are more than can be drawn");
         chooseCamera(settings, facts);
         buildPicture(settings.frame, facts.scene.scene().shadows != nullptr);
+        buildAnimation(settings.playback, facts);
         buildCurve(settings.frame);
         buildStreaming(settings, facts);
         buildCulling(settings, facts);

@@ -5,6 +5,7 @@
 #include "runtime/viewer/frame_settings.h"
 #include "runtime/viewer/window/fly_camera.h"
 #include "runtime/viewer/window/frame_meter.h"
+#include "runtime/viewer/window/playback.h"
 
 namespace hearth::viewer
 {
@@ -13,6 +14,7 @@ namespace hearth::viewer
 struct ViewSettings
 {
     FrameSettings frame;
+    PlaybackSettings playback{};
     uint64_t geometry_budget = 0; ///< bytes; 0: all geometry is resident
     bool count_culling = false;
     bool panel = true;
@@ -36,7 +38,9 @@ struct PanelFacts
     VkDeviceSize target_bytes;
     const FlyCamera& camera;
     std::span<const NamedCamera> cameras;
-    const std::string& problem; ///< why the last budget was not taken; or empty
+    const Playback& playback;
+    std::span<const std::string> clips; ///< what people call the animations of the pack
+    const std::string& problem;         ///< why the last budget was not taken; or empty
 };
 
 class Panel

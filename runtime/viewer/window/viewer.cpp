@@ -36,13 +36,35 @@ float flySpeed(const formats::PackView& pack, Float3 eye)
     return std::max(*median / 4, 1e-4f);
 }
 
-std::vector<NamedCamera> camerasOf(const formats::PackView& pack, const shared::Camera& start, float aspect)
+std::vector<NamedCamera> camerasOf(const formats::PackView& pack, const pack::PosePlayer& player,
+                                   const shared::Camera& start, float aspect)
 {
-    std::vector<NamedCamera> cameras{{"start", start}, {"whole scene", fitCamera(pack, aspect)}};
+    std::vector<NamedCamera> cameras{{"start", start}, {"whole scene", fitCamera(pack, player, aspect)}};
     for (uint32_t i = 0; i < pack.cameras().size(); ++i)
         if (pack.cameras()[i].type == static_cast<uint32_t>(formats::CameraType::perspective))
             cameras.push_back({"scene camera " + std::to_string(i), sceneCamera(pack, i)});
     return cameras;
+}
+
+std::vector<std::string> clipNames(const formats::PackView& pack)
+{
+    std::vector<std::string> names;
+    for (const formats::AnimationRecord& animation : pack.animations())
+    {
+        const std::string_view name = pack.text(animation.name);
+        names.push_back(name.empty() ? std::to_string(names.size()) : std::string(name));
+    }
+    return names;
+}
+
+/// The clip plays from its start, unless the command line names a moment of it.
+PlaybackSettings playbackSettings(const AnimationSettings& options, const Playback& playback)
+{
+    PlaybackSettings settings;
+    if (playback.clip())
+        settings.clip = playback.clip()->animation;
+    settings.playing = !options.seconds;
+    return settings;
 }
 
 /// For flights between these cameras.
@@ -65,27 +87,37 @@ uint64_t geometryBytes(const formats::PackView& pack)
 
 } // namespace
 
-Viewer::Viewer(const DrawOptions& options, const formats::PackView& pack, const shared::Camera& start)
+Viewer::Viewer(const ViewOptions& options, const formats::PackView& pack, Playback playback,
+               const pack::PosePlayer& player, const shared::Camera& start)
     : pack_(pack),
-      settings_{.frame = options.settings, .geometry_budget = options.geometry_budget},
+      settings_{.frame = options.settings,
+                .playback = playbackSettings(options.animation, playback),
+                .geometry_budget = options.geometry_budget},
       panel_(settings_, geometryBytes(pack)),
       camera_(start, flySpeed(pack, start.position)),
-      cameras_(
-          camerasOf(pack, start, static_cast<float>(options.width) / static_cast<float>(options.height))),
+      clips_(clipNames(pack)),
+      playback_(std::move(playback)),
+      player_(pack),
+      cameras_(camerasOf(pack, player, start,
+                         static_cast<float>(options.width) / static_cast<float>(options.height))),
       shadows_(shadowsOf(options.shadows, pack, cameras_)),
       shadow_spheres_(options.shadows.spheres)
 {
 }
 
-Result<std::unique_ptr<Viewer>> Viewer::create(const DrawOptions& options, const formats::PackView& pack)
+Result<std::unique_ptr<Viewer>> Viewer::create(const ViewOptions& options, const formats::PackView& pack)
 {
-    HEARTH_ASSIGN_OR_RETURN(const shared::Camera start, chooseCamera(options, pack, pack::PosePlayer(pack)));
-    std::unique_ptr<Viewer> viewer(new Viewer(options, pack, start));
+    HEARTH_ASSIGN_OR_RETURN(const std::optional<pack::ClipTime> clip, findClip(options.animation, pack));
+    Playback playback(clipDurations(pack), clip);
+    pack::PosePlayer player(pack);
+    playback.pose(player);
+    HEARTH_ASSIGN_OR_RETURN(const shared::Camera start, chooseCamera(options, pack, player));
+    std::unique_ptr<Viewer> viewer(new Viewer(options, pack, std::move(playback), player, start));
     HEARTH_TRY(viewer->open(options));
     return viewer;
 }
 
-Status Viewer::open(const DrawOptions& options)
+Status Viewer::open(const ViewOptions& options)
 {
     HEARTH_ASSIGN_OR_RETURN(window_,
                             SdlWindow::create("Hearth: " + pack_.name(), options.width, options.height));
@@ -117,6 +149,7 @@ Result<bool> Viewer::step(double seconds)
     frame_seconds_ = seconds;
     handleEvents();
     controls_.fly(camera_, static_cast<float>(std::clamp(seconds, 0.0, kLongestStep)));
+    playback_.advance(settings_.playback, std::max(seconds, 0.0));
     HEARTH_TRY(followSettings());
     if (resized_ && !minimized_)
         HEARTH_TRY(resize());
@@ -170,6 +203,8 @@ void Viewer::pressed(int32_t key)
         open_ = false;
     else if (key == SDLK_TAB)
         settings_.panel = !settings_.panel;
+    else if (key == SDLK_SPACE)
+        settings_.playback.playing = !settings_.playback.playing;
     else if (key == SDLK_r)
         settings_.camera = 0;
     else if (key == SDLK_c)
@@ -231,6 +266,8 @@ void Viewer::buildPanel()
                              .target_bytes = targets_->allocatedBytes(),
                              .camera = camera_,
                              .cameras = cameras_,
+                             .playback = playback_,
+                             .clips = clips_,
                              .problem = problem_});
     imgui_->endFrame();
 }
@@ -249,6 +286,8 @@ Result<bool> Viewer::drawFrame(bool panel, const gpu::Buffer* screenshot)
     }
     if (panel)
         buildPanel();
+    playback_.pose(player_);
+    HEARTH_TRY(pose_.take(player_, scene_->scene()));
     HEARTH_ASSIGN_OR_RETURN(const VkCommandBuffer commands, frames_->begin());
     recordFrame(commands, *image, panel, screenshot);
     HEARTH_TRY(frames_->submit(swapchain_->drawn(*image)));
@@ -265,6 +304,8 @@ void Viewer::recordFrame(VkCommandBuffer commands, uint32_t image, bool panel, c
     gpu::FrameInput frame =
         makeFrame(settings_.frame, camera_.camera(), scene.instance_count, targets_->extent());
     frame.shadow_spheres = shadow_spheres_;
+    frame.moves = pose_.moves();
+    frame.poses = pose_.poses();
     frame.timestamps = meter_->timestamps(frames_->slot());
     renderer_->record(commands, scene, *targets_, frame);
     meter_->record(commands, *scene_, frames_->slot(), settings_.count_culling);

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include "runtime/viewer/draw_options.h"
 #include "runtime/viewer/window/imgui_layer.h"
+#include "runtime/viewer/window/options.h"
 #include "runtime/viewer/window/panel.h"
 
 namespace hearth::viewer
@@ -14,15 +14,15 @@ class Viewer
 {
 public:
     /// pack  outlives the viewer
-    /// errors: device; those of chooseCamera and gpu::Renderer::upload.
-    static Result<std::unique_ptr<Viewer>> create(const DrawOptions& options, const formats::PackView& pack);
+    /// errors: device; those of findClip, chooseCamera and gpu::Renderer::upload.
+    static Result<std::unique_ptr<Viewer>> create(const ViewOptions& options, const formats::PackView& pack);
     /// Waits for the frames.
     ~Viewer();
 
     /// Until somebody closes it.
     bool isOpen() const { return open_; }
 
-    /// Take the events that have come, fly for so many seconds (at most a tenth), and show a picture. False where the window
+    /// Take the events that have come, fly for so many seconds (at most a tenth), let clips play, and show a picture. False where the window
     /// shows none now: it is minimized, or has just changed.
     /// errors: device_failed.
     Result<bool> step(double seconds);
@@ -39,12 +39,14 @@ public:
     const FlyCamera& camera() const { return camera_; }
     const FrameFigures& figures() const { return meter_->figures(); }
     const LoadedScene& scene() const { return *scene_; }
+    const Playback& playback() const { return playback_; }
     VkExtent2D extent() const { return swapchain_->extent(); }
     VulkanHost& host() { return *host_; }
 
 private:
-    Viewer(const DrawOptions& options, const formats::PackView& pack, const shared::Camera& start);
-    Status open(const DrawOptions& options);
+    Viewer(const ViewOptions& options, const formats::PackView& pack, Playback playback,
+           const pack::PosePlayer& player, const shared::Camera& start);
+    Status open(const ViewOptions& options);
     void handleEvents();
     void handle(const SDL_Event& event);
     void pressed(int32_t key);
@@ -59,6 +61,10 @@ private:
     Panel panel_;
     FlyControls controls_;
     FlyCamera camera_;
+    std::vector<std::string> clips_;
+    Playback playback_;
+    pack::PosePlayer player_;
+    FramePose pose_;
     std::vector<NamedCamera> cameras_; ///< where it can go; the first is where it started
     gpu::ShadowOptions shadows_;
     std::vector<gpu::ShadowSphere> shadow_spheres_;

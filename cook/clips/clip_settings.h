@@ -1,0 +1,18 @@
+// What a user asks of clips: the table [animation] of a profile. See README.md, "Profiles".
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "cook/clips/fitted_clip.h"
+#include "formats/result.h"
+
+#include <string>
+
+namespace hearth::clips
+{
+
+/// The key animation.error of a profile: metres, from 0, which keeps clips as they are. Without it the default: a share of
+/// the size of each model. Strict, as the cluster builder is with its own table.
+/// errors: input_missing, profile_syntax, profile_key, profile_value; they name the line and the key.
+Result<StatedError> readStatedError(const std::string& profile_path);
+
+} // namespace hearth::clips
