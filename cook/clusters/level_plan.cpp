@@ -16,6 +16,10 @@ using formats::kClusterMaxTriangles;
 // A target counts as met from here on; what users are promised is 3 %.
 constexpr double kTargetSlack = 0.01;
 
+// Of more groups a cut takes finer ones where there is more to lose. Of few, each is so large a part of the mesh that it
+// cannot: there the groups themselves have to keep more or less.
+constexpr size_t kMostBalancedGroups = 12;
+
 struct GroupShare
 {
     size_t triangles = 0;
@@ -35,13 +39,6 @@ GroupShare shareOf(const Reduction& reduction, uint32_t level, const ClusterStor
     }
     share.step = stepOfGroup(reduction, level, materials);
     return share;
-}
-
-size_t fullClusters(double triangles)
-{
-    const auto whole = static_cast<size_t>(triangles);
-    return std::max<size_t>(
-        1, whole >= kClusterMaxTriangles ? whole / kClusterMaxTriangles * kClusterMaxTriangles : whole);
 }
 
 /// Full clusters, up or down, so that over many groups the sum is that of the exact counts; where that would leave a
@@ -77,6 +74,7 @@ GroupGoal goalOf(const GroupShare& share, double part)
     GroupGoal goal;
     goal.of = share.triangles;
     goal.error_weight = share.step.error_weight;
+    goal.keep = share.step.keep;
     goal.stuck_ratio = static_cast<float>(1 - kLeastProgress * (1 - part));
     return goal;
 }
@@ -128,9 +126,11 @@ LevelPlan planLevel(const Reduction& reduction, uint32_t level, const ClusterSto
         for (const GroupShare& share : shares)
         {
             plan.goals.push_back(goalOf(share, double{share.step.keep}));
-            plan.goals.back().triangles =
-                fullClusters(static_cast<double>(static_cast<float>(share.triangles) * share.step.keep));
+            const auto kept = static_cast<size_t>(static_cast<float>(share.triangles) * share.step.keep);
+            plan.goals.back().triangles = std::max<size_t>(1, fullClusters(kept));
+            plan.goals.back().may_go_on = true;
         }
+        plan.balanced = level == 0 && groups.count() <= kMostBalancedGroups;
         return plan;
     }
 

@@ -5,8 +5,10 @@
 #include "cook/clusters/cluster.h"
 #include "cook/clusters/grouping.h"
 #include "cook/clusters/reduction.h"
+#include "cook/clusters/simplify.h"
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -21,10 +23,14 @@ inline constexpr double kLeastProgress = 0.3;
 struct GroupGoal
 {
     size_t triangles = 1;
-    size_t of = 1; ///< triangles that it has
+    size_t of = 1;                ///< triangles that it has
+    float keep = 1;               ///< what the curve says
+    std::optional<CostStop> stop; ///< decides in place of `triangles`, which is what it comes to in the mean
     float error_weight = 1;
     /// A group that keeps more than this part of its triangles is stuck.
     float stuck_ratio = 1;
+    /// A cluster more may go where nothing is lost by it.
+    bool may_go_on = false;
     /// The count matters more than full clusters: a group with fewer triangles may have no fewer clusters.
     bool exact = false;
 };
@@ -32,7 +38,9 @@ struct GroupGoal
 struct LevelPlan
 {
     std::vector<GroupGoal> goals; ///< for each group
-    uint64_t wanted = 0;     ///< triangles of all groups together where the next level is a target's, else 0
+    uint64_t wanted = 0; ///< triangles of all groups together where the next level is a target's, else 0
+    bool balanced =
+        false; ///< few groups of the source: some may keep more than their share where others keep less
     double largest_part = 1; ///< of its triangles that a group may keep where the goals are corrected
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/clusters/levels.h"
 
+#include "cook/clusters/balance.h"
 #include "cook/clusters/bounds.h"
 #include "cook/clusters/deformed_deviation.h"
 #include "cook/clusters/level_plan.h"
@@ -74,6 +75,28 @@ void passOn(const Build& build, const Level& level, std::span<const uint32_t> me
         group.clusters.appendCluster(level.store, level.store.shapes[member]);
 }
 
+size_t trianglesOf(const ClusterStore& store)
+{
+    size_t count = 0;
+    for (const ClusterShape& shape : store.shapes)
+        count += shape.triangle_count;
+    return count;
+}
+
+GroupErrors errorsOfReduced(const Build& build, const Level& level, std::span<const uint32_t> members,
+                            const Reduced& reduced, const GroupGoal& goal)
+{
+    return errorsOf(build, level, members)
+        .plus({reduced.distance, reduced.attributes, goal.error_weight}, build.config);
+}
+
+/// Whether a cut could not tell the group from the source on the grid.
+bool losesNothing(const PreparedMesh& mesh, const GroupErrors& errors)
+{
+    constexpr float kOfGrid = 1.5f;
+    return errors.lod <= kOfGrid * mesh.grid.error;
+}
+
 /// Simplify a group, or decide what to do with one that is stuck: pass it on, or leave it as a root.
 BuiltGroup buildGroup(const Build& build, const Level& level, std::span<const uint32_t> members,
                       std::span<const uint8_t> locked, const GroupGoal& goal)
@@ -85,9 +108,22 @@ BuiltGroup buildGroup(const Build& build, const Level& level, std::span<const ui
         return group;
 
     Reduced reduced = reduceGroup(build.mesh, level.store, members, locked, goal, build.config);
-    const GroupErrors errors =
-        errorsOf(build, level, members)
-            .plus({reduced.distance, reduced.attributes, goal.error_weight}, build.config);
+    GroupErrors errors = errorsOfReduced(build, level, members, reduced, goal);
+    const size_t left = fullClusters(trianglesOf(reduced.clusters));
+    if (reduced.progressed && goal.may_go_on && losesNothing(build.mesh, errors) &&
+        left > kClusterMaxTriangles)
+    {
+        GroupGoal further = goal;
+        further.triangles = left - kClusterMaxTriangles;
+        further.stop.reset();
+        Reduced smaller = reduceGroup(build.mesh, level.store, members, locked, further, build.config);
+        const GroupErrors of_smaller = errorsOfReduced(build, level, members, smaller, further);
+        if (smaller.progressed && losesNothing(build.mesh, of_smaller))
+        {
+            reduced = std::move(smaller);
+            errors = of_smaller;
+        }
+    }
     // an error beyond the floats cannot be stored: what it belongs to is a root
     if (!reduced.progressed ||
         std::max(errors.lod, errors.attributes.uv) >= std::numeric_limits<float>::max())
@@ -100,14 +136,6 @@ BuiltGroup buildGroup(const Build& build, const Level& level, std::span<const ui
     group.clusters = std::move(reduced.clusters);
     group.outcome = std::move(reduced);
     return group;
-}
-
-size_t trianglesOf(const ClusterStore& store)
-{
-    size_t count = 0;
-    for (const ClusterShape& shape : store.shapes)
-        count += shape.triangle_count;
-    return count;
 }
 
 /// Triangles that are drawn in place of each group of the level, or that it has itself where it is a root.
@@ -279,6 +307,8 @@ Level replaceGroups(Build& build, Level& level, std::span<const uint8_t> locked,
                                level.store, level.groups, level.drawn_below);
     if (authoredIsNext(build, plan))
         return switchToAuthored(build, level, plan, source_corners);
+    if (plan.balanced)
+        balanceGoals({build.mesh, level.store, level.groups, locked, build.config}, plan.goals);
     buildGroups(build, level, locked, plan);
     if (!build.authored.empty() && isStuck(plan, keptTriangles(level)))
         return switchToAuthored(build, level, plan, source_corners);

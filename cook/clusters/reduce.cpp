@@ -147,7 +147,7 @@ Reduced reduceGroup(const PreparedMesh& mesh, const ClusterStore& store, std::sp
     const size_t most_triangles = goal.exact || members.size() == 1
                                       ? group.triangleCount()
                                       : (members.size() - 1) * formats::kClusterMaxTriangles;
-    Simplified simplified = simplifyGroup(group, goal.triangles, most_triangles);
+    Simplified simplified = simplifyGroup(group, goal.triangles, most_triangles, goal.stop);
     const auto stuck = [&]
     {
         return simplified.triangleCount() > most_triangles ||

@@ -74,13 +74,44 @@ public:
     /// positions that wedges held back have anything new to offer.
     void collapseUntil(size_t target_triangles, bool permissive)
     {
-        wedges_.permissive = permissive;
-        heap_.clear();
-        for (uint32_t p = 0; p < target_.size(); ++p)
-            if (target_[p] == p && group_.locked[p] == 0 && (!permissive || wedge_blocked_[p] != 0))
-                evaluate(p);
+        begin(permissive);
         while (mesh_.aliveCount() > target_triangles && !heap_.empty())
             step();
+    }
+
+    /// The same for a cost. Returns the triangles that it went for; nothing where nothing more can go before that is known.
+    std::optional<size_t> collapseUntil(const CostStop& stop)
+    {
+        begin(false);
+        size_t target = stop.least;
+        bool dear = false;
+        while (mesh_.aliveCount() > target && !heap_.empty())
+        {
+            if (!dear && nextCost() > stop.cost)
+            {
+                dear = true;
+                target = std::max(target, fullClusters(std::min(mesh_.aliveCount(), stop.most)));
+            }
+            else
+                step();
+        }
+        return dear || mesh_.aliveCount() <= target ? std::optional(target) : std::nullopt;
+    }
+
+    std::vector<CollapseStep> costsUntil(size_t target_triangles)
+    {
+        begin(false);
+        std::vector<CollapseStep> steps;
+        double cost = 0;
+        while (mesh_.aliveCount() > target_triangles && !heap_.empty())
+        {
+            cost = std::max(cost, nextCost());
+            const size_t before = mesh_.aliveCount();
+            step();
+            if (mesh_.aliveCount() < before)
+                steps.push_back({cost, mesh_.aliveCount()});
+        }
+        return steps;
     }
 
     bool pruneIslands(size_t target_triangles);
@@ -88,6 +119,20 @@ public:
     Simplified result();
 
 private:
+    void begin(bool permissive)
+    {
+        wedges_.permissive = permissive;
+        heap_.clear();
+        for (uint32_t p = 0; p < target_.size(); ++p)
+            if (target_[p] == p && group_.locked[p] == 0 && (!permissive || wedge_blocked_[p] != 0))
+                evaluate(p);
+    }
+    /// Of what is in front of the heap, in object space: no later step costs less.
+    double nextCost() const
+    {
+        const double scale2 = group_.scale * group_.scale;
+        return double{heap_.front().cost} * scale2 * scale2;
+    }
     void holdEdges(uint32_t position);
     void gather(uint32_t position)
     {
@@ -412,13 +457,22 @@ Simplified Collapser::result()
 
 } // namespace
 
-Simplified simplifyGroup(const GroupMesh& group, size_t target_triangles, size_t most_triangles)
+std::vector<CollapseStep> collapseCosts(const GroupMesh& group, size_t least)
+{
+    return Collapser(group).costsUntil(least);
+}
+
+Simplified simplifyGroup(const GroupMesh& group, size_t target_triangles, size_t most_triangles,
+                         const std::optional<CostStop>& stop)
 {
     HEARTH_ASSERT(target_triangles > 0);
     Collapser collapser(group);
     bool permissive = false;
     bool pruned = false;
-    collapser.collapseUntil(target_triangles, false);
+    if (stop)
+        target_triangles = collapser.collapseUntil(*stop).value_or(target_triangles);
+    else
+        collapser.collapseUntil(target_triangles, false);
     const auto near_target =
         std::min(static_cast<size_t>(static_cast<double>(target_triangles) * kNearTarget),
                  std::max(most_triangles, target_triangles));

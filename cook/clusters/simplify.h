@@ -5,7 +5,9 @@
 
 #include "cook/clusters/placement.h"
 
+#include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace hearth::clusters
@@ -27,6 +29,22 @@ struct Simplified
     size_t triangleCount() const { return corners.size() / 3; }
 };
 
+/// Another place to stop than a count: where collapses begin to cost more than `cost`, at the full clusters below what is
+/// left then.
+struct CostStop
+{
+    double cost = 0;  ///< quadric error, object space: area times squared distance
+    size_t least = 1; ///< triangles that stay whatever they cost
+    size_t most = 1;  ///< and that may stay
+};
+
+/// What a collapse cost, or a dearer one before it, and what it left.
+struct CollapseStep
+{
+    double cost; ///< as in CostStop
+    size_t triangles;
+};
+
 /// Collapse edges, cheapest first by quadric error, until `target_triangles` are left or nothing more can go.
 /// What holds after every collapse:
 /// - locked positions stay;
@@ -38,6 +56,11 @@ struct Simplified
 /// Positions that others went to are then placed anew, where the quadrics are least, and their attributes with them.
 /// If that is not enough, whole islands go, the smallest first (`pruned`); one triangle always stays.
 /// most_triangles  with more than these nothing is gained: attributes may jump and islands go before it comes to that
-Simplified simplifyGroup(const GroupMesh& group, size_t target_triangles, size_t most_triangles);
+/// stop            where collapses end; `target_triangles` is for groups that nothing but jumps and islands bring so far
+Simplified simplifyGroup(const GroupMesh& group, size_t target_triangles, size_t most_triangles,
+                         const std::optional<CostStop>& stop = std::nullopt);
+
+/// The collapses that simplifyGroup does without jumps until `least` triangles are left or nothing more can go.
+std::vector<CollapseStep> collapseCosts(const GroupMesh& group, size_t least);
 
 } // namespace hearth::clusters

@@ -33,6 +33,9 @@ public:
           after_(after),
           points_(points),
           place_rests_(group.positions.size()),
+          exact_weights_(group.positions.size(), 0),
+          exact_distance2_(
+              static_cast<float>(group.grid_step * group.grid_step / (group.scale * group.scale))),
           attribute_rests_(group.attributes.size()),
           attribute_weights_(group.vertex_of_wedge.size(), 0)
     {
@@ -47,7 +50,7 @@ public:
             if (attribute_weights_[wedge] > 0 && placement_.remade[group_.position_of_wedge[wedge]] != 0)
                 changeAttributes(wedge);
         for (uint32_t position = 0; position < place_rests_.size(); ++position)
-            if (place_rests_[position][3] > 0 && placement_.remade[position] != 0)
+            if (place_rests_[position][3] > 2 * exact_weights_[position] && placement_.remade[position] != 0)
                 move(position);
         after_.setPlaces(placement_.places);
         for (uint32_t position = 0; position < points_.of_position.size(); ++position)
@@ -75,6 +78,9 @@ private:
         const Lanes rest = Lanes{away.x, away.y, away.z, 1} * allLanes(area);
         for (size_t k = 0; k < 3; ++k)
             place_rests_[positions[k]] += rest * allLanes(parts[k]);
+        if (dot(away, away) <= exact_distance2_)
+            for (size_t k = 0; k < 3; ++k)
+                exact_weights_[positions[k]] += area * parts[k];
         // at a seam both sides would have to change alike, and the middle may lie on the other one
         if ((points_.on_seam[positions[0]] | points_.on_seam[positions[1]] | points_.on_seam[positions[2]]) ==
             0)
@@ -157,6 +163,8 @@ private:
     Surface& after_;
     SurfacePoints& points_;
     std::vector<Lanes> place_rests_;       ///< sum for each position, and its weight
+    std::vector<float> exact_weights_;     ///< what of the weight is on the new surface already
+    float exact_distance2_;                ///< the grid's resolution
     std::vector<Lanes> attribute_rests_;   ///< rows of each wedge
     std::vector<float> attribute_weights_; ///< for each wedge
 };

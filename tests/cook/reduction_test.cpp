@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace
@@ -55,6 +56,60 @@ SourceMesh rockOfTwoMaterials()
         mesh.triangle_materials[t] = y > 0 ? 1 : 0;
     }
     return mesh;
+}
+
+/// A sheet, flat on one side (material 0), waves on the other (material 1).
+SourceMesh halfFlat(uint32_t cells)
+{
+    SourceMesh mesh = shapes::grid(cells);
+    for (Float3& p : mesh.positions)
+        if (p.x > 0.5f)
+            p.z = 0.02f * std::sin(60 * (p.x - 0.5f)) * std::sin(60 * p.y);
+    for (size_t t = 0; t < mesh.triangleCount(); ++t)
+        mesh.triangle_materials[t] =
+            std::max({mesh.positions[mesh.indices[t * 3]].x, mesh.positions[mesh.indices[t * 3 + 1]].x,
+                      mesh.positions[mesh.indices[t * 3 + 2]].x}) > 0.5f
+                ? 1
+                : 0;
+    return mesh;
+}
+
+size_t trianglesOf(const Hierarchy& hierarchy, uint32_t level, uint32_t material)
+{
+    size_t count = 0;
+    for (const formats::ClusterRecord& cluster : hierarchy.clusters)
+        if (cluster.level == level && cluster.material == material)
+            count += cluster.triangle_count;
+    return count;
+}
+
+TEST(Reduction, ofFewGroupsKeepsMoreWhereThereIsMoreToLose)
+{
+    const Hierarchy hierarchy = build(halfFlat(90), {});
+    const auto kept = [&](uint32_t material)
+    {
+        return static_cast<double>(trianglesOf(hierarchy, 1, material)) /
+               static_cast<double>(trianglesOf(hierarchy, 0, material));
+    };
+    EXPECT_GT(kept(1), 1.3 * kept(0)) << kept(0) << " of the flat side, " << kept(1) << " of the waves";
+    EXPECT_NEAR(partKept(hierarchy, 0), 0.47, 0.04) << "together as always";
+}
+
+TEST(Reduction, goesOnWhereNothingIsLost)
+{
+    const Hierarchy flat = build(shapes::grid(150), {});
+    const Hierarchy rough = build(shapes::terrain(150), {});
+    EXPECT_LT(flat.levels[1].triangle_count, rough.levels[1].triangle_count * 97 / 100);
+}
+
+TEST(Reduction, balancesOnlyGroupsThatKeepAlike)
+{
+    // flat as it is, what was asked for by name keeps more than without: waves do not take its share
+    const SourceMesh mesh = halfFlat(90);
+    const Hierarchy named =
+        build(mesh, {.curve = {{.keep = 0.4f}}, .curve_of_material = {{0, {{.keep = 0.8f}}}}, .targets = {}});
+    const Hierarchy alike = build(mesh, {.curve = {{.keep = 0.4f}}});
+    EXPECT_GT(trianglesOf(named, 1, 0), trianglesOf(alike, 1, 0) * 3 / 2);
 }
 
 TEST(Reduction, followsItsCurveAndRepeatsTheLastEntry)

@@ -107,6 +107,35 @@ TEST(SurfaceFit, leavesWhatIsExactAsItIs)
     }
 }
 
+/// Square floors of `cells` x `cells`, each at a height of its own, with walls between them.
+SourceMesh terraces(uint32_t cells)
+{
+    const uint32_t across = cells + 1;
+    const uint32_t count = across * 7;
+    SourceMesh mesh = shapes::grid(count);
+    for (Float3& p : mesh.positions)
+    {
+        const auto x = static_cast<uint32_t>(std::lround(p.x * static_cast<float>(count)));
+        const auto y = static_cast<uint32_t>(std::lround(p.y * static_cast<float>(count)));
+        p = {static_cast<float>(x / across * cells + x % across),
+             static_cast<float>(y / across * cells + y % across),
+             static_cast<float>((x / across * 5 + y / across * 3) % 4) * 0.375f};
+    }
+    return mesh;
+}
+
+TEST(SurfaceFit, keepsFloorsFlatBesideWalls)
+{
+    // more than half can go without loss; middles of walls and of other floors must not pull at what stays
+    for (const uint32_t cells : {3u, 4u, 6u})
+        for (const double share : {0.6, 0.5, 0.4})
+        {
+            const Fitted fitted = fit(terraces(cells), share, 1000000);
+            ASSERT_LT(rmsDistance(fitted.group, fitted.before), 1e-9);
+            EXPECT_LT(rmsDistance(fitted.group, fitted.after), 1e-9) << cells << ", " << share;
+        }
+}
+
 TEST(SurfaceFit, movesOnlyWhatIsRemade)
 {
     const Fitted rock = fit(shapes::rock(20, 0.3f), 0.4, 3);
