@@ -83,6 +83,7 @@ const std::vector<Library>& libraries()
         {"toml++/", {"cook/", "pipelines/"}},
         {"tbb/", {"cook/", "pipelines/", "sample_assets/"}, true},
         {"embree3/", {"cook/"}},
+        {"xmmintrin.h", {"cook/visibility/"}}, // how Embree wants the processor set
         {"CGAL/", {"cook/"}},
         {"Eigen/", {"cook/"}, true},
         {"ceres/", {"cook/"}},
