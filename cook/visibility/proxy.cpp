@@ -87,6 +87,7 @@ public:
           bindings_(source.positions.size())
     {
         proxy_.smooth_count = clean_.indices.size() / 3;
+        proxy_.thinness = thinness;
         proxy_.statistics.thin = clean_.statistics;
         for (const uint32_t vertex : clean_.indices)
             used_[vertex] = true;
@@ -278,8 +279,9 @@ std::vector<SampleRef> samplesOnProxy(const Proxy& proxy, const MeshView& source
         }
         const Float3 a = source.positions[corners[0]];
         const Float3 ab = source.positions[corners[1]] - a, ac = source.positions[corners[2]] - a;
+        const double reach = longestEdge(source, sample.triangle) * proxy.thinness * kBeside;
         const ClosestPoint::Found found =
-            surface->find(a + ab * sample.u + ac * sample.v, cross(ab, ac), kEverywhere, hint);
+            surface->find(a + ab * sample.u + ac * sample.v, cross(ab, ac), reach * reach, hint);
         return SampleRef{found.triangle, found.u, found.v, sample.area};
     };
     tbb::parallel_for(size_t{0}, (samples.size() + kBlock - 1) / kBlock,
@@ -290,7 +292,7 @@ std::vector<SampleRef> samplesOnProxy(const Proxy& proxy, const MeshView& source
                           for (size_t i = block * kBlock; i < end; ++i)
                           {
                               result[i] = place(samples[i], hint);
-                              if (gone(samples[i]))
+                              if (gone(samples[i]) && result[i].triangle != kNowhere)
                                   hint = result[i].triangle;
                           }
                       });

@@ -51,6 +51,7 @@ struct Proxy
     std::vector<uint32_t>
         indices; ///< the first `smooth_count` triangles, then loose ones, which may name a vertex twice
     size_t smooth_count = 0;         ///< triangles that the regulariser sees
+    double thinness = 0;             ///< that it was made with
     std::vector<InteriorEdge> edges; ///< of the smooth triangles
     std::vector<Binding> bindings;   ///< for each vertex of the source; kNowhere where the proxy is empty
     std::vector<uint32_t>
@@ -63,8 +64,9 @@ struct Proxy
 /// Deterministic. Time O(n log n).
 Proxy makeProxy(const MeshView& source, const ProxySettings& settings = {});
 
-/// Where samples of the source's triangles lie on the proxy: on triangles that are still there with the same weights, else at the
-/// nearest point that faces the same way. Their triangle is kNowhere only if no triangle of the proxy does.
+/// Where samples of the source's triangles lie on the proxy: on triangles that are still there with the same weights, else
+/// at the nearest point that faces the same way. Their triangle is kNowhere if there is none where their own was: a sliver
+/// can face anywhere, and what it sees then is nothing that the surface sees.
 std::vector<SampleRef> samplesOnProxy(const Proxy& proxy, const MeshView& source,
                                       std::span<const SampleRef> samples);
 
