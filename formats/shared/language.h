@@ -36,6 +36,11 @@ inline float min(float a, float b)
 {
     return b < a ? b : a;
 }
+/// The angle of the point (x, y).
+inline float arcTangent(float y, float x)
+{
+    return std::atan2(y, x);
+}
 /// The bits of a float: those of positive floats order as their values do.
 inline uint floatBits(float value)
 {
@@ -54,6 +59,7 @@ inline uint floatBits(float value)
 #define HEARTH_PRECISE precise
 
 #define floatBits floatBitsToUint
+#define arcTangent atan
 
 #define Float2 vec2
 #define Float3 vec3
