@@ -12,7 +12,7 @@ namespace
 
 bool legalUv(const ClusterGeometry& geometry, uint32_t vertex, uint32_t set)
 {
-    if (geometry.has(kVertexFloatUv0 << set))
+    if (uvFractionBits(geometry.layout(), set) == 0)
         return finite(geometry.uv(vertex, set));
     const std::array<int32_t, 2> point = geometry.uvPoint(vertex, set);
     return std::all_of(point.begin(), point.end(),
@@ -56,6 +56,8 @@ Status checkVertices(const PackView& view, size_t i, const ClusterGeometry& geom
         if (geometry.has(kVertexTangent) &&
             !legalTangent(layout, geometry.word(v, attributeWord(layout, kVertexTangent))))
             return wrong(Issue::meaning_geometry, v, "its tangent has no legal code");
+        if (geometry.has(kVertexVisibility) && !legalVisibility(geometry.visibilityCode(v)))
+            return wrong(Issue::meaning_geometry, v, "its visibility has no legal code");
         for (uint32_t set = 0; set < 4; ++set)
             if (geometry.has(kVertexUv0 << set) && !legalUv(geometry, v, set))
                 return wrong(Issue::meaning_geometry, v, "a UV is not finite, or beyond the grid");

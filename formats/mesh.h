@@ -25,7 +25,8 @@ inline constexpr uint32_t kClusterMaxVertices = 256;
 inline constexpr uint32_t kPageMaxBytes = 65536;
 
 /// Which attributes a mesh's vertices have, and how each is coded: the layout of a vertex. A vertex is 32-bit words in
-/// this order: position, normal, tangent, UV sets, colour, joints, weights; the codes are those of vertex_codec.h.
+/// this order: position, normal, tangent, UV sets, colour, visibility, joints, weights; the codes are those of
+/// vertex_codec.h and visibility_code.h.
 enum VertexAttributes : uint32_t
 {
     kVertexNormal = 1,
@@ -35,14 +36,11 @@ enum VertexAttributes : uint32_t
     kVertexUv2 = 16,
     kVertexUv3 = 32,
     kVertexColor = 64,
+    kVertexVisibility = 128, ///< what of the hemisphere the vertex sees; only beside a normal
 
-    kVertexFineNormal = 128, ///< normal 2 x 16 bits instead of 2 x 8, tangent 15 bits instead of 7
-    kVertexFineColor = 256,  ///< 4 x 16 bits instead of 4 x 8
-    kVertexFloatUv0 = 512,   ///< the UVs of the set are floats; else they lie on a grid
-    kVertexFloatUv1 = 1024,
-    kVertexFloatUv2 = 2048,
-    kVertexFloatUv3 = 4096,
-    kVertexWide = 8192, ///< of a cluster, never of a mesh: offsets on grids are 32 bits instead of 16
+    kVertexFineNormal = 256, ///< normal 2 x 16 bits instead of 2 x 8, tangent 15 bits instead of 7
+    kVertexFineColor = 512,  ///< 4 x 16 bits instead of 4 x 8
+    kVertexWide = 8192,      ///< of a cluster, never of a mesh: offsets on grids are 32 bits instead of 16
 
     kVertexInfluences = 1 << 14,     ///< four joints of the mesh's skin, and their weights
     kVertexMoreInfluences = 1 << 15, ///< eight instead of four; only beside kVertexInfluences
@@ -54,6 +52,19 @@ inline constexpr uint32_t kVertexUvs = kVertexUv0 | kVertexUv1 | kVertexUv2 | kV
 
 /// From this bit on, four bits for each UV set: n, where the steps of its grid are 2^-n; 0 for floats or no set.
 inline constexpr uint32_t kVertexUvStepShift = 16;
+
+/// The UV sets that have a grid, as bits kVertexUv0 to kVertexUv3.
+constexpr uint32_t gridUvs(uint32_t layout)
+{
+    // the lowest bit of each four: whether one of them is set
+    uint32_t steps = layout >> kVertexUvStepShift;
+    steps |= steps >> 2;
+    steps = (steps | steps >> 1) & 0x1111u;
+    // bits 0, 4, 8, 12 to bits 0 to 3
+    steps |= steps >> 3;
+    steps |= steps >> 6;
+    return (steps & 15u) * kVertexUv0;
+}
 
 /// Influences of one vertex with this layout: a joint and a weight of 16 bits each.
 constexpr uint32_t influencesOf(uint32_t layout)
@@ -67,20 +78,21 @@ constexpr uint32_t influencesOf(uint32_t layout)
 constexpr uint32_t vertexWords(uint32_t layout)
 {
     const bool own_normal_word = (layout & (kVertexFineNormal | kVertexWide)) != 0;
-    const uint32_t two_word_uvs = (layout & kVertexWide) ? uint32_t{kVertexUvs} : layout >> 7;
+    const uint32_t two_word_uvs = (layout & kVertexWide) ? uint32_t{kVertexUvs} : ~gridUvs(layout);
     uint32_t words = (layout & kVertexWide) ? 3 : 2;
     words += (layout & kVertexNormal) && own_normal_word ? 1 : 0;
     words += (layout & kVertexTangent) ? 1 : 0;
     words += static_cast<uint32_t>(std::popcount(layout & kVertexUvs) +
                                    std::popcount(layout & kVertexUvs & two_word_uvs));
     words += (layout & kVertexColor) ? ((layout & kVertexFineColor) ? 2 : 1) : 0;
+    words += (layout & kVertexVisibility) ? 1 : 0;
     return words + influencesOf(layout);
 }
 
 /// Words in front of a cluster's vertices: u and v of the grid point that each UV set on a grid counts from.
 constexpr uint32_t uvBaseWords(uint32_t layout)
 {
-    return 2 * static_cast<uint32_t>(std::popcount(layout & kVertexUvs & ~(layout >> 7)));
+    return 2 * static_cast<uint32_t>(std::popcount(layout & kVertexUvs & gridUvs(layout)));
 }
 
 struct MeshRecord

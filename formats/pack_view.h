@@ -8,6 +8,7 @@
 #include "formats/deformation.h"
 #include "formats/mesh.h"
 #include "formats/scene.h"
+#include "formats/visibility_code.h"
 
 #include <array>
 #include <cstring>
@@ -138,7 +139,7 @@ public:
     /// Grid point of a UV; the set is not one of floats.
     std::array<int32_t, 2> uvPoint(uint32_t vertex, uint32_t set) const
     {
-        HEARTH_RUNTIME_ASSERT(!has(kVertexFloatUv0 << set));
+        HEARTH_RUNTIME_ASSERT(uvFractionBits(layout_, set) != 0);
         const uint32_t first = wordOf(kVertexUv0 << set);
         const uint32_t base = uvBaseWord(layout_, set);
         const uint32_t u = has(kVertexWide) ? word(vertex, first) : word(vertex, first) & 0xFFFFu;
@@ -148,7 +149,7 @@ public:
     Float2 uv(uint32_t vertex, uint32_t set) const
     {
         const uint32_t first = wordOf(kVertexUv0 << set);
-        if (has(kVertexFloatUv0 << set))
+        if (uvFractionBits(layout_, set) == 0)
             return {std::bit_cast<float>(word(vertex, first)), std::bit_cast<float>(word(vertex, first + 1))};
         const std::array<int32_t, 2> point = uvPoint(vertex, set);
         const float step = uvStep(uvFractionBits(layout_, set));
@@ -159,6 +160,12 @@ public:
         const uint32_t first = wordOf(kVertexColor);
         return decodeColor(layout_,
                            {word(vertex, first), has(kVertexFineColor) ? word(vertex, first + 1) : 0u});
+    }
+
+    uint32_t visibilityCode(uint32_t vertex) const { return word(vertex, wordOf(kVertexVisibility)); }
+    shared::VisibilityMoments visibility(uint32_t vertex) const
+    {
+        return shared::decodeVisibility(visibilityCode(vertex), normal(vertex));
     }
 
     /// Influences of each vertex: 0, 4 or 8. Those without weight come last, and name joint 0.

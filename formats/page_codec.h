@@ -24,7 +24,7 @@ enum class LaneKind : uint8_t
 };
 
 /// Of a vertex with all attributes, the largest layout; and the influences of a skin besides.
-inline constexpr uint32_t kHeaderLanes = 28;
+inline constexpr uint32_t kHeaderLanes = 30;
 inline constexpr uint32_t kMaxLanes = kHeaderLanes + 16;
 
 struct VertexLanes
@@ -50,9 +50,11 @@ constexpr VertexLanes vertexLanes(uint32_t layout)
         add((layout & kVertexFineNormal) ? LaneKind::word : LaneKind::bytes, 2);
     for (uint32_t set = 0; set < 4; ++set)
         if (layout & kVertexUv0 << set)
-            (layout & kVertexFloatUv0 << set) ? add(LaneKind::word, 4) : add(LaneKind::grid, 2);
+            uvFractionBits(layout, set) == 0 ? add(LaneKind::word, 4) : add(LaneKind::grid, 2);
     if (layout & kVertexColor)
         (layout & kVertexFineColor) ? add(LaneKind::word, 4) : add(LaneKind::bytes, 2);
+    if (layout & kVertexVisibility)
+        add(LaneKind::bytes, 2);
     add(LaneKind::word, 2 * influencesOf(layout));
     return lanes;
 }
@@ -186,7 +188,7 @@ constexpr uint16_t unzigzag16(uint16_t value)
 }
 } // namespace hearth::formats
 
-HEARTH_RECORD(hearth::formats::PageHeader, 72,
+HEARTH_RECORD(hearth::formats::PageHeader, 76,
               HEARTH_FIELD(hearth::formats::PageHeader, restarts,
                            "bytes of stream restarts: of clusters at even places, of those at odd places"),
               HEARTH_FIELD(hearth::formats::PageHeader, reuses, "bytes of stream reuses, the same"),

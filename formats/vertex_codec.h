@@ -26,6 +26,7 @@
 //                say where between the two axes of the normal's frame, on the line from one to the other
 //   UV           floats, or (base + offset) * 2^-n, the base the cluster's, offsets 2 x u16, or 2 x u32 in a wide one
 //   colour       4 x unorm8 or unorm16, linear RGBA: q / 255 or q / 65535
+//   visibility   visibility_code.h
 //   influences   4 or 8 joints of the skin as u16, two a word, then as many weights, unorm16: the weights fall, and their
 //                codes sum to exactly 65535; a joint without weight is 0
 //
@@ -39,7 +40,7 @@ namespace hearth::formats
 {
 
 /// Bits that say which attributes there are.
-inline constexpr uint32_t kVertexAttributesAll = 127;
+inline constexpr uint32_t kVertexAttributesAll = 255;
 
 /// Grid coordinates are whole numbers in [-kGridMost, kGridMost]: floats have all of them.
 inline constexpr int32_t kGridMost = 1 << 24;
@@ -53,21 +54,16 @@ constexpr uint32_t uvFractionBits(uint32_t layout, uint32_t set)
     return layout >> (kVertexUvStepShift + 4 * set) & 15u;
 }
 
-/// Whether a mesh may say this of its vertices: an absent attribute is not said to be coded in some way, a present UV
-/// set has floats or a grid, and tangents stand beside normals.
+/// Whether a mesh may say this of its vertices: bits without a meaning are 0, an absent attribute is not said to be coded
+/// in some way, and tangents and visibility stand beside normals.
 constexpr bool legalLayout(uint32_t layout)
 {
-    if ((layout & kVertexWide) != 0 || (layout & kVertexInfluenceBits) == kVertexMoreInfluences)
-        return false;
-    for (uint32_t set = 0; set < 4; ++set)
-    {
-        const bool present = (layout & kVertexUv0 << set) != 0;
-        const bool floats = (layout & kVertexFloatUv0 << set) != 0;
-        const bool grid = uvFractionBits(layout, set) != 0;
-        if (present ? floats == grid : floats || grid)
-            return false;
-    }
-    return ((layout & kVertexNormal) != 0 || (layout & (kVertexTangent | kVertexFineNormal)) == 0) &&
+    constexpr uint32_t kOfMeshes = kVertexAttributesAll | kVertexFineNormal | kVertexFineColor |
+                                   kVertexInfluenceBits | 0xFFFFu << kVertexUvStepShift;
+    constexpr uint32_t kBesideNormals = kVertexTangent | kVertexVisibility | kVertexFineNormal;
+    return (layout & ~kOfMeshes) == 0 && (layout & kVertexInfluenceBits) != kVertexMoreInfluences &&
+           (gridUvs(layout) & ~layout) == 0 &&
+           ((layout & kVertexNormal) != 0 || (layout & kBesideNormals) == 0) &&
            ((layout & kVertexColor) != 0 || (layout & kVertexFineColor) == 0);
 }
 
@@ -96,8 +92,13 @@ constexpr uint32_t clusterBytes(uint32_t layout, uint32_t vertex_count, uint32_t
 /// The layout that needs the most bytes of all that have these attributes.
 constexpr uint32_t largestLayout(uint32_t attributes)
 {
-    return (attributes & (kVertexAttributesAll | kVertexInfluenceBits)) | kVertexFineNormal |
-           kVertexFineColor | kVertexWide;
+    uint32_t layout = (attributes & (kVertexAttributesAll | kVertexInfluenceBits)) | kVertexFineNormal |
+                      kVertexFineColor | kVertexWide;
+    // beside two words, as floats have them, a grid has a base
+    for (uint32_t set = 0; set < 4; ++set)
+        if (attributes & kVertexUv0 << set)
+            layout |= 1u << (kVertexUvStepShift + 4 * set);
+    return layout;
 }
 
 /// Words of a morph section with `targets` targets.

@@ -62,6 +62,8 @@ Hierarchy buildHierarchy(mesh::SourceMesh source, std::span<const mesh::SourceMe
     JoinedMesh joined = joinAuthored(std::move(source), authored, config.influences, motion);
     Build build{
         std::move(joined.mesh), config, {}, joined.levels, std::vector<uint32_t>(authored.size(), kNone)};
+    if (config.visibility && (build.mesh.attributes & kVertexNormal))
+        build.mesh.attributes |= kVertexVisibility;
     hierarchy.counts.influence_loss = build.mesh.influence_loss;
     hierarchy.counts.influence_displacement = build.mesh.influence_displacement;
     if (build.mesh.triangleCount() > 0)

@@ -32,6 +32,7 @@ struct Arguments
     std::string profile;
     std::string statistics;
     bool statistics_with_times = false;
+    bool visibility = false;
     uint32_t debug_mesh = 0;
     uint32_t debug_level = 0;
     std::string debug_output;
@@ -126,7 +127,11 @@ Status cook(const Arguments& arguments, const clusters::Profile& profile,
         HEARTH_ASSIGN_OR_RETURN(materials, clusters::materialNames(part));
     }
     const auto configure = [&](const std::string& name)
-    { return clusters::configOf(profile, name, materials); };
+    {
+        clusters::Config config = clusters::configOf(profile, name, materials);
+        config.visibility = arguments.visibility;
+        return config;
+    };
     std::vector<clusters::MeshStatistics> meshes;
     const auto observe = [&](uint32_t index, const clusters::BuiltMesh& mesh) -> Status
     {
@@ -182,6 +187,8 @@ int program(int argc, char** argv)
     app.add_option("-j,--jobs", arguments.jobs, "threads to use; the result does not depend on it");
     app.add_option("--profile", arguments.profile,
                    "TOML file that says how far each level is simplified; see cook/clusters/README.md");
+    app.add_flag("--visibility", arguments.visibility,
+                 "give vertices with normals a visibility, open until hearth-visibility bakes it");
     auto* statistics = app.add_option("--stats", arguments.statistics,
                                       "write what became of each mesh as JSON; - is standard output");
     app.add_flag("--stats-times", arguments.statistics_with_times,

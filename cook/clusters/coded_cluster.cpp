@@ -4,6 +4,7 @@
 #include "cook/clusters/bounds.h"
 #include "formats/assert.h"
 #include "formats/cluster_bounds.h"
+#include "formats/visibility_code.h"
 
 #include <algorithm>
 #include <array>
@@ -178,6 +179,8 @@ private:
             const std::array<uint32_t, 2> color = encodeColor(layout_, source_.colors[vertex]);
             words = std::copy_n(color.begin(), (layout_ & kVertexFineColor) ? 2 : 1, words);
         }
+        if (layout_ & kVertexVisibility)
+            *words++ = kVisibilityOpen;
         if (layout_ & kVertexInfluences)
             writeInfluences(vertex, words);
     }
@@ -305,14 +308,12 @@ uint32_t chooseLayout(const PreparedMesh& mesh, const Config& config)
 {
     uint32_t layout = mesh.attributes;
     if ((layout & kVertexNormal) == 0)
-        layout &= ~uint32_t{kVertexTangent};
+        layout &= ~uint32_t{kVertexTangent | kVertexVisibility};
     else if (config.normal_bits == 16 || (config.normal_bits == 0 && mesh.bends_gently))
         layout |= kVertexFineNormal;
     for (uint32_t set = 0; set < kUvSets; ++set)
-        if (layout & kVertexUv0 << set)
-            layout |= fitsGrid(mesh.vertices.uvs[set], config.uv_fraction_bits)
-                          ? config.uv_fraction_bits << (kVertexUvStepShift + 4 * set)
-                          : uint32_t{kVertexFloatUv0} << set;
+        if ((layout & kVertexUv0 << set) && fitsGrid(mesh.vertices.uvs[set], config.uv_fraction_bits))
+            layout |= config.uv_fraction_bits << (kVertexUvStepShift + 4 * set);
     if ((layout & kVertexColor) && needsFineColors(mesh))
         layout |= kVertexFineColor;
     return layout;

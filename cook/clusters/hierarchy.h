@@ -52,6 +52,9 @@ struct Config
 
     /// Joints that move a vertex of a skinned mesh, 4 or 8: the ones with the largest weights.
     uint32_t influences = 8;
+
+    /// Vertices with normals get a visibility, open until it is baked.
+    bool visibility = false;
 };
 
 /// What happened, for the report.

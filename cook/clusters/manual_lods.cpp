@@ -79,10 +79,10 @@ private:
 };
 
 /// Words of a vertex with places on grids in full: 3 of the position, then the normal's code, the tangent, two of each UV
-/// set, two of the colour, eight of the influences. What a mesh lacks is 0.
+/// set, two of the colour, the visibility, eight of the influences. What a mesh lacks is 0.
 constexpr size_t kPositionWord = 0, kNormalWord = 3, kTangentWord = 4, kUvWord = 5, kColorWord = 13,
-                 kInfluenceWord = 15;
-using FullVertex = std::array<uint32_t, 23>;
+                 kVisibilityWord = 15, kInfluenceWord = 16;
+using FullVertex = std::array<uint32_t, 24>;
 
 struct HashOfVertex
 {
@@ -110,12 +110,14 @@ FullVertex fullVertex(const ClusterRecord& cluster, const ClusterGeometry& geome
         if (geometry.has(kVertexUv0 << set))
             for (uint32_t k = 0; k < 2; ++k)
                 full[kUvWord + 2 * set + k] =
-                    geometry.has(kVertexFloatUv0 << set)
+                    uvFractionBits(layout, set) == 0
                         ? geometry.word(v, attributeWord(layout, kVertexUv0 << set) + k)
                         : static_cast<uint32_t>(geometry.uvPoint(v, set)[k]);
     if (geometry.has(kVertexColor))
         for (uint32_t k = 0; k < (geometry.has(kVertexFineColor) ? 2u : 1u); ++k)
             full[kColorWord + k] = geometry.word(v, attributeWord(layout, kVertexColor) + k);
+    if (geometry.has(kVertexVisibility))
+        full[kVisibilityWord] = geometry.visibilityCode(v);
     for (uint32_t i = 0; i < influencesOf(layout); ++i)
         full[kInfluenceWord + i] = geometry.word(v, attributeWord(layout, kVertexInfluences) + i);
     return full;
@@ -166,7 +168,7 @@ public:
                 put(vertex[kTangentWord], 4);
             for (uint32_t set = 0; set < 4; ++set)
                 for (size_t word = kUvWord + 2 * set; word < kUvWord + 2 * set + 2; ++word)
-                    if (layout & kVertexFloatUv0 << set)
+                    if ((layout & kVertexUv0 << set) && uvFractionBits(layout, set) == 0)
                         put(vertex[word], 4);
                     else if (layout & kVertexUv0 << set)
                         put(ranges[word].narrow(vertex[word]), 2);
@@ -174,6 +176,8 @@ public:
                 put(vertex[kColorWord], 4);
             if (layout & kVertexFineColor)
                 put(vertex[kColorWord + 1], 4);
+            if (layout & kVertexVisibility)
+                put(vertex[kVisibilityWord], 4);
             for (uint32_t i = 0; i < influencesOf(layout); ++i)
                 put(vertex[kInfluenceWord + i], 4);
         }
@@ -232,7 +236,7 @@ private:
         };
         share(kPositionWord, 3);
         for (uint32_t set = 0; set < 4; ++set)
-            if ((layout & kVertexUv0 << set) && !(layout & kVertexFloatUv0 << set))
+            if (uvFractionBits(layout, set) != 0)
                 share(kUvWord + 2 * set, 2);
         return ranges;
     }

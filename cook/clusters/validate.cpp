@@ -296,7 +296,7 @@ uint64_t sourceVertexHash(const mesh::SourceMesh& source, uint32_t layout, doubl
         words.push_back(encodeTangent(layout, source.tangents[v],
                                       decodeNormal(layout, encodeNormal(layout, source.normals[v]))));
     for (uint32_t set = 0; set < 4; ++set)
-        if (layout & kVertexFloatUv0 << set)
+        if ((layout & kVertexUv0 << set) && uvFractionBits(layout, set) == 0)
             words.insert(words.end(), {std::bit_cast<uint32_t>(source.uvs[set][v].x),
                                        std::bit_cast<uint32_t>(source.uvs[set][v].y)});
         else if (layout & kVertexUv0 << set)
@@ -336,7 +336,7 @@ uint64_t vertexHash(const ClusterGeometry& geometry, const ClusterRecord& cluste
     if (layout & kVertexTangent)
         words.push_back(geometry.word(v, attributeWord(layout, kVertexTangent)));
     for (uint32_t set = 0; set < 4; ++set)
-        if (layout & kVertexFloatUv0 << set)
+        if ((layout & kVertexUv0 << set) && uvFractionBits(layout, set) == 0)
             words.insert(words.end(), {std::bit_cast<uint32_t>(geometry.uv(v, set).x),
                                        std::bit_cast<uint32_t>(geometry.uv(v, set).y)});
         else if (layout & kVertexUv0 << set)

@@ -1,5 +1,5 @@
 // Lets one header be C++ and GLSL: the types and words in which formats/shared is written.
-// Only what both languages understand may be used there: no swizzles, no references, no library beyond sqrt.
+// Only what both languages understand may be used there: no swizzles, no references, no library beyond sqrt and acos.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #ifndef HEARTH_SHARED_LANGUAGE_H
 #define HEARTH_SHARED_LANGUAGE_H
@@ -26,6 +26,7 @@ namespace hearth::shared
 {
 using uint = uint32_t;
 using std::abs;
+using std::acos;
 using std::floor;
 using std::sqrt;
 inline float max(float a, float b)

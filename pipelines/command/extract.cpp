@@ -59,10 +59,25 @@ std::string plyHeader(const PackView& pack, const MeshRecord& mesh, std::span<co
     addFloats({"x", "y", "z"});
     if ((mesh.attributes & kVertexNormal) != 0)
         addFloats({"nx", "ny", "nz"});
+    if ((mesh.attributes & kVertexVisibility) != 0)
+        addFloats({"axis_x", "axis_y", "axis_z", "aperture", "scale", "ao", "m0", "m1_x", "m1_y", "m1_z"});
     if ((mesh.attributes & kVertexUv0) != 0)
         addFloats({"s", "t"});
     return header +
            fmt::format("element face {}\nproperty list uchar int vertex_indices\nend_header\n", triangles);
+}
+
+/// posed  null: the vertex as it is
+void appendVisibility(std::vector<float>& values, const ClusterGeometry& geometry, uint32_t v,
+                      const PosedVertex* posed)
+{
+    const shared::VisibilityMoments moments = geometry.visibility(v);
+    const Float3 m1 = posed != nullptr ? posed->m1 : moments.m1;
+    const Float3 normal = posed != nullptr ? posed->normal : geometry.normal(v);
+    const shared::VisibilityCone cone = shared::visibilityCone(moments.m0, m1, normal);
+    const float ao = shared::decodeVisibilityInFrame(geometry.visibilityCode(v)).m1.z / shared::kVisibilityPi;
+    values.insert(values.end(), {cone.axis.x, cone.axis.y, cone.axis.z, cone.aperture, cone.scale, ao,
+                                 moments.m0, m1.x, m1.y, m1.z});
 }
 
 /// pose  null: the vertices as they are
@@ -78,6 +93,8 @@ void writeVertices(WholeFile& file, const ClusterGeometry& geometry, const Posed
         {
             const Float3 normal = pose != nullptr ? posed.normal : geometry.normal(v);
             values.insert(values.end(), {normal.x, normal.y, normal.z});
+            if (geometry.has(kVertexVisibility))
+                appendVisibility(values, geometry, v, pose != nullptr ? &posed : nullptr);
         }
         if (geometry.has(kVertexUv0))
         {

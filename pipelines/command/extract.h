@@ -17,8 +17,10 @@ namespace hearth::command
 std::vector<uint32_t> clustersOfCut(const formats::PackView& pack, const formats::MeshRecord& mesh,
                                     float error);
 
-/// Write the cut of mesh `mesh` as binary little-endian PLY: x y z, then nx ny nz and s t where the mesh has them;
-/// vertices are shared inside a cluster, not between clusters. One page is in memory at a time.
+/// Write the cut of mesh `mesh` as binary little-endian PLY: x y z, then where the mesh has them nx ny nz, the cone that
+/// has the moments of the vertex's visibility (axis_x axis_y axis_z, aperture: half-angle in radians, scale), the ambient
+/// occlusion ao = dot(n, m1) / pi and the moments themselves (m0 m1_x m1_y m1_z), and s t; vertices are shared inside a
+/// cluster, not between clusters. One page is in memory at a time.
 /// What joints or morph targets move is written in the scene's space, in the rest pose or that of the clip; other meshes in
 /// their own space, or with a clip in the scene's.
 /// errors: usage where the mesh or the clip does not exist; those of openPack; cannot_write.

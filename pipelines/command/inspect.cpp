@@ -193,9 +193,10 @@ std::string attributeNames(uint32_t attributes)
     {
         uint32_t bit;
         const char* name;
-    } kNames[] = {{kVertexNormal, "normal"}, {kVertexTangent, "tangent"}, {kVertexUv0, "uv0"},
-                  {kVertexUv1, "uv1"},       {kVertexUv2, "uv2"},         {kVertexUv3, "uv3"},
-                  {kVertexColor, "color"}};
+    } kNames[] = {{kVertexNormal, "normal"}, {kVertexTangent, "tangent"},
+                  {kVertexUv0, "uv0"},       {kVertexUv1, "uv1"},
+                  {kVertexUv2, "uv2"},       {kVertexUv3, "uv3"},
+                  {kVertexColor, "color"},   {kVertexVisibility, "visibility"}};
     std::string names = "position";
     for (const auto& attribute : kNames)
         if ((attributes & attribute.bit) != 0)

@@ -68,6 +68,19 @@ Double3 column(const Affine3d& t, size_t i)
     return {t.m[0][i], t.m[1][i], t.m[2][i]};
 }
 
+/// A vector at a vertex after it is posed: the part along the normal stays along it, that along the surface turns with the
+/// surface, and both keep their lengths.
+Float3 turnedVector(const Affine3d& world_from_vertex, Double3 vector, Double3 normal, Double3 posed_normal)
+{
+    const double along = dot(vector, normal);
+    const Double3 across = vector - normal * along;
+    Double3 turned = transformPoint(world_from_vertex, across) - transformPoint(world_from_vertex, {});
+    turned = turned - posed_normal * dot(turned, posed_normal);
+    const double size = length(turned);
+    const double scale = size > 0 && std::isfinite(size) ? length(across) / size : 0;
+    return narrow(posed_normal * along + turned * scale);
+}
+
 } // namespace
 
 bool isDeformed(const MeshRecord& mesh)
@@ -151,6 +164,9 @@ PosedVertex PosedMesh::vertex(const ClusterGeometry& geometry, uint32_t vertex) 
     const Double3 turned = cross(y, z) * normal.x + cross(z, x) * normal.y + cross(x, y) * normal.z;
     const double size = length(turned) * (posed.mirrored ? -1 : 1);
     posed.normal = size != 0 && std::isfinite(size) ? narrow(turned * (1 / size)) : narrow(normal);
+    if (geometry.has(kVertexVisibility))
+        posed.m1 = turnedVector(world_from_vertex, widen(geometry.visibility(vertex).m1),
+                                widen(geometry.normal(vertex)), widen(posed.normal));
     return posed;
 }
 

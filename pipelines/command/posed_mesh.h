@@ -20,8 +20,10 @@ struct ClipTime
 
 struct PosedVertex
 {
-    Float3 position;       ///< scene's space
-    Float3 normal;         ///< of length 1, if the mesh has normals
+    Float3 position; ///< scene's space
+    Float3 normal;   ///< of length 1, if the mesh has normals
+    Float3
+        m1; ///< of its visibility, if the mesh has one: turned with the normal and the surface, as long as before
     bool mirrored = false; ///< triangles at it turn the other way
 };
 

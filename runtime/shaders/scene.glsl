@@ -34,12 +34,24 @@ const uint kVertexTangent = 2u;
 const uint kVertexUv0 = 4u;
 const uint kVertexUvs = 60u;
 const uint kVertexColor = 64u;
-const uint kVertexFineNormal = 128u;
-const uint kVertexFineColor = 256u;
+const uint kVertexVisibility = 128u;
+const uint kVertexFineNormal = 256u;
+const uint kVertexFineColor = 512u;
 const uint kVertexWide = 8192u;
 const uint kVertexInfluences = 16384u;
 const uint kVertexMoreInfluences = 32768u;
 const uint kVertexUvStepShift = 16u;
+
+// The UV sets that have a grid: formats::gridUvs.
+uint gridUvs(uint layout_bits)
+{
+    uint steps = layout_bits >> kVertexUvStepShift;
+    steps |= steps >> 2;
+    steps = (steps | steps >> 1) & 0x1111u;
+    steps |= steps >> 3;
+    steps |= steps >> 6;
+    return (steps & 15u) * kVertexUv0;
+}
 
 // Words of a vertex; where the sets of UVs end, with fewer of their bits where the next set starts.
 uint uvEnd(uint layout_bits, uint sets)
@@ -51,16 +63,22 @@ uint uvEnd(uint layout_bits, uint sets)
     if ((layout_bits & kVertexTangent) != 0u)
         words += 1u;
     return words + uint(bitCount(layout_bits & sets)) +
-           uint(bitCount(layout_bits & sets & (wide ? kVertexUvs : layout_bits >> 7)));
+           uint(bitCount(layout_bits & sets & (wide ? kVertexUvs : ~gridUvs(layout_bits))));
 }
 
-// Of a vertex: where its joints and weights stand.
-uint influenceWord(uint layout_bits)
+// Of a vertex that has one: where its visibility stands.
+uint visibilityWord(uint layout_bits)
 {
     uint words = uvEnd(layout_bits, kVertexUvs);
     if ((layout_bits & kVertexColor) != 0u)
         words += (layout_bits & kVertexFineColor) != 0u ? 2u : 1u;
     return words;
+}
+
+// Of a vertex: where its joints and weights stand.
+uint influenceWord(uint layout_bits)
+{
+    return visibilityWord(layout_bits) + ((layout_bits & kVertexVisibility) != 0u ? 1u : 0u);
 }
 
 // Joints of a vertex that have weights, with which they take a word each.
@@ -149,10 +167,11 @@ vec2 vertexUv(ClusterDraw draw, uint vertex, uint set)
         return vec2(0.0);
     uint before = (bit - 1u) & kVertexUvs;
     uint at = vertex + uvEnd(layout_bits, before);
-    if ((layout_bits >> 7 & bit) != 0u)
+    uint grids = gridUvs(layout_bits) & layout_bits;
+    if ((grids & bit) == 0u)
         return vec2(poolFloat(at), poolFloat(at + 1u));
     // the bases of the sets on grids end where the first vertex starts
-    uint later_grids = uint(bitCount(layout_bits & kVertexUvs & ~(layout_bits >> 7) & ~before));
+    uint later_grids = uint(bitCount(grids & ~before));
     uint base = draw.address - 2u * later_grids;
     uint word = poolWord(at);
     ivec2 offset = (layout_bits & kVertexWide) != 0u ? ivec2(word, poolWord(at + 1u)) : ivec2(word & 0xFFFFu, word >> 16);
@@ -170,3 +189,6 @@ vec4 vertexColor(ClusterDraw draw, uint vertex)
         return unpackUnorm4x8(poolWord(at));
     return vec4(unpackUnorm2x16(poolWord(at)), unpackUnorm2x16(poolWord(at + 1u)));
 }
+
+// Of a vertex that has one: decodeVisibility of formats/shared/visibility_cone.h says what it means.
+uint vertexVisibility(ClusterDraw draw, uint vertex) { return poolWord(vertex + visibilityWord(draw.vertex_layout)); }

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstring>
 #include <gtest/gtest.h>
+#include <numbers>
 #include <sstream>
 
 namespace hearth::test
@@ -115,13 +116,38 @@ TEST_F(ExtractCut, takesTheCoarserClustersFromTheirErrorOn)
 TEST_F(ExtractCut, writesTheAttributesThatTheMeshHas)
 {
     const Ply strip = cut(0, 0);
-    EXPECT_EQ(strip.properties, (std::vector<std::string>{"x", "y", "z", "nx", "ny", "nz", "s", "t"}));
+    EXPECT_EQ(strip.properties,
+              (std::vector<std::string>{"x", "y", "z", "nx", "ny", "nz", "axis_x", "axis_y", "axis_z",
+                                        "aperture", "scale", "ao", "m0", "m1_x", "m1_y", "m1_z", "s", "t"}));
     ASSERT_EQ(strip.vertices.size(), 16u); // four corners of four quads, shared inside each
-    EXPECT_EQ(strip.vertices[1], (std::vector<float>{0, 0, 1, 0, 1, 0, 0, 1}));
+    const std::vector<float>& vertex = strip.vertices[1];
+    EXPECT_EQ(std::vector<float>(vertex.begin(), vertex.begin() + 6), (std::vector<float>{0, 0, 1, 0, 1, 0}));
+    EXPECT_EQ(std::vector<float>(vertex.end() - 2, vertex.end()), (std::vector<float>{0, 1}));
 
     const Ply triangle = cut(2, 0);
     EXPECT_EQ(triangle.properties, (std::vector<std::string>{"x", "y", "z"}));
     EXPECT_EQ(triangle.triangles, (std::vector<std::array<uint32_t, 3>>{{0, 1, 2}}));
+}
+
+TEST_F(ExtractCut, writesWhatVerticesSee)
+{
+    // m0 = pi, m1 = (1, 2, 0), the normal is +Y
+    const std::vector<float> vertex = cut(0, 0).vertices[1];
+    const float size = std::sqrt(5.0f), pi = std::numbers::pi_v<float>, ratio = size / pi;
+    EXPECT_NEAR(vertex[6], 1 / size, 0.005f);
+    EXPECT_NEAR(vertex[7], 2 / size, 0.005f);
+    EXPECT_NEAR(vertex[8], 0, 0.005f);
+    EXPECT_NEAR(vertex[9], std::acos(2 * ratio - 1), 0.01f);
+    EXPECT_NEAR(vertex[10], 0.25f / (1 - ratio), 0.01f);
+    EXPECT_NEAR(vertex[11], 2 / pi, 1.0f / 1022);
+    EXPECT_NEAR(vertex[12], pi, 0.05f);
+    EXPECT_NEAR(vertex[13], 1, pi / 508);
+    EXPECT_NEAR(vertex[14], 2, pi / 1022);
+    EXPECT_NEAR(vertex[15], 0, pi / 508);
+    // a clip that moves the mesh leaves it as it is
+    const std::vector<float> moved = cut(0, 0, command::ClipTime{"move", 2}).vertices[1];
+    for (size_t i = 6; i < 16; ++i)
+        EXPECT_NEAR(moved[i], vertex[i], 1e-5f) << i;
 }
 
 TEST_F(ExtractCut, posesWhatJointsAndMorphTargetsMove)

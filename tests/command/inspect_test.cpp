@@ -63,7 +63,7 @@ TEST_F(Inspect, countsWhatEachMeshHas)
     ASSERT_EQ(json["meshes"].size(), 3u);
     const Json& strip = json["meshes"][0];
     EXPECT_EQ(strip["name"], "strip");
-    EXPECT_EQ(strip["attributes"], "position normal tangent uv0 color");
+    EXPECT_EQ(strip["attributes"], "position normal tangent uv0 color visibility");
     EXPECT_EQ(strip["source"], (Json{{"triangles", 8}, {"vertices", 24}, {"faces", 8}}));
     ASSERT_EQ(strip["levels"].size(), 2u);
     EXPECT_EQ(strip["levels"][0], (Json{{"clusters", 4},

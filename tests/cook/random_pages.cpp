@@ -91,17 +91,20 @@ std::vector<std::byte> RandomPage::content() const
 std::vector<uint32_t> sampleLayouts()
 {
     const uint32_t grids = 14u << kVertexUvStepShift;
+    const uint32_t widest = kVertexAttributesAll | kVertexFineNormal | kVertexFineColor; // UVs are floats
     return {0,
             kVertexNormal,
             kVertexNormal | kVertexUv0 | grids,
-            kVertexNormal | kVertexFineNormal | kVertexTangent | kVertexUv0 | kVertexFloatUv0,
-            kVertexNormal | kVertexTangent | kVertexUv0 | kVertexUv2 | kVertexFloatUv2 | kVertexColor | grids,
+            kVertexNormal | kVertexVisibility,
+            kVertexNormal | kVertexUv0 | kVertexVisibility | grids,
+            kVertexNormal | kVertexFineNormal | kVertexTangent | kVertexUv0,
+            kVertexNormal | kVertexTangent | kVertexUv0 | kVertexUv2 | kVertexColor | grids,
             largestLayout(kVertexAttributesAll & ~kVertexUvs) & ~kVertexWide,
-            (largestLayout(kVertexAttributesAll) & ~kVertexWide) | kVertexFloatUv0 | kVertexFloatUv1 |
-                kVertexFloatUv2 | kVertexFloatUv3,
+            widest,
+            widest & ~kVertexVisibility,
             kVertexNormal | kVertexUv0 | kVertexInfluences | grids,
-            (largestLayout(kVertexAttributesAll | kVertexInfluenceBits) & ~kVertexWide) | kVertexFloatUv0 |
-                kVertexFloatUv1 | kVertexFloatUv2 | kVertexFloatUv3};
+            kVertexNormal | kVertexUv0 | kVertexVisibility | kVertexInfluences | grids,
+            widest | kVertexInfluenceBits};
 }
 
 void addGridCluster(RandomPage& page, uint32_t side, bool wide, std::mt19937& random)

@@ -66,10 +66,14 @@ TEST(VertexWords, areTheOffsetBehindTheLastAttribute)
     EXPECT_EQ(vertexWords(0), 2u);
     EXPECT_EQ(vertexWords(kVertexNormal), 2u) << "beside z";
     EXPECT_EQ(vertexWords(kVertexNormal | kVertexFineNormal), 3u);
-    EXPECT_EQ(vertexWords(127), 8u);
-    EXPECT_EQ(vertexWords(127 | kVertexWide), 14u);
-    EXPECT_EQ(vertexWords(127 | kVertexFloatUv1), 9u);
-    EXPECT_EQ(vertexWords(127 | kVertexFloatUv1 | kVertexWide), 14u);
+    const uint32_t grids = 0xEEEEu << kVertexUvStepShift, second_floats = 0xEE0Eu << kVertexUvStepShift;
+    EXPECT_EQ(vertexWords(127), 12u);
+    EXPECT_EQ(vertexWords(127 | grids), 8u);
+    EXPECT_EQ(vertexWords(127 | grids | kVertexWide), 14u);
+    EXPECT_EQ(vertexWords(127 | second_floats), 9u);
+    EXPECT_EQ(vertexWords(127 | second_floats | kVertexWide), 14u);
+    EXPECT_EQ(vertexWords(255 | grids), 9u);
+    EXPECT_EQ(vertexWords(kVertexNormal | kVertexVisibility), 3u);
     EXPECT_EQ(vertexWords(kVertexColor | kVertexFineColor), 4u);
     EXPECT_EQ(vertexWords(kVertexNormal | kVertexInfluences), 6u);
     EXPECT_EQ(vertexWords(kVertexNormal | kVertexInfluences | kVertexMoreInfluences), 10u);

@@ -18,10 +18,10 @@ constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr uint32_t kHuge = 0xFFFFFFF0u; ///< first + count overflows 32 bits
 
-// a cluster of the strip: base of u and v, then vertices of 5 words: position (with the normal in the upper half of its
-// second), tangent, UV, colour
+// a cluster of the strip: base of u and v, then vertices of 6 words: position (with the normal in the upper half of its
+// second), tangent, UV, colour, visibility
 constexpr size_t kStripVertices = 2 * 4;
-constexpr size_t kStripIndices = kStripVertices + 4 * 5 * 4; ///< of the first cluster of a page
+constexpr size_t kStripIndices = kStripVertices + 4 * 6 * 4; ///< of the first cluster of a page
 
 // the cluster of the triangle: vertices of 6 words, position, joints and weights; indices; the section of one target
 constexpr size_t kTriangleJoints = 2 * 4;
@@ -57,7 +57,7 @@ std::vector<MalformedPack> malformedTables()
              p.meshes[2].pages = {2, 2};
          }},
         {"meshAttributes", Issue::meaning_value, "mesh 1",
-         [](PackModel& p) { p.meshes[1].attributes = 128; }},
+         [](PackModel& p) { p.meshes[1].attributes = 1u << 12; }},
         {"meshGrid", Issue::meaning_value, "mesh 0", [](PackModel& p) { p.meshes[0].grid_step = 0.3f; }},
         {"meshGridError", Issue::meaning_value, "mesh 0",
          [](PackModel& p) { p.meshes[0].grid_error = kNaN; }},
@@ -284,6 +284,8 @@ std::vector<MalformedPack> malformedGeometry()
          [](PackModel& p) { poke(p, 2, kStripVertices + 6, uint16_t{0x0080}); }, true},
         {"tangentCode", Issue::meaning_geometry, "cluster 4",
          [](PackModel& p) { poke(p, 2, kStripVertices + 8, uint32_t{0x100}); }, true},
+        {"visibilityCode", Issue::meaning_geometry, "cluster 4",
+         [](PackModel& p) { poke(p, 2, kStripVertices + 20, uint32_t{0x00800000}); }, true},
         {"uvBeyondGrid", Issue::meaning_geometry, "cluster 0",
          [](PackModel& p) { poke(p, 0, 4, kGridMost + 1); }, true},
         {"indexOutside", Issue::meaning_geometry, "cluster 0",

@@ -128,6 +128,11 @@ TEST(ClusterGeometry, readsEveryAttribute)
     EXPECT_EQ(geometry.uv(2, 0), (Float2{0.5f, 1}));
     EXPECT_NEAR(geometry.color(2).y, 0.5f, 0.51f / 255);
     EXPECT_EQ(geometry.color(2).w, 1);
+    const shared::VisibilityMoments visibility = geometry.visibility(2);
+    EXPECT_NEAR(visibility.m0, 3.14f, 0.05f);
+    EXPECT_NEAR(visibility.m1.x, 1, 0.01f);
+    EXPECT_NEAR(visibility.m1.y, 2, 0.01f);
+    EXPECT_NEAR(visibility.m1.z, 0, 0.01f);
 }
 
 TEST(ClusterGeometry, readsInfluencesAndMorphTargets)

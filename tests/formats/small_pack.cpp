@@ -3,10 +3,12 @@
 
 #include "formats/cluster_bounds.h"
 #include "formats/container_reader.h"
+#include "formats/visibility_code.h"
 
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <numbers>
 
 namespace hearth::test
 {
@@ -17,8 +19,8 @@ namespace
 {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
-constexpr uint32_t kStripAttributes =
-    kVertexNormal | kVertexTangent | kVertexUv0 | kVertexColor | 14u << kVertexUvStepShift;
+constexpr uint32_t kStripAttributes = kVertexNormal | kVertexTangent | kVertexUv0 | kVertexColor |
+                                      kVertexVisibility | 14u << kVertexUvStepShift;
 constexpr float kGridStep = 1.0f / 1024;
 constexpr float kFold = 96 * kGridStep; ///< metres by which every second edge of the strip is lifted
 constexpr float kFoldError = 0.1f;
@@ -74,6 +76,9 @@ void appendVertex(std::vector<std::byte>& page, Float3 position, const ClusterRe
                                                                          << 16);
     if (layout & kVertexColor)
         appendValue(page, encodeColor(layout, {1, 0.5f, 0.25f, 1})[0]);
+    if (layout & kVertexVisibility)
+        appendValue(page,
+                    encodeVisibility(std::numbers::pi_v<float>, {1, 2, 0}, decodeNormal(layout, normal)));
     if (layout & kVertexInfluences)
         for (const uint32_t word : {1u, 0u, 40000u | 25535u << 16, 0u})
             appendValue(page, word);

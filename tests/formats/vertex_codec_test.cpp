@@ -186,25 +186,27 @@ TEST(GridCoordinates, areExact)
 
 TEST(AttributeWord, followsTheOrderOfTheBits)
 {
-    const uint32_t fine = kVertexAttributesAll | kVertexFineNormal | kVertexFineColor | kVertexFloatUv0 |
-                          kVertexFloatUv1 | kVertexFloatUv2 | kVertexFloatUv3;
+    const uint32_t fine = kVertexAttributesAll | kVertexFineNormal | kVertexFineColor; // UVs are floats
     EXPECT_EQ(attributeWord(fine, kVertexNormal), 2u);
     EXPECT_EQ(attributeWord(fine, kVertexTangent), 3u);
     EXPECT_EQ(attributeWord(fine, kVertexUv0), 4u);
     EXPECT_EQ(attributeWord(fine, kVertexUv3), 10u);
     EXPECT_EQ(attributeWord(fine, kVertexColor), 12u);
-    const uint32_t all = kVertexAttributesAll;
+    EXPECT_EQ(attributeWord(fine, kVertexVisibility), 14u);
+    const uint32_t all = kVertexAttributesAll | 0x1F1Eu << kVertexUvStepShift;
     EXPECT_EQ(attributeWord(all, kVertexNormal), 1u);
     EXPECT_EQ(attributeWord(all, kVertexTangent), 2u);
     EXPECT_EQ(attributeWord(all, kVertexUv2), 5u);
     EXPECT_EQ(attributeWord(all, kVertexColor), 7u);
+    EXPECT_EQ(attributeWord(all, kVertexVisibility), 8u);
     EXPECT_EQ(attributeWord(all | kVertexWide, kVertexNormal), 3u);
     EXPECT_EQ(attributeWord(all | kVertexWide, kVertexUv1), 7u);
-    EXPECT_EQ(attributeWord(kVertexUv1 | kVertexColor, kVertexUv1), 2u);
-    EXPECT_EQ(attributeWord(kVertexUv1 | kVertexColor, kVertexColor), 3u);
+    const uint32_t grid1 = kVertexUv1 | kVertexColor | 14u << (kVertexUvStepShift + 4);
+    EXPECT_EQ(attributeWord(grid1, kVertexUv1), 2u);
+    EXPECT_EQ(attributeWord(grid1, kVertexColor), 3u);
     const uint32_t more = fine | kVertexInfluences | kVertexMoreInfluences;
     EXPECT_EQ(attributeWord(more, kVertexColor), 12u) << "influences stand behind the others";
-    EXPECT_EQ(attributeWord(more, kVertexInfluences), 14u);
+    EXPECT_EQ(attributeWord(more, kVertexInfluences), 15u);
     EXPECT_EQ(attributeWord(kVertexInfluences | kVertexWide, kVertexInfluences), 3u);
 }
 
@@ -222,10 +224,39 @@ TEST(MorphDelta, keepsBothParts)
 TEST(UvBaseWord, countsTheSetsOnGrids)
 {
     const uint32_t sets = kVertexUv0 | kVertexUv1 | kVertexUv3;
-    EXPECT_EQ(uvBaseWords(sets), 6u);
-    EXPECT_EQ(uvBaseWord(sets, 3), 4u);
-    EXPECT_EQ(uvBaseWords(sets | kVertexFloatUv1), 4u);
-    EXPECT_EQ(uvBaseWord(sets | kVertexFloatUv1, 3), 2u);
+    EXPECT_EQ(uvBaseWords(sets), 0u);
+    EXPECT_EQ(uvBaseWords(sets | 0xE0EEu << kVertexUvStepShift), 6u);
+    EXPECT_EQ(uvBaseWord(sets | 0xE0EEu << kVertexUvStepShift, 3), 4u);
+    EXPECT_EQ(uvBaseWords(sets | 0xE00Eu << kVertexUvStepShift), 4u);
+    EXPECT_EQ(uvBaseWord(sets | 0xE00Eu << kVertexUvStepShift, 3), 2u);
+}
+
+TEST(GridUvs, areTheSetsWithSteps)
+{
+    for (uint32_t steps = 0; steps <= 0xFFFF; ++steps)
+    {
+        uint32_t grids = 0;
+        for (uint32_t set = 0; set < 4; ++set)
+            grids |= (steps >> 4 * set & 15u) != 0 ? kVertexUv0 << set : 0;
+        ASSERT_EQ(gridUvs(kVertexAttributesAll | kVertexWide | steps << kVertexUvStepShift), grids);
+    }
+}
+
+TEST(LargestLayout, needsTheMostBytesOfAllWithItsAttributes)
+{
+    std::mt19937 random(7);
+    for (int i = 0; i < 100000; ++i)
+    {
+        const auto layout = static_cast<uint32_t>(random());
+        if (!legalLayout(layout))
+            continue;
+        const auto vertices = static_cast<uint32_t>(random() % 4);
+        ASSERT_LE(clusterBytes(layout, vertices, 1), clusterBytes(largestLayout(layout), vertices, 1))
+            << layout;
+        ASSERT_LE(clusterBytes(layout | kVertexWide, vertices, 1),
+                  clusterBytes(largestLayout(layout), vertices, 1))
+            << layout;
+    }
 }
 
 TEST(LegalLayout, saysWhatThereIsAndNothingElse)
@@ -233,12 +264,15 @@ TEST(LegalLayout, saysWhatThereIsAndNothingElse)
     const uint32_t grid0 = 14u << kVertexUvStepShift;
     EXPECT_TRUE(legalLayout(0));
     EXPECT_TRUE(legalLayout(kVertexNormal | kVertexTangent | kVertexFineNormal | kVertexUv0 | grid0));
-    EXPECT_TRUE(legalLayout(kVertexUv0 | kVertexFloatUv0));
-    EXPECT_FALSE(legalLayout(kVertexUv0)) << "neither floats nor a grid";
-    EXPECT_FALSE(legalLayout(kVertexUv0 | kVertexFloatUv0 | grid0)) << "both";
+    EXPECT_TRUE(legalLayout(kVertexUv0)) << "floats";
+    EXPECT_TRUE(legalLayout(kVertexUv0 | kVertexUv2 | grid0));
     EXPECT_FALSE(legalLayout(grid0)) << "a grid of no set";
-    EXPECT_FALSE(legalLayout(kVertexFloatUv2));
+    EXPECT_FALSE(legalLayout(kVertexUv0 | kVertexUv2 | grid0 << 4));
+    EXPECT_TRUE(legalLayout(kVertexNormal | kVertexVisibility));
+    EXPECT_FALSE(legalLayout(kVertexVisibility)) << "above no surface";
     EXPECT_FALSE(legalLayout(kVertexTangent)) << "an angle about nothing";
+    for (const uint32_t bit : {1u << 10, 1u << 11, 1u << 12})
+        EXPECT_FALSE(legalLayout(bit)) << "no meaning";
     EXPECT_FALSE(legalLayout(kVertexFineNormal));
     EXPECT_FALSE(legalLayout(kVertexFineColor));
     EXPECT_FALSE(legalLayout(kVertexWide)) << "of a cluster";

@@ -17,8 +17,8 @@ using namespace hearth;
 using namespace hearth::formats;
 
 constexpr uint32_t kLayouts[] = {0, kVertexNormal | kVertexUv0 | 14u << kVertexUvStepShift,
-                                 kVertexNormal | kVertexTangent | kVertexUv0 | kVertexUv1 | kVertexFloatUv1 |
-                                     kVertexColor | 14u << kVertexUvStepShift,
+                                 kVertexNormal | kVertexTangent | kVertexUv0 | kVertexUv1 | kVertexColor |
+                                     kVertexVisibility | 14u << kVertexUvStepShift,
                                  kVertexNormal | kVertexInfluences | kVertexMoreInfluences};
 
 /// Records as the input's first bytes say, one behind the other.
