@@ -84,6 +84,25 @@ HEARTH_CONSTANT uint kViewCones = 8;
 HEARTH_CONSTANT uint kViewOverdraw = 9;
 HEARTH_CONSTANT uint kViewShadowMaps = 10;
 HEARTH_CONSTANT uint kViewBones = 11; ///< main bones of clusters; grey: rigid
+// what is seen of the sky, as it is shaded; dark red: the mesh does not say
+HEARTH_CONSTANT uint kViewAmbientOcclusion = 12;
+HEARTH_CONSTANT uint kViewBentNormal = 13;        ///< axis of the visibility cone
+HEARTH_CONSTANT uint kViewAperture = 14;          ///< its half-angle, white: 90 degrees
+HEARTH_CONSTANT uint kViewSpecularOcclusion = 15; ///< from the eye, by the material's roughness
+
+/// How the sky's mirror image is occluded. The numbers are those of the settings.
+HEARTH_CONSTANT uint kSpecularOcclusionFit = 0;
+HEARTH_CONSTANT uint kSpecularOcclusionTable = 1; ///< the pack's; where it has none, the fit
+HEARTH_CONSTANT uint kSpecularOcclusionOff = 2;
+
+/// Both settings as shaders get them.
+/// ambient   kAmbientOcclusion* (ambient_occlusion.h)
+/// specular  kSpecularOcclusion*
+/// spacing   kSpecularSpacing* of the table (specular_occlusion.h)
+HEARTH_FUNCTION uint skyOcclusionBits(uint ambient, uint specular, uint spacing)
+{
+    return ambient | specular << 8 | spacing << 16;
+}
 
 /// What one fragment adds to the overdraw view, linear: brown at first; red is full at 4, green at 8, all at 16.
 HEARTH_CONSTANT Float3 kOverdrawStep = Float3(0.25f, 0.125f, 0.0625f);

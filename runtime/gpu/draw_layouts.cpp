@@ -15,7 +15,8 @@ Result<DrawLayouts> DrawLayouts::create(const Device& device)
     scene[kSceneFrame] = {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, kBoth};
     scene[kSceneLighting].stages = VK_SHADER_STAGE_FRAGMENT_BIT;
     scene[kSceneShadows] = {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, kBoth};
-    scene[kSceneShadowMaps] = {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_SHADER_STAGE_FRAGMENT_BIT};
+    for (const SceneBinding texture : {kSceneShadowMaps, kSceneSpecularTable})
+        scene[texture] = {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_SHADER_STAGE_FRAGMENT_BIT};
 
     std::vector<SetBinding> material(
         1 + shared::kTextureCount, {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_SHADER_STAGE_FRAGMENT_BIT});

@@ -20,7 +20,8 @@ enum SceneBinding : uint32_t
     kSceneLighting = 8,
     kSceneShadows = 9, ///< of scenes with shadows, as the next one
     kSceneShadowMaps = 10,
-    kSceneBindingCount = 11,
+    kSceneSpecularTable = 11, ///< one white texel in scenes without a table
+    kSceneBindingCount = 12,
 };
 
 /// Bindings of set 2 of the picture's pipelines.
@@ -66,7 +67,11 @@ struct DrawPush
     };
     uint32_t shown_view = 0;
     float depth_scale = 1;
-    uint32_t light_row = 0; ///< casters: of the ShadowBlock
+    union
+    {
+        uint32_t sky_occlusion = 0; ///< picture: shared::skyOcclusionBits
+        uint32_t light_row;         ///< casters: of the ShadowBlock
+    };
     uint32_t map_index = 0;
 };
 

@@ -61,8 +61,9 @@ struct ShadingVariant
     uint32_t textures = 0;                      ///< as shared::Material
     uint32_t uv_sets = 0;                       ///< as shared::Material
     uint32_t unlit = 0;
-    uint32_t deformed = 0; ///< 1: it is on deformed meshes
-    uint32_t shadows = 0;  ///< 1: lights have shadow maps
+    uint32_t deformed = 0;       ///< 1: it is on deformed meshes
+    uint32_t shadows = 0;        ///< 1: lights have shadow maps
+    uint32_t sky_visibility = 0; ///< 1: it is on meshes that say what they see of the sky
     friend auto operator<=>(const ShadingVariant&, const ShadingVariant&) = default;
 };
 
@@ -112,8 +113,10 @@ struct Scene
     uint32_t group_item_count = 0; ///< of a streamed scene
     uint32_t slot_capacity = 0;
     uint32_t used_slices = shared::kPoolSlices; ///< 1 where the first holds all geometry
-    uint32_t dropped_lights = 0;                ///< lights of the pack beyond shared::kMaxLights
-    Box3 bounds;                                ///< world space, empty where there is nothing to draw
+    bool has_specular_table = false;
+    uint32_t specular_spacing = 0; ///< shared::kSpecularSpacing* of the table
+    uint32_t dropped_lights = 0;   ///< lights of the pack beyond shared::kMaxLights
+    Box3 bounds;                   ///< world space, empty where there is nothing to draw
 };
 
 /// The first ones of the work list.

@@ -183,7 +183,7 @@ Status createSets(const Device& device, const DrawLayouts& layouts, Scene& scene
     // page requests; three more where meshes are deformed; with room for what each binds
     const DescriptorPoolSizes sizes{.uniforms = 18 + material_rows,
                                     .storages = 96,
-                                    .textures = material_rows * shared::kTextureCount + 1};
+                                    .textures = material_rows * shared::kTextureCount + 2};
     HEARTH_ASSIGN_OR_RETURN(scene.pool, createDescriptorPool(device, 14 + material_rows, sizes));
     HEARTH_ASSIGN_OR_RETURN(scene.draw_set, allocateSet(device, scene.pool.get(), layouts.scene.get()));
     const SceneBuffers& b = scene.buffers;
@@ -229,6 +229,15 @@ std::unique_ptr<SceneDeformation> makeDeformation(const Device& device, const De
     return deformation;
 }
 
+/// The materials that are on meshes which say what they see of the sky.
+void findSkyVisibility(const formats::PackView& pack, Scene& scene)
+{
+    for (const formats::MeshRecord& mesh : pack.meshes())
+        if ((mesh.attributes & formats::kVertexVisibility) != 0)
+            for (const formats::ClusterRecord& cluster : recordsOf(pack.clusters(), mesh.clusters))
+                scene.materials[materialRow(pack, cluster.material)].variant.sky_visibility = 1;
+}
+
 /// What frames still need of it, and the materials that are drawn in poses.
 void keepLayout(const formats::PackView& pack, DeformationLayout layout, Scene& scene)
 {
@@ -242,13 +251,14 @@ void keepLayout(const formats::PackView& pack, DeformationLayout layout, Scene& 
     deformation.layout.words = {};
 }
 
-/// No shader of a scene without shadows looks at their bindings, but lavapipe (Mesa 22.3) reads what they are; so they
-/// have what is at hand until there are maps.
-void fillShadowBindings(const Device& device, const Scene& scene)
+/// No shader of a scene without shadows or table looks at their bindings, but lavapipe (Mesa 22.3) reads what they are; so
+/// they have what is at hand until there are some.
+void fillSpareBindings(const Device& device, const Scene& scene)
 {
     DescriptorWriter(scene.draw_set)
         .uniform(kSceneShadows, scene.buffers.frame)
         .texture(kSceneShadowMaps, scene.images.back().view.get(), scene.samplers.front().get())
+        .texture(kSceneSpecularTable, scene.images.back().view.get(), scene.samplers.front().get())
         .write(device);
 }
 
@@ -294,7 +304,8 @@ Result<std::unique_ptr<Scene>> uploadScene(const Device& device, const DrawLayou
     HEARTH_TRY(scene->staging->uploadRecords(scene->buffers.group_items, group_items.items));
     HEARTH_TRY(uploadGeometry(pack, layout, *scene->staging, *scene));
     HEARTH_TRY(uploadMaterials(device, layouts, pack, *scene->staging, *scene));
-    fillShadowBindings(device, *scene);
+    findSkyVisibility(pack, *scene);
+    fillSpareBindings(device, *scene);
     scene->staging->finish();
     scene->bins = std::move(layout.bins);
     if (scene->deformation != nullptr)

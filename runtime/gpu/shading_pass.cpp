@@ -29,6 +29,15 @@ uint32_t deformedVertices(const ShadingVariant& variant)
     return variant.deformed != 0 ? kDeformedInScratch : kRigid;
 }
 
+uint32_t skyOcclusion(const Scene& scene, const ShadingView& view)
+{
+    const bool no_table =
+        view.specular_occlusion == shared::kSpecularOcclusionTable && !scene.has_specular_table;
+    return shared::skyOcclusionBits(view.ambient_occlusion,
+                                    no_table ? shared::kSpecularOcclusionFit : view.specular_occlusion,
+                                    scene.specular_spacing);
+}
+
 } // namespace
 
 Result<ShadingPass> ShadingPass::create(const Device& device, const DrawLayouts& layouts,
@@ -65,8 +74,8 @@ Result<ShadingPipelines> ShadingPass::prepare(const Device& device, const DrawLa
     Variant& pipelines = entry->second;
     if (fresh)
     {
-        const uint32_t constants[] = {variant.used_slices, variant.textures, variant.uv_sets, variant.unlit,
-                                      deformedVertices(variant)};
+        const uint32_t constants[] = {variant.used_slices, variant.textures,          variant.uv_sets,
+                                      variant.unlit,       deformedVertices(variant), variant.sky_visibility};
         GraphicsDescription description =
             describe(variant.shadows != 0 ? shaders::shading_shadowed_frag : shaders::shading_frag,
                      layouts.picture.get(), render_pass_);
@@ -145,6 +154,7 @@ void ShadingPass::recordMaterials(const Device& device, VkCommandBuffer commands
     const VkBuffer draws =
         (shadesTiles(scene, view.area) ? scene.buffers.tile_draws : scene.buffers.material_draws)
             .handle.get();
+    const uint32_t sky_occlusion = skyOcclusion(scene, view);
     for (uint32_t row = 0; row < scene.materials.size(); ++row)
     {
         const SceneMaterial& material = scene.materials[row];
@@ -154,7 +164,8 @@ void ShadingPass::recordMaterials(const Device& device, VkCommandBuffer commands
         const uint32_t number = row + 1; // 0 is the sky
         const DrawPush push{.depth = static_cast<float>(number) / 65535.0f,
                             .shown_view = view.shown,
-                            .depth_scale = view.depth_scale};
+                            .depth_scale = view.depth_scale,
+                            .sky_occlusion = sky_occlusion};
         device.vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout, 1, 1,
                                           &material.set, 0, nullptr);
         device.vk.vkCmdPushConstants(commands, layout, kDrawPushStages, 0, sizeof(push), &push);

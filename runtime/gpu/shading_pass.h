@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
+#include "formats/shared/ambient_occlusion.h"
 #include "formats/shared/shading.h"
 #include "runtime/gpu/frame_targets.h"
 #include "runtime/gpu/scene.h"
@@ -28,6 +29,8 @@ struct ShadingView
     uint32_t shown = shared::kViewFinal; ///< one of shared::kView*
     float depth_scale = 1;               ///< metres that the depth view shows as middle grey
     ShadedArea area = ShadedArea::automatic;
+    uint32_t ambient_occlusion = shared::kAmbientOcclusionExact; ///< of meshes with visibility
+    uint32_t specular_occlusion = shared::kSpecularOcclusionFit; ///< the same
 };
 
 /// Whether the frame makes lists of tiles before it is shaded.

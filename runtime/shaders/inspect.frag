@@ -1,4 +1,5 @@
-// Shows what is drawn instead of how it looks: clusters, levels, triangles, materials, bones, normals, depth.
+// Shows what is drawn instead of how it looks: clusters, levels, triangles, materials, bones, normals, depth, and what is seen
+// of the sky.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #version 450
 #extension GL_GOOGLE_include_directive : require
@@ -9,15 +10,10 @@
 #include "surface_point.glsl"
 #include "resolve.glsl"
 #include "tonemap.glsl"
+#include "sky_occlusion.glsl"
 
 layout(input_attachment_index = 0, set = 2, binding = 0) uniform usubpassInput visibility;
 
-layout(push_constant) uniform Push
-{
-    float depth;
-    uint shown_view;
-    float depth_scale; // metres that the depth view shows as half
-};
 layout(early_fragment_tests) in;
 layout(location = 0) out vec4 out_color;
 
@@ -45,6 +41,32 @@ vec3 colorOfBone(Surface s)
     return colorOfNumber(loadDeformedCluster(loadPose(s.pose.row), s.slot.cluster).joint + 1u);
 }
 
+bool isSkyView(uint shown)
+{
+    return shown == kViewAmbientOcclusion || shown == kViewBentNormal || shown == kViewAperture ||
+           shown == kViewSpecularOcclusion;
+}
+
+// Dark red: the mesh does not say.
+vec3 colorOfSky(Surface s)
+{
+    if (!kSkyVisibility || (s.draw.vertex_layout & kVertexVisibility) == 0u)
+        return vec3(0.35, 0.05, 0.05);
+    SurfacePoint point = surfacePoint(s);
+    SurfaceUvs uvs = surfaceUvs(s);
+    vec3 normal = shadingNormal(point, uvs);
+    SkyView sky = skyView(point, normal);
+    if (shown_view == kViewAmbientOcclusion)
+        return vec3(diffuseSky(sky));
+    if (shown_view == kViewBentNormal)
+        return sky.cone.axis * 0.5 + 0.5;
+    if (shown_view == kViewAperture)
+        return vec3(sky.cone.aperture * (2.0 / kVisibilityPi));
+    vec4 metallic_roughness = sampleSurface(uvs, kTextureMetallicRoughness, metallic_roughness_texture);
+    vec3 to_eye = normalizeOr(-point.position, normal);
+    return vec3(specularSky(sky, surfaceRoughness(metallic_roughness), clampedCosine(normal, to_eye), reflect(-to_eye, normal)));
+}
+
 void main()
 {
     Surface s = resolveSurface(subpassLoad(visibility).x, gl_FragCoord.xy);
@@ -61,6 +83,8 @@ void main()
         color = facing * colorOfNumber(s.draw.material);
     else if (shown_view == kViewBones)
         color = facing * colorOfBone(s);
+    else if (isSkyView(shown_view))
+        color = colorOfSky(s);
     else if (shown_view == kViewNormals)
         color = shadingNormal(surfacePoint(s), surfaceUvs(s)) * 0.5 + 0.5;
     else

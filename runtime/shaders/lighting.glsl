@@ -6,6 +6,7 @@ layout(set = 0, binding = 8, std140) readonly buffer LightingBlock { Lighting li
 #include "brdf.glsl"
 #include "sky.glsl"
 #include "tonemap.glsl"
+#include "sky_occlusion.glsl"
 
 layout(constant_id = 3) const bool kUnlit = false;
 
@@ -44,13 +45,12 @@ vec3 lit(SurfacePoint point, SurfaceUvs uvs, vec3 base)
     vec4 metallic_roughness = sampleSurface(uvs, kTextureMetallicRoughness, metallic_roughness_texture);
     float metallic = clamp(material.metallic * metallic_roughness.b, 0.0, 1.0);
     Shading shading;
-    // below 0.045 the highlight of a punctual light is smaller than half floats resolve
-    shading.roughness = clamp(material.roughness * metallic_roughness.g, 0.045, 1.0);
+    shading.roughness = surfaceRoughness(metallic_roughness);
     shading.diffuse = base * (1.0 - metallic);
     shading.f0 = mix(vec3(0.04), base, metallic);
     shading.normal = normal;
     shading.to_eye = normalizeOr(-point.position, normal);
-    shading.n_dot_v = clamp(abs(dot(normal, shading.to_eye)), 1e-4, 1.0);
+    shading.n_dot_v = clampedCosine(normal, shading.to_eye);
 
     vec3 radiance = vec3(0.0);
     for (uint i = 0u; i < lighting.light_count; ++i)
@@ -66,8 +66,18 @@ vec3 lit(SurfacePoint point, SurfaceUvs uvs, vec3 base)
     vec2 scale_bias = specularScaleBias(shading.roughness, shading.n_dot_v);
     vec3 specular = shading.f0 * scale_bias.x + scale_bias.y;
     vec3 mirror = reflect(-shading.to_eye, normal);
-    radiance += occlusion * ((1.0 - specular) * shading.diffuse * skyIrradiance(normal) +
-                             specular * skyRadiance(mirror, shading.roughness));
+    vec3 diffuse_sky = (1.0 - specular) * shading.diffuse * skyIrradiance(normal);
+    vec3 specular_sky = specular * skyRadiance(mirror, shading.roughness);
+    if (kSkyVisibility)
+    {
+        // The smaller counts: a texture is usually baked from the same form and would hide the sky twice; what it has beyond
+        // that, fine form that the mesh lacks, is where it says less.
+        SkyView sky = skyView(point, normal);
+        radiance += min(occlusion, diffuseSky(sky)) * diffuse_sky +
+                    min(occlusion, specularSky(sky, shading.roughness, shading.n_dot_v, mirror)) * specular_sky;
+    }
+    else
+        radiance += occlusion * (diffuse_sky + specular_sky);
     return radiance + material.emissive * sampleSurface(uvs, kTextureEmissive, emissive_texture).rgb;
 }
 

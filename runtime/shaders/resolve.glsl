@@ -188,6 +188,38 @@ void tangentFrame(Surface s, vec3 normal, uint uv_set, out vec3 tangent, out vec
     completeFrame(normal, t, side, tangent, bitangent);
 }
 
+// The moments of a vertex in world axes, as its instance stands in its pose. What points along the normal follows the posed
+// normal, what points across it follows the surface; lengths stay.
+vec3 posedMoment(Surface s, uint corner, vec3 normal, vec3 m1)
+{
+    float along = dot(normal, m1);
+    vec3 across = m1 - normal * along;
+    vec3 posed_normal = drawnNormal(s.draw, s.pose, s.indices[corner]);
+    vec3 carried_across = carried(blendedJoints(s.draw, loadPose(s.pose.row), s.vertices[corner]), across);
+    carried_across -= posed_normal * dot(posed_normal, carried_across);
+    return posed_normal * along + normalizeOr(carried_across, vec3(0.0)) * length(across);
+}
+
+// What the point sees of the sky, interpolated: it is linear in the light, so that this is what was fitted to the samples.
+VisibilityMoments surfaceSky(Surface s, vec3 normal)
+{
+    VisibilityMoments sky = openSky(normal);
+    if (!kSkyVisibility || (s.draw.vertex_layout & kVertexVisibility) == 0u)
+        return sky;
+    sky = VisibilityMoments(0.0, vec3(0.0));
+    for (uint i = 0u; i < 3u; ++i)
+    {
+        vec3 at_vertex = vertexNormal(s.draw, s.vertices[i]);
+        VisibilityMoments moments = decodeVisibility(vertexVisibility(s.draw, s.vertices[i]), at_vertex);
+        sky.m0 += moments.m0 * s.weights[i];
+        sky.m1 += (isDeformed(s) ? posedMoment(s, i, at_vertex, moments.m1) : moments.m1) * s.weights[i];
+    }
+    if (!isDeformed(s))
+        // as normals do, so that what is open stays open; a length is a share of light and no distance
+        sky.m1 = normalizeOr(worldNormal(s.instance, sky.m1), vec3(0.0)) * length(sky.m1);
+    return sky;
+}
+
 SurfacePoint surfacePoint(Surface s)
 {
     SurfacePoint point;
@@ -200,5 +232,9 @@ SurfacePoint surfacePoint(Surface s)
         tangentFrame(s, point.normal, uvSetOf(kTextureNormal), point.tangent, point.bitangent);
     point.color = surfaceColor(s);
     point.front = s.front;
+    point.sky = surfaceSky(s, point.normal);
+    // the back of a sheet sees what its front would see in a mirror
+    if (!s.front)
+        point.sky.m1 -= point.normal * (2.0 * dot(point.normal, point.sky.m1));
     return point;
 }

@@ -2,9 +2,11 @@
 // there are, and which UV sets they use, is fixed when the pipeline is made: a scene has few such combinations, and what
 // is not there costs nothing.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "formats/shared/visibility_cone.h"
 
 layout(constant_id = 1) const uint kTextures = 0u; // as Material.textures
 layout(constant_id = 2) const uint kUvSets = 0u;   // as Material.uv_sets
+layout(constant_id = 5) const bool kSkyVisibility = false; // some of its meshes say what they see of the sky
 
 struct SurfacePoint
 {
@@ -15,6 +17,7 @@ struct SurfacePoint
     vec3 bitangent;
     vec3 color;     // of the vertices
     bool front;     // the side that is seen
+    VisibilityMoments sky; // of what is seen of the sky: world axes, towards the side that is seen
 };
 
 struct SurfaceUv
@@ -33,6 +36,9 @@ struct SurfaceUvs
 bool hasTexture(uint slot) { return (kTextures >> slot & 1u) != 0u; }
 
 uint uvSetOf(uint slot) { return kUvSets >> (slot * 4u) & 15u; }
+
+// Nothing hides the sky from the side of the normal.
+VisibilityMoments openSky(vec3 normal) { return VisibilityMoments(2.0 * kVisibilityPi, normal * kVisibilityPi); }
 
 // `v`, or `fallback` where v is too short to have a direction.
 vec3 normalizeOr(vec3 v, vec3 fallback)
@@ -57,6 +63,12 @@ vec4 sampleSurface(SurfaceUvs uvs, uint slot, sampler2D image)
     SurfaceUv at = uvs.slots[slot];
     return textureGrad(image, transformUv(slot, at.uv), transformUvVector(slot, at.dx), transformUvVector(slot, at.dy));
 }
+
+// Perceptual. Below 0.045 the highlight of a punctual light is smaller than half floats resolve.
+float surfaceRoughness(vec4 metallic_roughness) { return clamp(material.roughness * metallic_roughness.g, 0.045, 1.0); }
+
+// Of the angle between normal and eye, as the material model takes it.
+float clampedCosine(vec3 normal, vec3 to_eye) { return clamp(abs(dot(normal, to_eye)), 1e-4, 1.0); }
 
 // Unit, world axes, towards the side that is seen.
 vec3 shadingNormal(SurfacePoint point, SurfaceUvs uvs)

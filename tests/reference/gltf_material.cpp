@@ -39,21 +39,24 @@ Double3 reflected(const Coating& c, Double3 view, Double3 light)
     return {channel(c.base.x), channel(c.base.y), channel(c.base.z)};
 }
 
-Double3 underSky(const Coating& c, const SceneLighting& lighting, Double3 view)
+SkyAlbedo skyAlbedo(const Coating& c, Double3 view)
 {
     const double nv = std::clamp(std::abs(dot(c.normal, view)), 1e-4, 1.0);
     const double r = c.roughness;
     const double a = std::min((1 - r) * (1 - r), std::exp2(-9.28 * nv)) * (1 - r) + 0.0425 - 0.0275 * r;
     const double scale = -1.04 * a + 1.04 - 0.572 * r, bias = 1.04 * a - 0.04 + 0.022 * r;
+    const auto specular = [&](double base) { return (0.04 + (base - 0.04) * c.metallic) * scale + bias; };
+    const auto diffuse = [&](double base) { return (1 - specular(base)) * base * (1 - c.metallic); };
+    return {{diffuse(c.base.x), diffuse(c.base.y), diffuse(c.base.z)},
+            {specular(c.base.x), specular(c.base.y), specular(c.base.z)}};
+}
+
+SkyResponse underSky(const Coating& c, const SceneLighting& lighting, Double3 view)
+{
     const Double3 mirror = c.normal * (2 * dot(c.normal, view)) - view;
-    const Double3 irradiance = lighting.irradiance(c.normal), radiance = lighting.radiance(mirror, r);
-    const auto channel = [&](double base, double from_all, double from_mirror)
-    {
-        const double specular = (0.04 + (base - 0.04) * c.metallic) * scale + bias;
-        return c.occlusion * ((1 - specular) * base * (1 - c.metallic) * from_all + specular * from_mirror);
-    };
-    return {channel(c.base.x, irradiance.x, radiance.x), channel(c.base.y, irradiance.y, radiance.y),
-            channel(c.base.z, irradiance.z, radiance.z)};
+    const SkyAlbedo albedo = skyAlbedo(c, view);
+    return {albedo.diffuse * lighting.irradiance(c.normal),
+            albedo.specular * lighting.radiance(mirror, c.roughness)};
 }
 
 double filmic(double radiance)

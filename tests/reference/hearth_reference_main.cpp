@@ -127,7 +127,13 @@ int main(int argc, char** argv)
     app.add_option("--samples-per-side", arguments.options.samples_per_side, "rays per pixel: its square")
         ->check(CLI::Range(1u, 64u));
     app.add_flag("--shadows", arguments.options.shadows, "shadows of suns and spots");
-    app.add_option("--occlusion", arguments.options.occlusion_rays, "rays to the sky for each sample");
+    app.add_option(
+        "--sky-rays", arguments.options.sky.rays,
+        "rays to the sky for each sample and lobe: what hides it counts (default 0: nothing does)");
+    app.add_option("--bounces", arguments.options.sky.bounces,
+                   "diffuse bounces of what hides the sky (default 0: it is black)");
+    app.add_flag("--integrate-sky", arguments.options.sky.integrate,
+                 "the sky as one radiance, in place of the runtime's forms of it");
     app.add_option("--compare", arguments.compare, "print the FLIP difference to this PNG");
     app.add_option("--flip-map", arguments.flip_map, "write that difference as a picture");
     try

@@ -6,6 +6,7 @@
 #include "formats/shared/frame.h"
 #include "tests/reference/pack_geometry.h"
 #include "tests/reference/png_image.h"
+#include "tests/reference/sky_tracer.h"
 
 namespace hearth::reference
 {
@@ -18,7 +19,7 @@ struct ReferenceOptions
     uint32_t height = 512;
     uint32_t samples_per_side = 4; ///< rays per pixel: its square
     bool shadows = false;          ///< of suns and spots, as hearth-render --shadows has them
-    uint32_t occlusion_rays = 0;   ///< of the sky, for each sample; 0: the sky is everywhere
+    SkyTracing sky; ///< whether what stands in front of the sky counts; its `shadows` is the one above
 };
 
 /// errors: those of reading pages and images.

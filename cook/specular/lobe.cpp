@@ -1,0 +1,258 @@
+// A half-vector h has the slope (x, y) where h is along p = (x, y, 1). Mirroring the view there gives a direction in the
+// cone about d where 2 (V.p) (p.d) >= (V.d + cos half_angle) p.p: at a fixed y a quadratic inequality for x. So the
+// integral over slopes runs over intervals with closed ends, its outer one breaks only where these ends meet, and both are
+// integrated by Gauss-Legendre to six digits with a few hundred points, however narrow the lobe is.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/specular/lobe.h"
+
+#include "cook/specular/gauss_legendre.h"
+#include "formats/assert.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <numbers>
+#include <optional>
+
+namespace hearth::specular
+{
+
+namespace
+{
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+struct Interval
+{
+    double low;
+    double high;
+};
+
+/// Disjoint and ascending; empty ones have low >= high.
+using Intervals = std::array<Interval, 2>;
+
+Interval overlap(Interval a, Interval b)
+{
+    return {std::max(a.low, b.low), std::min(a.high, b.high)};
+}
+
+/// Where a x^2 + 2 b x + c >= 0.
+Intervals notNegative(double a, double b, double c)
+{
+    constexpr Interval kNothing{0, 0};
+    constexpr Interval kEverything{-kInfinity, kInfinity};
+    const double discriminant = b * b - a * c;
+    if (discriminant <= 0)
+        return {a > 0 || (a == 0 && c >= 0) ? kEverything : kNothing, kNothing};
+    // the form without a difference of near numbers
+    const double sum = -(b + std::copysign(std::sqrt(discriminant), b));
+    const double first = c / sum;
+    if (a == 0)
+        return {b > 0 ? Interval{first, kInfinity} : Interval{-kInfinity, first}, kNothing};
+    const double second = sum / a;
+    const Interval between{std::min(first, second), std::max(first, second)};
+    if (a < 0)
+        return {between, kNothing};
+    return {Interval{-kInfinity, between.low}, Interval{between.high, kInfinity}};
+}
+
+/// The lobe in slopes: y = alpha tan(tau), x = alpha tan(s) / cos(tau), which makes GGX's density
+/// cos(tau) cos(s)^2 / pi.
+class SlopeLobe
+{
+public:
+    explicit SlopeLobe(const Lobe& lobe)
+        : alpha_(lobe.roughness * lobe.roughness), view_x_(-std::sin(lobe.theta_o)),
+          view_z_(std::max(std::cos(lobe.theta_o), 0.0)), masking_(lobe.masking)
+    {
+        const double tangent = -view_x_ / view_z_; // may be infinite
+        view_masking_ = 0.5 + 0.5 * std::sqrt(1 + alpha_ * alpha_ * tangent * tangent);
+    }
+
+    double alpha() const { return alpha_; }
+    double viewX() const { return view_x_; }
+    double viewZ() const { return view_z_; }
+
+    /// Slopes whose mirror direction is above the horizon; |y| is at most 1 / viewZ().
+    Interval aboveHorizon(double y) const
+    {
+        const double root = std::sqrt(std::max(1 - view_z_ * view_z_ * y * y, 0.0));
+        return {(view_x_ - root) / view_z_, view_z_ * (1 - y * y) / (root - view_x_)};
+    }
+
+    /// (V.h) / cos(theta_h) G2 / G1(V): the weight of a slope above the horizon.
+    double weight(double x, double y) const
+    {
+        const double facing = view_x_ * x + view_z_;
+        const double cosine = 2 * facing / (x * x + y * y + 1) - view_z_;
+        if (!(facing > 0) || !(cosine > 0))
+            return 0; // the ends of an interval round
+        const double cosine2 = cosine * cosine;
+        const double stretched = std::sqrt(cosine2 + alpha_ * alpha_ * std::max(1 - cosine2, 0.0));
+        if (masking_ == Masking::separable)
+            return facing * 2 * cosine / (cosine + stretched);
+        const double shadowing = (stretched - cosine) / (2 * cosine);
+        return facing / (1 + shadowing / view_masking_);
+    }
+
+private:
+    double alpha_;
+    double view_x_;
+    double view_z_;
+    double view_masking_; ///< 1 + Lambda(V)
+    Masking masking_;
+};
+
+/// A cone in slopes.
+class SlopeCone
+{
+public:
+    SlopeCone(const SlopeLobe& lobe, const Double3& axis, double half_angle)
+        : view_x_(lobe.viewX()), view_z_(lobe.viewZ()), axis_(axis), cosine_(std::cos(half_angle)),
+          level_(view_x_ * axis.x + view_z_ * axis.z + cosine_)
+    {
+    }
+
+    Intervals slopes(double y) const
+    {
+        const double across = axis_.y * y + axis_.z;
+        return notNegative(2 * view_x_ * axis_.x - level_, view_x_ * across + view_z_ * axis_.x,
+                           2 * view_z_ * across - level_ * (1 + y * y));
+    }
+
+    /// The y at which its intervals appear, vanish or meet, and those at which its edge crosses the horizon.
+    std::vector<double> breaks() const
+    {
+        std::vector<double> found;
+        const double turned = view_x_ * axis_.z - view_z_ * axis_.x;
+        const double rest = level_ * (2 * view_x_ * axis_.x - level_);
+        // the discriminant of slopes(y) is a quadratic in y: its sign changes at the ends of these intervals
+        const Intervals real = notNegative(view_x_ * view_x_ * axis_.y * axis_.y + rest,
+                                           view_x_ * axis_.y * turned + level_ * view_z_ * axis_.y,
+                                           turned * turned + 2 * level_ * view_z_ * axis_.z + rest);
+        for (const Interval& interval : real)
+            found.insert(found.end(), {interval.low, interval.high});
+        const double level_length2 = axis_.x * axis_.x + axis_.y * axis_.y;
+        const double away2 = level_length2 - cosine_ * cosine_;
+        if (away2 > 0 && view_z_ > 0)
+        {
+            const double along = axis_.y * cosine_ / level_length2;
+            const double side = axis_.x * std::sqrt(away2) / level_length2;
+            found.insert(found.end(), {(along + side) / view_z_, (along - side) / view_z_});
+        }
+        return found;
+    }
+
+private:
+    double view_x_;
+    double view_z_;
+    Double3 axis_;
+    double cosine_;
+    double level_;
+};
+
+class Quadrature
+{
+public:
+    Quadrature(const SlopeLobe& lobe, Fineness fineness)
+        : lobe_(lobe), outer_(gaussLegendre(fineness.outer)), inner_(gaussLegendre(fineness.inner))
+    {
+    }
+
+    double everything() const
+    {
+        const double end = tauOf(1 / lobe_.viewZ());
+        return 2 * piece(0, end, [&](double y) { return Intervals{lobe_.aboveHorizon(y), Interval{0, 0}}; });
+    }
+
+    double inside(const SlopeCone& cone, bool symmetric) const
+    {
+        const double end = tauOf(1 / lobe_.viewZ());
+        const double start = symmetric ? 0 : -end;
+        std::vector<double> ends{start, end};
+        for (const double y : cone.breaks())
+            if (const double tau = tauOf(y); tau > start && tau < end)
+                ends.push_back(tau);
+        std::sort(ends.begin(), ends.end());
+        const auto intervalsAt = [&](double y)
+        {
+            const Interval horizon = lobe_.aboveHorizon(y);
+            Intervals intervals = cone.slopes(y);
+            for (Interval& interval : intervals)
+                interval = overlap(interval, horizon);
+            return intervals;
+        };
+        double sum = 0;
+        for (size_t i = 0; i + 1 < ends.size(); ++i)
+            sum += piece(ends[i], ends[i + 1], intervalsAt);
+        return symmetric ? 2 * sum : sum;
+    }
+
+private:
+    double tauOf(double y) const { return std::atan(y / lobe_.alpha()); }
+
+    /// Over tau in [low, high]. Where intervals appear or vanish at its ends, they do as square roots: the sine's
+    /// flat ends make them smooth.
+    template <typename IntervalsAt>
+    double piece(double low, double high, const IntervalsAt& intervalsAt) const
+    {
+        const double middle = (low + high) / 2;
+        const double half = (high - low) / 2;
+        double sum = 0;
+        for (const QuadraturePoint& point : outer_)
+        {
+            const double angle = std::numbers::pi / 2 * point.at;
+            const double tau = middle + half * std::sin(angle);
+            const double y = lobe_.alpha() * std::tan(tau);
+            const double scale = lobe_.alpha() / std::cos(tau);
+            double row = 0;
+            for (const Interval& interval : intervalsAt(y))
+                if (interval.low < interval.high)
+                    row += along(std::atan(interval.low / scale), std::atan(interval.high / scale), scale, y);
+            sum += point.weight * std::numbers::pi / 2 * std::cos(angle) * std::cos(tau) * row;
+        }
+        return half * sum;
+    }
+
+    double along(double low, double high, double scale, double y) const
+    {
+        const double middle = (low + high) / 2;
+        const double half = (high - low) / 2;
+        double sum = 0;
+        for (const QuadraturePoint& point : inner_)
+        {
+            const double tangent = std::tan(middle + half * point.at);
+            sum += point.weight * lobe_.weight(scale * tangent, y) / (1 + tangent * tangent);
+        }
+        return half * sum;
+    }
+
+    const SlopeLobe& lobe_;
+    std::vector<QuadraturePoint> outer_;
+    std::vector<QuadraturePoint> inner_;
+};
+
+} // namespace
+
+void occlusionsOf(const Lobe& lobe, const Double3& axis, std::span<const double> half_angles,
+                  std::span<double> out, Fineness fineness)
+{
+    HEARTH_ASSERT(half_angles.size() == out.size());
+    const SlopeLobe slopes(lobe);
+    const Quadrature quadrature(slopes, fineness);
+    const double everything = quadrature.everything();
+    for (size_t i = 0; i < out.size(); ++i)
+    {
+        const double inside = quadrature.inside(SlopeCone(slopes, axis, half_angles[i]), axis.y == 0);
+        out[i] = std::clamp(inside / everything, 0.0, 1.0);
+    }
+}
+
+double occlusionOf(const Lobe& lobe, const Cone& cone, Fineness fineness)
+{
+    double share = 0;
+    occlusionsOf(lobe, cone.axis, {&cone.half_angle, 1}, {&share, 1}, fineness);
+    return share;
+}
+
+} // namespace hearth::specular
