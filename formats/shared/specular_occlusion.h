@@ -75,8 +75,9 @@ struct SpecularFit
     float loss; ///< what the horizon takes of a cone that reaches below it, / alpha
 };
 
+/// Of 20000 configurations, height-correlated masking. rms .020 there; the table's, through its three inputs, is .073.
 HEARTH_CONSTANT SpecularFit kSpecularFit =
-    SpecularFit(-0.4534f, 0.0730f, 0.1098f, -0.5388f, 1.8357f, 2.0466f, -2.5151f, 0.3907f);
+    SpecularFit(-0.4416f, 0.1565f, -0.0127f, -0.5816f, 2.0072f, 2.1856f, -2.8820f, 0.3663f);
 
 HEARTH_FUNCTION float specularOcclusionBy(HEARTH_IN(SpecularFit) fit, float cos_aperture, float roughness,
                                           float n_dot_v, float n_dot_axis, float r_dot_axis)
