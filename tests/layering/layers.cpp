@@ -20,7 +20,7 @@ struct Layer
 };
 
 // The first line that a path starts with holds. A folder of cook/ that is not named sees formats, cook/tools, cook/mesh,
-// cook/motion and cook/sampling only.
+// cook/motion, cook/pages and cook/sampling only.
 const std::vector<Layer>& layers()
 {
     static const std::vector<Layer> list = {
@@ -28,8 +28,10 @@ const std::vector<Layer>& layers()
         {"cook/tools/", {"formats/"}},
         {"cook/mesh/", {"formats/"}},
         {"cook/motion/", {"formats/"}},
+        {"cook/pages/", {"formats/"}},
         {"cook/sampling/", {"formats/"}},
-        {"cook/", {"formats/", "cook/tools/", "cook/mesh/", "cook/motion/", "cook/sampling/"}},
+        {"cook/",
+         {"formats/", "cook/tools/", "cook/mesh/", "cook/motion/", "cook/pages/", "cook/sampling/"}},
         // extract draws the cut that the runtime would draw
         {"pipelines/command/", {"formats/", "cook/", "pipelines/", "runtime/pack/"}},
         {"pipelines/", {"formats/", "cook/", "pipelines/"}},
@@ -55,7 +57,7 @@ const std::vector<Library>& libraries()
 {
     static const std::vector<Library> list = {
         {"xxhash.h", {"formats/"}},
-        {"zstd.h", {"formats/", "cook/clusters/"}}, // the cluster cooker compresses pages, in parallel
+        {"zstd.h", {"formats/", "cook/clusters/", "cook/pages/"}}, // pages are compressed in parallel
         {"vulkan/", {"runtime/gpu/", "runtime/c/", "runtime/viewer/"}, true},
         {"SDL.h", {"runtime/viewer/window/"}},
         {"SDL_vulkan.h", {"runtime/viewer/window/"}},
