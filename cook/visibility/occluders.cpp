@@ -68,8 +68,9 @@ struct Place
 
 void commit(RTCScene scene)
 {
-    // rays outnumber triangles by hundreds: splitting triangles pays
-    rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_HIGH);
+    // Splitting triangles makes rays 2 % faster on a rock and no faster among thin slanted pipes, for four to twelve
+    // times the time to build, which is a tenth of that of the rays then.
+    rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_MEDIUM);
     // With several threads the tree may depend on who was first, and so may hits where boxes touch. (To tell the device to
     // use one thread would tell all of TBB.)
     tbb::task_arena(1).execute([scene] { rtcCommitScene(scene); });
@@ -142,7 +143,6 @@ Occluders::Mesh Occluders::add(const OccluderMesh& mesh)
             rtcSetGeometryIntersectFilterFunction(triangles, rejectHits);
             rtcSetGeometryOccludedFilterFunction(triangles, rejectHits);
         }
-        rtcSetGeometryBuildQuality(triangles, RTC_BUILD_QUALITY_HIGH);
         rtcCommitGeometry(triangles);
     }
     state_->meshes.push_back(std::move(placed));
