@@ -94,7 +94,9 @@ TEST(SurfaceSamples, areAsManyAsAskedForAndEvenInArea)
         // what the smallest ones take is taken from all others alike: little here
         ASSERT_LE(counts[t], std::max(1.0, std::ceil(areaOf(mesh, t) * density)));
         if (areaOf(mesh, t) * density > 1.2)
+        {
             ASSERT_GE(counts[t], std::floor(0.95 * areaOf(mesh, t) * density));
+        }
     }
 }
 

@@ -304,9 +304,9 @@ void expectOpen(const Mesh& mesh, const Affine3& world_from_mesh, const char* wh
 
 TEST(VisibilityMoments, haveNoSpecksAtAnyScaleAndPlace)
 {
-    // rounding to floats far away must not make it concave: few facets
+    // two pyramids: rounding to floats far away must not make it concave
     const Mesh gem =
-        transformed(sphereOf(4, 7, 1, false), {{{0.8f, 0.6f, 0, 0}, {-0.6f, 0.8f, 0, 0}, {0, 0, 1, 0}}});
+        transformed(sphereOf(2, 7, 1, false), {{{0.8f, 0.6f, 0, 0}, {-0.6f, 0.8f, 0, 0}, {0, 0, 1, 0}}});
     expectOpen(gem, {}, "as it is");
     expectOpen(gem, scaledAndMoved(1, {1e4f, -7e3f, 333.3f}), "far away");
     expectOpen(gem, scaledAndMoved(1e-4f, {}), "tiny");
@@ -314,16 +314,25 @@ TEST(VisibilityMoments, haveNoSpecksAtAnyScaleAndPlace)
     expectOpen(gem, scaledAndMoved(1e5f, {1e5f, 0, 0}), "huge");
     expectOpen(gem, {{{-0.3f, 0.1f, 0.2f, 500.1f}, {0, 2.2f, 0.7f, -800.2f}, {0.1f, 0.4f, 7, 77.7f}}},
                "mirrored, skewed");
-    // flat, but for rounding: slivers of a fan in a plane that is no axis'
+    // world and mesh are both small, but not what is in between
+    expectOpen(transformed(gem, scaledAndMoved(1, {1e4f, 0, 2e4f})),
+               Affine3{{{0.6f, 0.8f, 0, 0}, {-0.8f, 0.6f, 0, 0}, {0, 0, 1, 0}}} *
+                   scaledAndMoved(1, {-1e4f, 0, -2e4f}),
+               "there and back");
+    // slivers of a fan in the plane x + y + z = 0, exactly: whole numbers, whose products floats have to round
     Mesh fan;
+    const auto inPlane = [](int i, int j) {
+        return Float3{static_cast<float>(i), static_cast<float>(j - i), static_cast<float>(-j)};
+    };
     for (int i = 0; i < 200; ++i)
     {
-        const float a = static_cast<float>(i) * 0.005f, b = a + 0.005f;
+        const int a = 7 + 1013 * i, b = a + 1013, c = 1048573;
         const auto first = static_cast<uint32_t>(fan.positions.size());
-        fan.positions.insert(fan.positions.end(), {{0, 0, 0}, {1, a, 0}, {1, b, 0}});
+        fan.positions.insert(fan.positions.end(), {inPlane(0, 3), inPlane(c, a), inPlane(c, b)});
         fan.corners.insert(fan.corners.end(), {first, first + 1, first + 2});
     }
-    expectOpen(fan, scaledAndMoved(3, {10, 20, 30}), "slivers");
+    expectOpen(fan, {}, "slivers");
+    expectOpen(fan, scaledAndMoved(0x1p-20f, {}), "small slivers");
 }
 
 TEST(VisibilityMoments, areNotDarkenedByFlatSurfacesOfManyTrianglesInSlantedPlanes)
