@@ -13,9 +13,10 @@ namespace hearth::visibility
 
 struct SurfaceSample
 {
-    uint32_t triangle;
-    float u, v; ///< weights of the triangle's corners 1 and 2; corner 0 has 1 - u - v
-    float area; ///< that the sample stands for: the triangle's over its number of samples, in square metres
+    uint32_t triangle = 0xFFFFFFFFu;
+    float u = 0, v = 0; ///< weights of the triangle's corners 1 and 2; corner 0 has 1 - u - v
+    float area =
+        0; ///< that the sample stands for: the triangle's over its number of samples, in square metres
 
     friend bool operator==(const SurfaceSample&, const SurfaceSample&) = default;
 };

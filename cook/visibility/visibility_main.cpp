@@ -1,0 +1,205 @@
+// hearth-visibility: reads an import part and its clusters part, and writes the clusters part with what its vertices see.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/tools/whole_file.h"
+#include "cook/visibility/visibility_part.h"
+#include "formats/program.h"
+
+#include <CLI/CLI.hpp>
+
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <map>
+#include <memory>
+
+#include <tbb/global_control.h>
+#include <unistd.h>
+
+namespace
+{
+
+using namespace hearth;
+using visibility::BakeProgress;
+using visibility::BakeSettings;
+
+constexpr int kInterrupted = 130;
+
+volatile std::sig_atomic_t interrupted = 0;
+
+struct Quality
+{
+    double samples_per_vertex;
+    uint32_t rays_per_sample;
+};
+
+const std::map<std::string, Quality> kQualities{
+    {"draft", {1, 32}},
+    {"default", {8, 64}},
+    {"high", {16, 256}},
+};
+
+struct Arguments
+{
+    std::string import_part;
+    std::string clusters_part;
+    std::string output;
+    std::string statistics;
+    std::string quality = "default";
+    std::string occluders = "scene";
+    float distance = 0;
+    float power = 0;
+    size_t jobs = 0;
+
+    BakeSettings settings() const
+    {
+        BakeSettings settings;
+        settings.samples_per_vertex = kQualities.at(quality).samples_per_vertex;
+        settings.rays.rays_per_sample = kQualities.at(quality).rays_per_sample;
+        if (distance > 0)
+            settings.rays.distance = distance;
+        settings.rays.power = power;
+        settings.alone = occluders == "asset";
+        settings.estimate_error = !statistics.empty();
+        return settings;
+    }
+};
+
+/// One line on a terminal, written over and over; nothing in a log.
+class ProgressLine
+{
+public:
+    ~ProgressLine()
+    {
+        if (shown_)
+            std::fputs("\r\x1b[K", stderr);
+    }
+
+    void show(const BakeProgress& progress)
+    {
+        const auto now = std::chrono::steady_clock::now();
+        if (!is_terminal_ || now - last_ < std::chrono::milliseconds(100))
+            return;
+        last_ = now;
+        shown_ = true;
+        const double seconds = std::chrono::duration<double>(now - start_).count();
+        std::fprintf(stderr, "\rvisibility %3.0f %%, %.1f Mrays/s", 100 * progress.share,
+                     static_cast<double>(progress.rays) / seconds * 1e-6);
+        if (progress.share > 0.02)
+            std::fprintf(stderr, ", %.0f s left", seconds * (1 - progress.share) / progress.share);
+        std::fputs("\x1b[K", stderr);
+    }
+
+private:
+    const bool is_terminal_ = ::isatty(STDERR_FILENO) == 1;
+    const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+    std::chrono::steady_clock::time_point last_;
+    bool shown_ = false;
+};
+
+Result<formats::PackView> open(const std::string& path)
+{
+    HEARTH_ASSIGN_OR_RETURN(formats::ContainerReader reader,
+                            formats::ContainerReader::open(path, formats::Check::structure));
+    if (reader.kind() != formats::ContainerKind::part)
+        return Error{Issue::container_kind, path, "", "this is a pack, not a part"};
+    return formats::PackView::read(std::move(reader));
+}
+
+Status writeStatistics(const Arguments& arguments, const std::vector<visibility::MeshStatistics>& meshes)
+{
+    const std::string source =
+        arguments.import_part.substr(arguments.import_part.rfind('/') + 1); // npos + 1 is 0
+    const std::string json = visibility::statisticsJson(source, arguments.settings(), meshes);
+    if (arguments.statistics == "-")
+        return std::fwrite(json.data(), 1, json.size(), stdout) == json.size() && std::fflush(stdout) == 0
+                   ? success()
+                   : Error{Issue::read_failed, "stdout", "", "cannot be written"};
+    HEARTH_ASSIGN_OR_RETURN(tools::WholeFile file, tools::WholeFile::create(arguments.statistics));
+    file.write(json);
+    return file.finish();
+}
+
+/// The exit code.
+Result<int> cook(const Arguments& arguments)
+{
+    HEARTH_ASSIGN_OR_RETURN(const formats::PackView import_part, open(arguments.import_part));
+    HEARTH_ASSIGN_OR_RETURN(const formats::PackView clusters_part, open(arguments.clusters_part));
+    ProgressLine line;
+    const auto observe = [&](const BakeProgress& progress)
+    {
+        line.show(progress);
+        return interrupted == 0;
+    };
+    HEARTH_ASSIGN_OR_RETURN(const auto meshes,
+                            visibility::writeVisibilityPart(import_part, clusters_part, arguments.output,
+                                                            arguments.settings(), observe));
+    if (!meshes)
+        return kInterrupted;
+    if (!arguments.statistics.empty())
+        HEARTH_TRY(writeStatistics(arguments, *meshes));
+    return 0;
+}
+
+int run(const Arguments& arguments)
+{
+    std::unique_ptr<tbb::global_control> limit;
+    if (arguments.jobs > 0)
+        limit = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism,
+                                                      arguments.jobs);
+    std::signal(SIGINT, [](int) { interrupted = 1; });
+    std::signal(SIGTERM, [](int) { interrupted = 1; });
+    const Result<int> cooked = cook(arguments);
+    if (cooked.ok())
+        return *cooked;
+    std::fprintf(stderr, "%s\n", formatMessage(cooked.error()).c_str());
+    return exitCode(cooked.error());
+}
+
+int program(int argc, char** argv)
+{
+    CLI::App app(
+        "Bakes what each vertex sees of its surroundings, for all levels of detail, into the vertices "
+        "of a clusters part that has room for it (hearth-clusters --visibility).");
+    Arguments arguments;
+    app.add_option("import", arguments.import_part, "import part")->required();
+    app.add_option("clusters", arguments.clusters_part, "clusters part of the same source")->required();
+    app.add_option("-o,--output", arguments.output, "clusters part to write, with visibility")->required();
+    app.add_option("--quality", arguments.quality,
+                   "samples a vertex x rays a sample: draft 1 x 32, default 8 x 64, high 16 x 256")
+        ->check(CLI::IsMember({"draft", "default", "high"}).description(""))
+        ->type_name("NAME");
+    app.add_option("--occluders", arguments.occluders,
+                   "what is in the way: scene (all instances, the default) or asset (each mesh alone)")
+        ->check(CLI::IsMember({"scene", "asset"}).description(""))
+        ->type_name("NAME");
+    auto* distance = app.add_option("--distance", arguments.distance,
+                                    "metres: what is farther away hides nothing; no limit by default")
+                         ->check(CLI::PositiveNumber.description(""));
+    app.add_option("--power", arguments.power,
+                   "visibility of what is t metres away is (t / distance)^power; 0, the default: nothing")
+        ->check(CLI::Range(0.0, 16.0).description(""))
+        ->needs(distance);
+    app.add_option("-j,--jobs", arguments.jobs, "threads to use; the result does not depend on it");
+    app.add_option("--stats", arguments.statistics,
+                   "write what became of each mesh as JSON, its noise estimated; - is standard output");
+    app.footer(
+        "Example: hearth-visibility room.import.part room.clusters.part -o room.visibility.part --stats -\n"
+        "Exit codes: 0 done, 2 usage, 65 malformed input, 66 input missing, 70 internal, 73 cannot write, "
+        "74 I/O, 130 interrupted");
+    try
+    {
+        app.parse(argc, argv);
+    }
+    catch (const CLI::ParseError& error)
+    {
+        return app.exit(error) == 0 ? 0 : 2;
+    }
+    return run(arguments);
+}
+
+} // namespace
+
+int main(int argc, char** argv)
+{
+    return hearth::runProgram("hearth-visibility", [&] { return program(argc, argv); });
+}

@@ -1,0 +1,370 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/visibility/visibility_part.h"
+
+#include "cook/mesh/weld.h"
+#include "cook/pages/rewrite.h"
+#include "cook/visibility/scene_occluders.h"
+#include "formats/affine3d.h"
+#include "formats/pack_check.h"
+
+#include <algorithm>
+#include <bit>
+#include <chrono>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+namespace hearth::visibility
+{
+
+using namespace formats;
+
+namespace
+{
+
+// Of a mesh that stands in a scene often, so many instances tell what is around it.
+constexpr size_t kMostInstances = 8;
+
+double secondsSince(std::chrono::steady_clock::time_point start)
+{
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+bool isDeformed(const MeshRecord& mesh)
+{
+    return mesh.skinned != 0 || mesh.morph_target_count != 0;
+}
+
+bool isBaked(const MeshRecord& mesh)
+{
+    return mesh.clusters.count > 0 && (mesh.attributes & kVertexVisibility) != 0;
+}
+
+/// The rest poses of all meshes, and whether the two parts belong together.
+/// errors: meaning_reference for an instance of a mesh that is not there
+Result<std::vector<std::vector<Affine3>>> transformsOf(const PackView& scene, const PackView& part)
+{
+    std::vector<std::vector<Affine3>> transforms(part.meshes().size());
+    for (size_t i = 0; i < scene.instances().size(); ++i)
+    {
+        const InstanceRecord& instance = scene.instances()[i];
+        if (instance.mesh >= transforms.size())
+            return Error{Issue::meaning_reference, scene.name(), "instance " + std::to_string(i),
+                         "mesh " + std::to_string(instance.mesh)};
+        // what is flat in the world has no inside to take rays to
+        if (inverted(widened(instance.world_from_object)))
+            transforms[instance.mesh].push_back(instance.world_from_object);
+    }
+    return transforms;
+}
+
+/// A direction of the world in the space of a mesh, as normals go the other way; its length stays.
+Float3 objectMoment(const Affine3& world_from_mesh, Float3 m1)
+{
+    const auto& m = world_from_mesh.m;
+    const Float3 turned{m[0][0] * m1.x + m[1][0] * m1.y + m[2][0] * m1.z,
+                        m[0][1] * m1.x + m[1][1] * m1.y + m[2][1] * m1.z,
+                        m[0][2] * m1.x + m[1][2] * m1.y + m[2][2] * m1.z};
+    const float size = length(turned);
+    return size > 0 ? turned * (length(m1) / size) : Float3{};
+}
+
+class Bake
+{
+public:
+    Bake(const PackView& scene, const PackView& part, const BakeSettings& settings,
+         const BakeObserver& observe)
+        : scene_(scene), part_(part), settings_(settings), observe_(observe), masks_(scene)
+    {
+        codes_.resize(part.clusters().size());
+    }
+
+    /// nothing where the observer said to stop
+    Result<std::optional<std::vector<MeshStatistics>>> run()
+    {
+        HEARTH_ASSIGN_OR_RETURN(transforms_, transformsOf(scene_, part_));
+        Occluders world;
+        if (!settings_.alone)
+            HEARTH_TRY(gather(world));
+        uint64_t triangles = 0;
+        for (const MeshRecord& mesh : part_.meshes())
+            triangles += isBaked(mesh) ? mesh.source_triangles : 0;
+        std::vector<MeshStatistics> statistics;
+        uint64_t done = 0;
+        for (uint32_t mesh = 0; mesh < part_.meshes().size(); ++mesh)
+        {
+            const MeshRecord& record = part_.meshes()[mesh];
+            if (!isBaked(record))
+                continue;
+            share_before_ = static_cast<double>(done) / static_cast<double>(triangles);
+            done += record.source_triangles;
+            share_of_mesh_ = static_cast<double>(done) / static_cast<double>(triangles) - share_before_;
+            HEARTH_ASSIGN_OR_RETURN(std::optional<MeshStatistics> of_mesh, bake(mesh, world));
+            if (!of_mesh)
+                return std::optional<std::vector<MeshStatistics>>();
+            statistics.push_back(std::move(*of_mesh));
+        }
+        return std::optional(std::move(statistics));
+    }
+
+    /// For each cluster the codes of its vertices; empty where it has none.
+    const std::vector<std::vector<uint32_t>>& codes() const { return codes_; }
+
+private:
+    /// What moves is in nobody's way but its own.
+    Status gather(Occluders& world)
+    {
+        for (uint32_t mesh = 0; mesh < part_.meshes().size(); ++mesh)
+        {
+            const MeshRecord& record = part_.meshes()[mesh];
+            if (record.clusters.count == 0 || transforms_[mesh].empty() || isDeformed(record))
+                continue;
+            HEARTH_ASSIGN_OR_RETURN(const MeshPages pages, MeshPages::read(part_, mesh));
+            HEARTH_TRY(addMesh(world, masks_, pages, finestOf(pages), transforms_[mesh]));
+        }
+        world.finish();
+        return success();
+    }
+
+    Result<std::optional<MeshStatistics>> bake(uint32_t mesh, const Occluders& world)
+    {
+        HEARTH_ASSIGN_OR_RETURN(const MeshPages pages, MeshPages::read(part_, mesh));
+        std::vector<LevelArrays> levels = levelsOf(pages);
+        const LevelArrays& finest = levels.front();
+        const bool deformed = isDeformed(pages.record());
+        const bool alone = settings_.alone || deformed || transforms_[mesh].empty();
+        MeshStatistics statistics;
+        statistics.mesh = mesh;
+        statistics.name = part_.text(pages.record().name);
+        statistics.pose = deformed ? "bind" : "rest";
+        statistics.levels = static_cast<uint32_t>(levels.size());
+
+        Occluders itself;
+        if (alone)
+        {
+            const Affine3 identity;
+            HEARTH_TRY(addMesh(itself, masks_, pages, finest, {&identity, 1}));
+            itself.finish();
+        }
+        const auto start = std::chrono::steady_clock::now();
+        const std::vector<SurfaceSample> samples = samplesOf(finest);
+        const std::optional<std::vector<Moments>> moments =
+            alone ? trace(itself, finest, samples, {{}}, statistics)
+                  : trace(world, finest, samples, chosen(transforms_[mesh], statistics), statistics);
+        if (!moments)
+            return std::optional<MeshStatistics>();
+        statistics.ray_seconds = secondsSince(start);
+        fit(levels, samples, *moments, statistics);
+        return std::optional(std::move(statistics));
+    }
+
+    std::vector<SurfaceSample> samplesOf(const LevelArrays& finest) const
+    {
+        // vertices that clusters share stand in the arrays once for each
+        const auto positions = static_cast<double>(mesh::weldPositions(finest.positions).position_count);
+        SurfaceSampleSettings settings;
+        settings.samples_per_vertex =
+            settings_.samples_per_vertex * positions / static_cast<double>(finest.positions.size());
+        return surfaceSamples(finest.positions, finest.indices, settings);
+    }
+
+    /// A power of two of them, so that they can share a sample's rays evenly.
+    std::vector<Affine3> chosen(const std::vector<Affine3>& transforms, MeshStatistics& statistics) const
+    {
+        const size_t most = std::min(kMostInstances, size_t{settings_.rays.rays_per_sample});
+        const size_t count = std::min(std::bit_ceil(transforms.size()), std::bit_floor(most));
+        std::vector<Affine3> some;
+        for (size_t i = 0; i < count; ++i)
+            some.push_back(transforms[i * transforms.size() / count]);
+        statistics.instances = static_cast<uint32_t>(std::min(count, transforms.size()));
+        return some;
+    }
+
+    /// Each instance takes its share of every sample's rays.
+    std::optional<std::vector<Moments>> trace(const Occluders& occluders, const LevelArrays& finest,
+                                              std::span<const SurfaceSample> samples,
+                                              const std::vector<Affine3>& transforms,
+                                              MeshStatistics& statistics)
+    {
+        const auto count = static_cast<uint32_t>(transforms.size());
+        std::vector<Moments> sum(samples.size());
+        RaySettings rays = settings_.rays;
+        rays.rays_per_sample = settings_.rays.rays_per_sample / count;
+        statistics.samples = samples.size();
+        for (uint32_t i = 0; i < count; ++i)
+        {
+            rays.first_ray = i * rays.rays_per_sample;
+            const std::vector<SamplePoint> points =
+                samplePoints(finest.positions, finest.indices, samples, transforms[i]);
+            const auto moments = visibilityMoments(occluders, points, rays,
+                                                   [&](uint64_t done, uint64_t total)
+                                                   { return report(i, count, done, total); });
+            if (!moments)
+                return std::nullopt;
+            statistics.rays += samples.size() * rays.rays_per_sample;
+            rays_before_ += samples.size() * rays.rays_per_sample;
+            for (size_t s = 0; s < sum.size(); ++s)
+            {
+                sum[s].m0 += (*moments)[s].m0 / static_cast<float>(count);
+                sum[s].m1 =
+                    sum[s].m1 + objectMoment(transforms[i], (*moments)[s].m1) / static_cast<float>(count);
+            }
+        }
+        return sum;
+    }
+
+    bool report(uint32_t instance, uint32_t count, uint64_t done, uint64_t total) const
+    {
+        if (!observe_)
+            return true;
+        const double part = total == 0 ? 1 : static_cast<double>(done) / static_cast<double>(total);
+        return observe_({share_before_ + share_of_mesh_ * (instance + part) / count, rays_before_ + done});
+    }
+
+    void fit(const std::vector<LevelArrays>& levels, const std::vector<SurfaceSample>& samples,
+             const std::vector<Moments>& moments, MeshStatistics& statistics)
+    {
+        const auto start = std::chrono::steady_clock::now();
+        std::vector<LevelMesh> meshes;
+        for (const LevelArrays& level : levels)
+            meshes.push_back(level.mesh());
+        const std::vector<LevelFit> fits = fitLevels(meshes, samples, moments, settings_.fit);
+        statistics.proxy = fits.front().proxy;
+        for (size_t l = 0; l < levels.size(); ++l)
+        {
+            const FitStatistics& of_level = fits[l].statistics;
+            statistics.most_iterations = std::max(statistics.most_iterations, of_level.solve.iterations);
+            statistics.condition = std::max(statistics.condition, of_level.solve.condition);
+            statistics.converged = statistics.converged && of_level.solve.converged;
+            statistics.vertices += of_level.vertices;
+            statistics.clamped += of_level.clamped;
+            statistics.unseen += of_level.unseen;
+            encode(levels[l], fits[l].moments);
+        }
+        statistics.fit_seconds = secondsSince(start);
+        if (settings_.estimate_error)
+            statistics.ao_error = noiseOf(levels.front(), samples, moments);
+    }
+
+    /// Clusters that several cuts draw have equal codes in all of them.
+    void encode(const LevelArrays& level, std::span<const Moments> moments)
+    {
+        for (size_t i = 0; i < level.parts.size(); ++i)
+        {
+            const LevelArrays::Part& part = level.parts[i];
+            const size_t end =
+                i + 1 < level.parts.size() ? level.parts[i + 1].first_vertex : level.positions.size();
+            std::vector<uint32_t>& codes = codes_[part.cluster];
+            codes.clear();
+            for (size_t v = part.first_vertex; v < end; ++v)
+                codes.push_back(encodeVisibility(moments[v].m0, moments[v].m1, level.normals[v]));
+        }
+    }
+
+    /// Fits to each other sample alone differ by twice the noise of both together.
+    double noiseOf(const LevelArrays& finest, std::span<const SurfaceSample> samples,
+                   std::span<const Moments> moments) const
+    {
+        std::array<std::vector<Moments>, 2> fitted;
+        for (size_t half = 0; half < 2; ++half)
+        {
+            std::vector<SurfaceSample> some;
+            std::vector<Moments> values;
+            for (size_t s = half; s < samples.size(); s += 2)
+            {
+                some.push_back(samples[s]);
+                values.push_back(moments[s]);
+            }
+            const LevelMesh mesh = finest.mesh();
+            fitted[half] = std::move(fitLevels({&mesh, 1}, some, values, settings_.fit).front().moments);
+        }
+        double sum = 0;
+        for (size_t v = 0; v < finest.normals.size(); ++v)
+        {
+            const double difference =
+                dot(finest.normals[v], fitted[0][v].m1 - fitted[1][v].m1) / (2 * std::numbers::pi);
+            sum += difference * difference;
+        }
+        return std::sqrt(sum / static_cast<double>(std::max<size_t>(finest.normals.size(), 1)));
+    }
+
+    const PackView& scene_;
+    const PackView& part_;
+    const BakeSettings& settings_;
+    const BakeObserver& observe_;
+    SceneMasks masks_;
+    std::vector<std::vector<Affine3>> transforms_;
+    std::vector<std::vector<uint32_t>> codes_;
+    double share_before_ = 0;
+    double share_of_mesh_ = 0;
+    uint64_t rays_before_ = 0;
+};
+
+nlohmann::ordered_json jsonOf(const MeshStatistics& mesh)
+{
+    nlohmann::ordered_json json{
+        {"mesh", mesh.mesh},
+        {"name", mesh.name},
+        {"pose", mesh.pose},
+        {"instances", mesh.instances},
+        {"levels", mesh.levels},
+        {"samples", mesh.samples},
+        {"rays", mesh.rays},
+        {"seconds", {{"rays", mesh.ray_seconds}, {"fit", mesh.fit_seconds}}},
+        {"proxy",
+         {{"source_vertices", mesh.proxy.source_vertices},
+          {"welded", mesh.proxy.welded},
+          {"nearest", mesh.proxy.nearest},
+          {"degenerate", mesh.proxy.thin.degenerate},
+          {"duplicate", mesh.proxy.thin.duplicate},
+          {"collapsed", mesh.proxy.thin.collapsed},
+          {"flipped", mesh.proxy.thin.flipped},
+          {"dropped", mesh.proxy.thin.dropped}}},
+        {"solve",
+         {{"iterations", mesh.most_iterations},
+          {"condition", mesh.condition},
+          {"converged", mesh.converged}}},
+        {"vertices", mesh.vertices},
+        {"clamped", mesh.clamped},
+        {"unseen", mesh.unseen},
+    };
+    if (mesh.ao_error)
+        json["ao_error"] = *mesh.ao_error;
+    return json;
+}
+
+} // namespace
+
+Result<std::optional<std::vector<MeshStatistics>>>
+writeVisibilityPart(const PackView& import_part, const PackView& clusters_part,
+                    const std::string& output_path, const BakeSettings& settings, const BakeObserver& observe)
+{
+    HEARTH_TRY(checkHierarchy(clusters_part));
+    Bake bake(import_part, clusters_part, settings, observe);
+    HEARTH_ASSIGN_OR_RETURN(std::optional<std::vector<MeshStatistics>> statistics, bake.run());
+    if (!statistics)
+        return statistics;
+    HEARTH_TRY(pages::rewriteVisibility(
+        clusters_part.container(), output_path,
+        [&](const pages::PageVertices& page, std::span<uint32_t> codes)
+        {
+            auto out = codes.begin();
+            for (uint32_t c = 0; c < page.clusters.count; ++c)
+                out = std::ranges::copy(bake.codes()[page.clusters.first + c], out).out;
+        }));
+    return statistics;
+}
+
+std::string statisticsJson(const std::string& source, const BakeSettings& settings,
+                           const std::vector<MeshStatistics>& meshes)
+{
+    nlohmann::ordered_json json{{"source", source},
+                                {"rays_per_sample", settings.rays.rays_per_sample},
+                                {"samples_per_vertex", settings.samples_per_vertex},
+                                {"occluders", settings.alone ? "asset" : "scene"},
+                                {"meshes", nlohmann::ordered_json::array()}};
+    for (const MeshStatistics& mesh : meshes)
+        json["meshes"].push_back(jsonOf(mesh));
+    return json.dump(1) + "\n";
+}
+
+} // namespace hearth::visibility

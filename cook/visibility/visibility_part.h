@@ -1,0 +1,78 @@
+// From an import part and its clusters part to the clusters part with what its vertices see. See README.md.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "cook/visibility/level_fit.h"
+#include "cook/visibility/rays.h"
+#include "formats/pack_view.h"
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace hearth::visibility
+{
+
+struct BakeSettings
+{
+    double samples_per_vertex = 8; ///< of the finest level
+    RaySettings rays;              ///< rays_per_sample a power of two
+    /// Rays meet the mesh alone, in its own space, instead of all instances of the scene in the world.
+    bool alone = false;
+    LevelFitSettings fit;
+    bool estimate_error = false; ///< fill MeshStatistics::ao_error, for two more fits
+};
+
+/// What became of one mesh.
+struct MeshStatistics
+{
+    uint32_t mesh = 0;
+    std::string name;
+    std::string pose;       ///< "rest", or "bind": a deformed mesh, alone whatever the settings
+    uint32_t instances = 0; ///< whose surroundings are averaged; 0: alone
+    uint32_t levels = 0;
+    uint64_t samples = 0;
+    uint64_t rays = 0;
+    double ray_seconds = 0;
+    double fit_seconds = 0;
+    ProxyStatistics proxy; ///< of the finest level
+    uint32_t most_iterations = 0;
+    double condition = 0;  ///< the largest of all levels
+    bool converged = true; ///< on all levels
+    uint64_t vertices = 0; ///< of the proxies of all levels
+    uint64_t clamped = 0;  ///< of them, whose fit was not the visibility of anything
+    uint64_t unseen = 0;   ///< of them, on pieces without a sample
+    std::optional<double>
+        ao_error; ///< rms of ambient occlusion at the finest level's vertices, through noise
+};
+
+struct BakeProgress
+{
+    double share = 0; ///< of all work, [0, 1]
+    uint64_t rays = 0;
+};
+
+/// Told now and then how far it is; returns whether to go on.
+using BakeObserver = std::function<bool(const BakeProgress& progress)>;
+
+/// Write the clusters part again, its vertices with what they see: of each mesh whose vertices have room for it. Nothing
+/// is written where `observe` said to stop. The same bytes for any number of threads.
+///
+/// import_part    instances, materials and images
+/// clusters_part  of the same source
+/// observe        may be empty
+/// returns  nothing where `observe` said to stop
+/// errors: those of checkHierarchy, rewriteVisibility and addMesh; meaning_reference where the parts are of different
+/// sources
+Result<std::optional<std::vector<MeshStatistics>>> writeVisibilityPart(const formats::PackView& import_part,
+                                                                       const formats::PackView& clusters_part,
+                                                                       const std::string& output_path,
+                                                                       const BakeSettings& settings,
+                                                                       const BakeObserver& observe);
+
+/// The statistics of all meshes as JSON text.
+std::string statisticsJson(const std::string& source, const BakeSettings& settings,
+                           const std::vector<MeshStatistics>& meshes);
+
+} // namespace hearth::visibility
