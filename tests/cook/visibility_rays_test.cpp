@@ -486,6 +486,50 @@ TEST(VisibilityMoments, areThoseOfEachRayAgainstEachTriangle)
     EXPECT_GT(occluded, points.size());
 }
 
+TEST(VisibilityHigherMoments, areThoseOfACapAndOfTheOpenHemisphere)
+{
+    // what is above a round mouth: visible within a half-angle of the normal
+    const double mouth = 0.8;
+    Mesh funnel;
+    constexpr int kSectors = 256;
+    for (int i = 0; i < kSectors; ++i)
+    {
+        const auto at = [&](int sector, float height)
+        {
+            const double azimuth = 2 * kPi * sector / kSectors, r = height == 0 ? 20 : std::tan(mouth);
+            return Float3{static_cast<float>(r * std::cos(azimuth)),
+                          static_cast<float>(r * std::sin(azimuth)), height};
+        };
+        funnel.addQuad(at(i, 0), at(i, 1), at(i + 1, 1), at(i + 1, 0));
+    }
+    const Occluders occluders = occludersOf({funnel.occluder()});
+    const SamplePoint point{{}, kUp, 1e-6f};
+    const RaySettings settings{.rays_per_sample = 1 << 16};
+    const HigherMoments m = visibilityHigherMoments(occluders, {&point, 1}, settings).value()[0];
+    const double c = std::cos(mouth), zz = 2 * kPi * (1 - c * c * c) / 3, xx = (2 * kPi * (1 - c) - zz) / 2;
+    EXPECT_NEAR(m.second.xx, xx, 1.5e-3);
+    EXPECT_NEAR(m.second.yy, xx, 1.5e-3);
+    EXPECT_NEAR(m.second.zz, zz, 1.5e-3);
+    EXPECT_NEAR(m.second.xy, 0, 1e-3);
+    EXPECT_NEAR(m.second.xz, 0, 1e-3);
+    EXPECT_NEAR(m.second.yz, 0, 1e-3);
+    EXPECT_NEAR(m.second.xx + m.second.yy + m.second.zz, m.moments.m0, 1e-5);
+    EXPECT_EQ(m.moments.m1, visibilityMoments(occluders, {&point, 1}, settings).value()[0].m1);
+
+    const Occluders nothing = occludersOf({});
+    const SecondMoments open = visibilityHigherMoments(nothing, {&point, 1}, {}).value()[0].second;
+    EXPECT_EQ(open.xx, static_cast<float>(2 * kPi / 3));
+    EXPECT_EQ(open.zz, static_cast<float>(2 * kPi / 3));
+    EXPECT_EQ(open.xy, 0);
+    // of a slanted normal they turn along
+    const Mesh wall = transformed(funnel, {{{0, 0, 1, 0}, {1, 0, 0, 0}, {0, 1, 0, 0}}});
+    const SamplePoint sideways{{}, {1, 0, 0}, 1e-6f};
+    EXPECT_NEAR(visibilityHigherMoments(occludersOf({wall.occluder()}), {&sideways, 1}, settings)
+                    .value()[0]
+                    .second.xx,
+                zz, 1.5e-3);
+}
+
 TEST(VisibilityMoments, ofTwoPartsOfASequenceAverageToThoseOfTheWhole)
 {
     const Mesh rock = meshOf(shapes::rock(8, 0.8f));
