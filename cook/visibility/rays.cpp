@@ -27,6 +27,8 @@ namespace
 // fastest, 1.6 times as fast as single rays (hearth_measure_visibility); these take 96 KiB.
 constexpr uint32_t kStreamRays = 2048;
 
+constexpr double kHemisphere = 2 * std::numbers::pi; ///< steradians
+
 // Rays between two looks at progress: some milliseconds.
 constexpr uint64_t kTaskRays = 32768;
 
@@ -86,26 +88,80 @@ struct NearestHit
     double distance, power;
 };
 
-/// Of one point, over its rays w: 1 - V, (1 - V) w and w.
-struct Sums
+/// The hidden part is estimated, and the open part of the whole hemisphere's integral is corrected by what this pattern of
+/// rays makes of that: README.md, "Constants stay constants".
+/// hidden, all  sums of a function over the rays: times 1 - V, and as it is
+/// whole        the function's integral over the hemisphere
+double integralOf(double hidden, double all, double whole, double hidden_share, double per_ray)
 {
+    return (all * hidden_share - hidden) * per_ray + whole * (1 - hidden_share);
+}
+
+/// Of one point, over its rays w: 1 - V, (1 - V) w and w.
+struct FirstSums
+{
+    using Result = Moments;
+
+    void add(Double3 direction, double is_hidden)
+    {
+        hidden += is_hidden;
+        hidden_directions = hidden_directions + direction * is_hidden;
+        directions = directions + direction;
+    }
+
+    Moments result(Float3 normal, uint32_t rays) const
+    {
+        const double share = hidden / rays, per_ray = kHemisphere / rays;
+        const auto axis = [&](double hidden_sum, double sum, float n) {
+            return static_cast<float>(
+                integralOf(hidden_sum, sum, double{n} * kHemisphere / 2, share, per_ray));
+        };
+        return {static_cast<float>(kHemisphere * (1 - share)),
+                {axis(hidden_directions.x, directions.x, normal.x),
+                 axis(hidden_directions.y, directions.y, normal.y),
+                 axis(hidden_directions.z, directions.z, normal.z)}};
+    }
+
     double hidden = 0;
     Double3 hidden_directions;
     Double3 directions;
 };
 
-/// The hidden part is estimated, and the open part of the hemisphere's first moment is corrected by what this pattern of
-/// rays makes of the whole hemisphere: README.md.
-Moments momentsOf(const Sums& sums, Float3 normal, uint32_t rays)
+/// And (1 - V) w w^T and w w^T.
+struct SecondSums
 {
-    const double n = rays, open = 1 - sums.hidden / n, per_ray = 2 * std::numbers::pi / n;
-    const Double3 m1 = (sums.directions * (sums.hidden / n) - sums.hidden_directions) * per_ray +
-                       widen(normal) * (std::numbers::pi * open);
-    return {static_cast<float>(2 * std::numbers::pi * open), narrow(m1)};
-}
+    using Result = HigherMoments;
+
+    void add(Double3 w, double is_hidden)
+    {
+        first.add(w, is_hidden);
+        const std::array<double, 6> products{w.x * w.x, w.y * w.y, w.z * w.z,
+                                             w.x * w.y, w.x * w.z, w.y * w.z};
+        for (size_t i = 0; i < products.size(); ++i)
+        {
+            hidden_products[i] += products[i] * is_hidden;
+            all_products[i] += products[i];
+        }
+    }
+
+    HigherMoments result(Float3 normal, uint32_t rays) const
+    {
+        const auto product = [&](size_t i)
+        {
+            return static_cast<float>(integralOf(hidden_products[i], all_products[i],
+                                                 i < 3 ? kHemisphere / 3 : 0, first.hidden / rays,
+                                                 kHemisphere / rays));
+        };
+        return {first.result(normal, rays),
+                {product(0), product(1), product(2), product(3), product(4), product(5)}};
+    }
+
+    FirstSums first;
+    std::array<double, 6> hidden_products{}, all_products{};
+};
 
 /// Traces the rays of some points, a stream at a time.
-template <typename Query>
+template <typename Query, typename Sums>
 class Tracer
 {
 public:
@@ -117,7 +173,7 @@ public:
     }
 
     /// first  index of points[0] among all points
-    void trace(std::span<const SamplePoint> points, uint64_t first, std::span<Moments> moments)
+    void trace(std::span<const SamplePoint> points, uint64_t first, std::span<typename Sums::Result> moments)
     {
         sums_.assign(points.size(), {});
         for (uint32_t p = 0; p < points.size(); ++p)
@@ -134,7 +190,7 @@ public:
         }
         flush();
         for (size_t p = 0; p < points.size(); ++p)
-            moments[p] = momentsOf(sums_[p], points[p].normal, settings_.rays_per_sample);
+            moments[p] = sums_[p].result(points[p].normal, settings_.rays_per_sample);
     }
 
 private:
@@ -182,10 +238,7 @@ private:
             for (uint32_t i = fan.first; i < fan.first + fan.count; ++i)
             {
                 const Double3 direction{double{x_[i]}, double{y_[i]}, double{z_[i]}};
-                const double hidden = query_.hidden(rays_[i]);
-                sums.hidden += hidden;
-                sums.hidden_directions = sums.hidden_directions + direction * hidden;
-                sums.directions = sums.directions + direction;
+                sums.add(direction, query_.hidden(rays_[i]));
             }
             sums_[fan.point] = sums;
         }
@@ -235,18 +288,18 @@ private:
     std::mutex mutex_;
 };
 
-template <typename Query>
+template <typename Query, typename Sums>
 bool traceAll(const Occluders& occluders, std::span<const SamplePoint> points, const RaySettings& settings,
-              const RayProgress& progress, std::span<Moments> moments)
+              const RayProgress& progress, std::span<typename Sums::Result> moments)
 {
     Counter counter(progress, uint64_t{points.size()} * settings.rays_per_sample);
-    const size_t points_per_task = std::max<uint64_t>(
-        1, kTaskRays / settings.rays_per_sample); // of whole streams, as both are powers of two
+    // of whole streams, where both are powers of two
+    const size_t points_per_task = std::max<uint64_t>(1, kTaskRays / settings.rays_per_sample);
     tbb::parallel_for(tbb::blocked_range<size_t>(0, points.size(), points_per_task),
                       [&](const tbb::blocked_range<size_t>& range)
                       {
                           const FlushToZero mode;
-                          const auto tracer = std::make_unique<Tracer<Query>>(occluders, settings);
+                          const auto tracer = std::make_unique<Tracer<Query, Sums>>(occluders, settings);
                           for (size_t p = range.begin(); p < range.end() && !counter.stopped();
                                p += points_per_task)
                           {
@@ -258,6 +311,23 @@ bool traceAll(const Occluders& occluders, std::span<const SamplePoint> points, c
     return !counter.stopped();
 }
 
+template <typename Sums>
+std::optional<std::vector<typename Sums::Result>>
+momentsBy(const Occluders& occluders, std::span<const SamplePoint> points, const RaySettings& settings,
+          const RayProgress& progress)
+{
+    HEARTH_ASSERT(settings.rays_per_sample > 0);
+    HEARTH_ASSERT(settings.nearest >= 0 && settings.nearest < settings.distance);
+    HEARTH_ASSERT(settings.power == 0 || (settings.power > 0 && std::isfinite(settings.distance)));
+    std::vector<typename Sums::Result> moments(points.size());
+    const bool done = settings.power == 0
+                          ? traceAll<AnyHit, Sums>(occluders, points, settings, progress, moments)
+                          : traceAll<NearestHit, Sums>(occluders, points, settings, progress, moments);
+    if (!done)
+        return std::nullopt;
+    return moments;
+}
+
 } // namespace
 
 std::optional<std::vector<Moments>> visibilityMoments(const Occluders& occluders,
@@ -265,16 +335,15 @@ std::optional<std::vector<Moments>> visibilityMoments(const Occluders& occluders
                                                       const RaySettings& settings,
                                                       const RayProgress& progress)
 {
-    HEARTH_ASSERT(settings.rays_per_sample > 0);
-    HEARTH_ASSERT(settings.nearest >= 0 && settings.nearest < settings.distance);
-    HEARTH_ASSERT(settings.power == 0 || (settings.power > 0 && std::isfinite(settings.distance)));
-    std::vector<Moments> moments(points.size());
-    const bool done = settings.power == 0
-                          ? traceAll<AnyHit>(occluders, points, settings, progress, moments)
-                          : traceAll<NearestHit>(occluders, points, settings, progress, moments);
-    if (!done)
-        return std::nullopt;
-    return moments;
+    return momentsBy<FirstSums>(occluders, points, settings, progress);
+}
+
+std::optional<std::vector<HigherMoments>> visibilityHigherMoments(const Occluders& occluders,
+                                                                  std::span<const SamplePoint> points,
+                                                                  const RaySettings& settings,
+                                                                  const RayProgress& progress)
+{
+    return momentsBy<SecondSums>(occluders, points, settings, progress);
 }
 
 } // namespace hearth::visibility

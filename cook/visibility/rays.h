@@ -29,6 +29,20 @@ struct RaySettings
     float nearest = 0; ///< metres: hits before that are not in the way; less than distance
 };
 
+/// m2 = int V w w^T dw, symmetric: with the other moments all that nine spherical harmonics hold. Its trace is m0; the open
+/// hemisphere has 2 pi / 3 on the diagonal. Of orthonormal real harmonics, Y_2m for m = -2 ... 2 have
+///     sqrt(15 / (4 pi)) {xy, yz, (2 zz - xx - yy) / (2 sqrt 3), xz, (xx - yy) / 2}
+struct SecondMoments
+{
+    float xx = 0, yy = 0, zz = 0, xy = 0, xz = 0, yz = 0;
+};
+
+struct HigherMoments
+{
+    Moments moments;
+    SecondMoments second;
+};
+
 /// Told how many rays of how many are done, by one thread at a time, some hundred times a second at most; the last time all
 /// of them. Returns whether to go on.
 using RayProgress = std::function<bool(uint64_t rays_done, uint64_t rays_total)>;
@@ -51,5 +65,11 @@ std::optional<std::vector<Moments>> visibilityMoments(const Occluders& occluders
                                                       std::span<const SamplePoint> points,
                                                       const RaySettings& settings,
                                                       const RayProgress& progress = {});
+
+/// The same moments to the bit, and second ones.
+std::optional<std::vector<HigherMoments>> visibilityHigherMoments(const Occluders& occluders,
+                                                                  std::span<const SamplePoint> points,
+                                                                  const RaySettings& settings,
+                                                                  const RayProgress& progress = {});
 
 } // namespace hearth::visibility

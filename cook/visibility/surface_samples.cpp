@@ -40,28 +40,24 @@ public:
         Box3 box;
         for (const Float3 p : positions)
             box.add(p);
-        least_ = box.min;
+        least_ = widen(box.min);
         double extent = 0;
         for (int axis = 0; axis < 3; ++axis)
             extent = std::max(extent, double{box.max[axis]} - double{box.min[axis]});
         cells_per_metre_ = extent > 0 ? 2097151.0 / extent : 0;
     }
 
-    uint64_t code(Float3 p) const
+    uint64_t code(Double3 p) const
     {
-        uint64_t code = 0;
-        for (int axis = 0; axis < 3; ++axis)
-        {
-            const double cell = (double{p[axis]} - double{least_[axis]}) * cells_per_metre_;
-            code |= spreadBits(static_cast<uint64_t>(std::clamp(cell, 0.0, 2097151.0))) << axis;
-        }
-        return code;
+        const Double3 cell = (p - least_) * cells_per_metre_;
+        return spreadBits(cell.x) | spreadBits(cell.y) << 1 | spreadBits(cell.z) << 2;
     }
 
 private:
     /// Two zero bits behind each of the lower 21 bits.
-    static uint64_t spreadBits(uint64_t x)
+    static uint64_t spreadBits(double cell)
     {
+        auto x = static_cast<uint64_t>(std::clamp(cell, 0.0, 2097151.0));
         x = (x | x << 32) & 0x001F00000000FFFFu;
         x = (x | x << 16) & 0x001F0000FF0000FFu;
         x = (x | x << 8) & 0x100F00F00F00F00Fu;
@@ -69,7 +65,7 @@ private:
         return (x | x << 2) & 0x1249249249249249u;
     }
 
-    Float3 least_;
+    Double3 least_;
     double cells_per_metre_ = 0;
 };
 
@@ -145,7 +141,7 @@ std::vector<SurfaceSample> surfaceSamples(std::span<const Float3> positions,
                       {
                           const Corners c = cornersOf(positions, corners, t);
                           areas[t] = areaOf(c);
-                          order[t] = {curve.code((c[0] + c[1] + c[2]) / 3), t};
+                          order[t] = {curve.code((widen(c[0]) + widen(c[1]) + widen(c[2])) * (1.0 / 3)), t};
                       });
     tbb::parallel_sort(order);
     const std::vector<uint32_t> counts =
@@ -169,7 +165,9 @@ std::vector<SurfaceSample> surfaceSamples(std::span<const Float3> positions,
                                   sampling::trianglePoint(sampling::unitPoint(sampling::owenSobol(i, seed)));
                               samples[first[t] + i] = {static_cast<uint32_t>(t), at.x, at.y,
                                                        static_cast<float>(areas[t] / counts[t])};
-                              const Float3 place = c[0] * (1 - at.x - at.y) + c[1] * at.x + c[2] * at.y;
+                              const Double3 a = widen(c[0]);
+                              const Double3 place =
+                                  a + (widen(c[1]) - a) * double{at.x} + (widen(c[2]) - a) * double{at.y};
                               sample_order[first[t] + i] = {curve.code(place), first[t] + i};
                           }
                       });

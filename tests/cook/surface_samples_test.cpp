@@ -173,6 +173,22 @@ TEST(SurfaceSamples, comeInAnOrderOfNeighbours)
     EXPECT_LT(steps / static_cast<double>(points.size()), 2 / std::sqrt(static_cast<double>(points.size())));
 }
 
+TEST(SurfaceSamples, areTakenOfTheLargestAndTheSmallestOfMeshes)
+{
+    for (const float size : {3e38f, 1e-36f})
+    {
+        const Mesh mesh{{{-size, 0, 0}, {size, 0, 0}, {0, size, size}}, {0, 1, 2}};
+        const std::vector<SurfaceSample> samples = surfaceSamples(mesh.positions, mesh.corners, {});
+        EXPECT_EQ(samples.size(), 24u);
+        for (const SamplePoint& point : samplePoints(mesh.positions, mesh.corners, samples))
+        {
+            EXPECT_TRUE(isFinite(point.position));
+            EXPECT_NEAR(length(point.normal), 1, 1e-6);
+            EXPECT_GT(point.lift, 0);
+        }
+    }
+}
+
 TEST(SurfaceSamples, areTheSameForAnyNumberOfThreads)
 {
     const Mesh mesh = meshOf(shapes::rock(16, 0.4f));
