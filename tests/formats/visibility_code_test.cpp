@@ -221,7 +221,9 @@ TEST(VisibilityCode, encodesWhatItDecodedToTheSameCode)
         // where x is nearly 1 or 0, all codes of rho mean about the same
         const float x = length(back.m1) / kPi;
         if (x > 0.01f && x < 0.999f)
+        {
             ASSERT_EQ(encodeVisibility(back.m0, back.m1, normal), code);
+        }
     }
 }
 
