@@ -129,7 +129,7 @@ std::span<const WalkStep> TriangleWalk::again(std::span<const uint8_t> indices,
     step_count_ = static_cast<uint32_t>(indices.size() / 3);
     for (uint32_t t = 0; t < step_count_; ++t)
     {
-        const uint32_t code = t == 0 ? kCodeRestart : codes[(t - 1) / 2] >> ((t - 1) % 2 * 4) & 15u;
+        const uint32_t code = t == 0 ? kCodeRestart : uint32_t{codes[(t - 1) / 2]} >> ((t - 1) % 2 * 4) & 15u;
         steps_[t] = {code == kCodeRestart ? kEdgeNone : static_cast<uint8_t>(code / 3), cornersOf(t)};
     }
     return std::span(steps_).first(step_count_);

@@ -238,15 +238,14 @@ TEST(Hierarchy, keepsFineNormalsWhereTheyAreSmooth)
 
 TEST(Hierarchy, withVisibilityIsValid)
 {
-    Config config;
+    clusters::Config config;
     config.visibility = true;
     for (mesh::SourceMesh source : {shapes::rock(24, 0.3f), shapes::tangle(60, 400)})
     {
         const bool has_normals = !source.normals.empty();
-        const Hierarchy hierarchy = buildHierarchy(source, config);
+        const clusters::Hierarchy hierarchy = clusters::buildHierarchy(source, config);
         EXPECT_EQ((hierarchy.mesh.attributes & formats::kVertexVisibility) != 0, has_normals);
-        const Status valid = validateHierarchy(source, hierarchy);
-        EXPECT_TRUE(valid.ok()) << formatMessage(valid.error());
+        EXPECT_EQ(messageOf(clusters::validateHierarchy(source, hierarchy)), "");
     }
 }
 

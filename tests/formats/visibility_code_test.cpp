@@ -5,6 +5,7 @@
 
 #include <numbers>
 #include <random>
+#include <vector>
 
 namespace hearth::test
 {
@@ -150,6 +151,64 @@ TEST(VisibilityCode, keepsConesOfAllSizes)
     }
 }
 
+/// What one to three caps of directions, some of them half transparent, leave of the hemisphere about +Z, by quadrature.
+VisibilityMoments momentsBesideCaps(std::mt19937& random)
+{
+    struct Cap
+    {
+        Float3 axis;
+        float cosine, share;
+    };
+    std::vector<Cap> caps(1 + random() % 3);
+    for (Cap& cap : caps)
+        cap = {randomDirection(random), uniform(random, -0.3f, 0.95f),
+               random() % 4 == 0 ? uniform(random, 0, 1) : 0};
+    constexpr int kRows = 24, kColumns = 48;
+    VisibilityMoments moments{0, {}};
+    for (int row = 0; row < kRows; ++row)
+        for (int column = 0; column < kColumns; ++column)
+        {
+            const float z = (static_cast<float>(row) + 0.5f) / kRows, r = std::sqrt(1 - z * z);
+            const float turn = 2 * kPi * (static_cast<float>(column) + 0.5f) / kColumns;
+            const Float3 w{r * std::cos(turn), r * std::sin(turn), z};
+            float share = 2 * kPi / (kRows * kColumns);
+            for (const Cap& cap : caps)
+                share *= dot(w, cap.axis) > cap.cosine ? cap.share : 1;
+            moments.m0 += share;
+            moments.m1 += w * share;
+        }
+    return moments;
+}
+
+TEST(VisibilityCode, keepsTheConesOfOccludersOfAllKinds)
+{
+    std::mt19937 random(9);
+    const Float3 up{0, 0, 1};
+    double ao2 = 0, axis2 = 0, aperture2 = 0, m02 = 0;
+    int count = 0;
+    for (int i = 0; i < 2000; ++i)
+    {
+        const VisibilityMoments moments = momentsBesideCaps(random);
+        if (ambientOcclusion(moments, up) < 0.02f)
+            continue;
+        const VisibilityMoments back =
+            shared::decodeVisibility(encodeVisibility(moments.m0, moments.m1, up), up);
+        const VisibilityCone was = shared::visibilityCone(moments.m0, moments.m1, up);
+        const VisibilityCone is = shared::visibilityCone(back.m0, back.m1, up);
+        const auto square = [](float x) { return double{x} * double{x}; };
+        ao2 += square(ambientOcclusion(back, up) - ambientOcclusion(moments, up));
+        axis2 += square(angle(is.axis, was.axis) / kDegree);
+        aperture2 += square((is.aperture - was.aperture) / kDegree);
+        m02 += square((back.m0 - moments.m0) / (2 * kPi));
+        ++count;
+    }
+    // root mean squares; cook/pages/README.md compares with other codes
+    EXPECT_LT(std::sqrt(ao2 / count), 0.0007);
+    EXPECT_LT(std::sqrt(axis2 / count), 0.3);
+    EXPECT_LT(std::sqrt(aperture2 / count), 0.25);
+    EXPECT_LT(std::sqrt(m02 / count), 0.0015);
+}
+
 TEST(VisibilityCode, encodesWhatItDecodedToTheSameCode)
 {
     std::mt19937 random(4);
@@ -162,7 +221,9 @@ TEST(VisibilityCode, encodesWhatItDecodedToTheSameCode)
         // where x is nearly 1 or 0, all codes of rho mean about the same
         const float x = length(back.m1) / kPi;
         if (x > 0.01f && x < 0.999f)
+        {
             ASSERT_EQ(encodeVisibility(back.m0, back.m1, normal), code);
+        }
     }
 }
 
