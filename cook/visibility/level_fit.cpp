@@ -158,6 +158,10 @@ std::vector<LevelFit> fitLevels(std::span<const LevelMesh> levels, std::span<con
     {
         HEARTH_ASSERT(level.finer_vertex.empty() || level.finer_vertex.size() == level.mesh.positions.size());
         const Proxy proxy = makeProxy(level.mesh, settings.proxy);
+        const double coarser = static_cast<double>(proxy.positions.size()) /
+                               static_cast<double>(std::max<size_t>(1, finest.positions.size()));
+        FitSettings fit = settings.fit;
+        fit.alpha *= std::clamp(coarser * coarser, settings.least_alpha, 1.0);
         const SampleChoice choice =
             chooseSamples(samples, proxy.positions.size() * settings.samples_per_vertex);
         const double reach = level.reach > 0 ? double{level.reach} : points.diagonal * kReach;
@@ -165,8 +169,8 @@ std::vector<LevelFit> fitLevels(std::span<const LevelMesh> levels, std::span<con
         chosen.reserve(choice.samples.size());
         for (const uint32_t sample : choice.samples)
             chosen.push_back(values[sample]);
-        fits.push_back(fitLevel(level, proxy, transfer(points, choice, proxy, reach), chosen, settings.fit,
-                                fits.back().moments));
+        fits.push_back(
+            fitLevel(level, proxy, transfer(points, choice, proxy, reach), chosen, fit, fits.back().moments));
     }
     return fits;
 }

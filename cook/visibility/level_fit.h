@@ -26,9 +26,13 @@ struct LevelFitSettings
 {
     ProxySettings proxy;
     FitSettings fit;
-    /// Of a level at most, so that all levels together take little time: four times what the finest has by default. The regulariser
-    /// lets through a quarter of the variance that is left, and variance falls with their number.
+    /// Of a level at most, so that all levels together take little time: four times what the finest has by default.
     uint32_t samples_per_vertex = 32;
+    /// Jumps of gradients weigh alpha times the square of the level's vertices by the finest's: that is the same penalty of
+    /// curvature in metres on each level, so that they approach one function, and with one alpha the coarse ones would be blurred
+    /// until copies of vertices were nearer to the truth. Not less than this share of alpha: with the samples that a vertex has, noise
+    /// would come through.
+    double least_alpha = 0.03;
 };
 
 struct LevelFit

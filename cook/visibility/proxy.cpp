@@ -95,24 +95,10 @@ public:
 
     Proxy build()
     {
-        const MeshView smooth{source_.positions, source_.normals, clean_.indices};
-        const ClosestPoint surface(smooth, proxy_.smooth_count);
         const std::vector<double> reach = reachOfVertices();
-        for (uint32_t v = 0; v < used_.size(); ++v)
-            if (reach[v] > 0 && !used_[v])
-                bind(v, surface, reach[v] * thinness_ * kBeside, smooth);
+        bindBeside(reach);
         keepLoose();
-        // what no triangle with area names is anywhere: the nearest point, however far
-        const MeshView all{source_.positions, source_.normals, clean_.indices};
-        std::optional<ClosestPoint> everything;
-        for (uint32_t v = 0; v < used_.size(); ++v)
-            if (!used_[v] && clean_.vertex_of_vertex[v] == v && welded_.first[v] == v &&
-                bindings_[v].vertices[0] == kNowhere)
-            {
-                if (!everything)
-                    everything.emplace(all, clean_.indices.size() / 3);
-                bind(v, *everything, kEverywhere, all);
-            }
+        bindRest();
         compact();
         return std::move(proxy_);
     }
@@ -137,6 +123,36 @@ private:
             }
         }
         return reach;
+    }
+
+    /// Vertices that have lost all their triangles to points of the others where these are near.
+    void bindBeside(const std::vector<double>& reach)
+    {
+        const MeshView smooth{source_.positions, source_.normals, clean_.indices};
+        std::optional<ClosestPoint> surface;
+        for (uint32_t v = 0; v < used_.size(); ++v)
+        {
+            if (!(reach[v] > 0) || used_[v])
+                continue;
+            if (!surface)
+                surface.emplace(smooth, proxy_.smooth_count);
+            bind(v, *surface, reach[v] * thinness_ * kBeside, smooth);
+        }
+    }
+
+    /// What no triangle with area names is anywhere: to the nearest point, however far.
+    void bindRest()
+    {
+        const MeshView all{source_.positions, source_.normals, clean_.indices};
+        std::optional<ClosestPoint> surface;
+        for (uint32_t v = 0; v < used_.size(); ++v)
+        {
+            if (used_[v] || imageOf(v) != v || bindings_[v].vertices[0] != kNowhere)
+                continue;
+            if (!surface)
+                surface.emplace(all, clean_.indices.size() / 3);
+            bind(v, *surface, kEverywhere, all);
+        }
     }
 
     void bind(uint32_t vertex, const ClosestPoint& surface, double limit, const MeshView& mesh)

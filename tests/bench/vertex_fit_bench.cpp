@@ -1,0 +1,100 @@
+// The fit of visibility to 100,000 vertices on one core, stage by stage.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/visibility/level_fit.h"
+#include "cook/visibility/normal_equations.h"
+#include "tests/cook/shapes.h"
+#include "tests/cook/surface_samples_of.h"
+
+#include <benchmark/benchmark.h>
+
+#include <tbb/global_control.h>
+
+namespace
+{
+
+using namespace hearth;
+using namespace hearth::visibility;
+
+/// A rock of 199,692 triangles, and four samples on each with smooth values and some noise.
+struct Scene
+{
+    mesh::SourceMesh rock = shapes::rock(129, 0.5f);
+    std::vector<SampleRef> samples = test::samplesOf(test::viewOf(rock), 4);
+    std::vector<Moments> values;
+
+    Scene()
+    {
+        for (size_t i = 0; i < samples.size(); ++i)
+        {
+            const Float3 p = test::pointOf(test::viewOf(rock), samples[i]);
+            const float noise = static_cast<float>(i * 2654435761u % 1024) / 5120 - 0.1f;
+            values.push_back({4 + p.x + noise, {0.5f * p.y, p.z + noise, 1 + noise}});
+        }
+    }
+};
+
+const Scene& scene()
+{
+    static const Scene the_scene;
+    return the_scene;
+}
+
+using OneCore = tbb::global_control;
+constexpr auto kParallelism = tbb::global_control::max_allowed_parallelism;
+
+void proxy(benchmark::State& state)
+{
+    const OneCore one(kParallelism, 1);
+    for (auto _ : state)
+        benchmark::DoNotOptimize(makeProxy(test::viewOf(scene().rock)));
+}
+BENCHMARK(proxy)->Unit(benchmark::kMillisecond)->UseRealTime();
+
+void assembly(benchmark::State& state)
+{
+    const OneCore one(kParallelism, 1);
+    const Proxy proxy = makeProxy(test::viewOf(scene().rock));
+    const std::vector<SampleRef> samples = samplesOnProxy(proxy, test::viewOf(scene().rock), scene().samples);
+    for (auto _ : state)
+        benchmark::DoNotOptimize(assemble(proxy, samples, scene().values, 0.1, 4));
+}
+BENCHMARK(assembly)->Unit(benchmark::kMillisecond)->UseRealTime();
+
+/// Four right-hand sides from nothing.
+void solution(benchmark::State& state)
+{
+    const OneCore one(kParallelism, 1);
+    const Proxy proxy = makeProxy(test::viewOf(scene().rock));
+    const std::vector<SampleRef> samples = samplesOnProxy(proxy, test::viewOf(scene().rock), scene().samples);
+    const NormalEquations system = assemble(proxy, samples, scene().values, 0.1, 4);
+    SolveStatistics statistics;
+    for (auto _ : state)
+    {
+        std::vector<Block4> x(proxy.positions.size());
+        statistics = solve(system.matrix, system.right, x, 1e-8, 500);
+        benchmark::DoNotOptimize(x);
+    }
+    state.counters["vertices"] = static_cast<double>(proxy.positions.size());
+    state.counters["iterations"] = statistics.iterations;
+    state.counters["condition"] = statistics.condition;
+}
+BENCHMARK(solution)->Unit(benchmark::kMillisecond)->UseRealTime();
+
+/// Ten levels of half the triangles each, by meshes of the same shape.
+void levels(benchmark::State& state)
+{
+    const OneCore cores(kParallelism, static_cast<size_t>(state.range(0)));
+    std::vector<mesh::SourceMesh> meshes;
+    for (const uint32_t n : {91u, 64u, 45u, 32u, 23u, 16u, 11u, 8u, 6u})
+        meshes.push_back(shapes::rock(n, 0.5f));
+    std::vector<LevelMesh> views{{test::viewOf(scene().rock), {}, 0}};
+    for (const mesh::SourceMesh& mesh : meshes)
+        views.push_back({test::viewOf(mesh), {}, 0});
+    for (auto _ : state)
+        benchmark::DoNotOptimize(fitLevels(views, scene().samples, scene().values));
+}
+BENCHMARK(levels)->Arg(1)->Arg(2)->Unit(benchmark::kMillisecond)->UseRealTime();
+
+} // namespace
+
+BENCHMARK_MAIN();
