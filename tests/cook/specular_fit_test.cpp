@@ -49,26 +49,25 @@ TEST(SpecularCap, isTheFormInAngles)
 TEST(SpecularFit, isCloserThanTheTableForEitherMasking)
 {
     for (const Masking masking : {Masking::separable, Masking::correlated})
-        for (const uint64_t seed : {101u, 102u})
+    {
+        const std::vector<Configuration> configurations =
+            randomConfigurations(1000, 101 + static_cast<uint64_t>(masking));
+        std::vector<double> exact;
+        for (const Configuration& configuration : configurations)
+            exact.push_back(exactOcclusion(configuration, masking));
+        const double fit = rms(configurations, exact, [](const Configuration& c) { return fitOcclusion(c); });
+        EXPECT_LT(fit, 0.025) << "0.035 is asked";
+        for (const SpecularSpacing spacing : {SpecularSpacing::cosine, SpecularSpacing::half_sine})
         {
-            const std::vector<Configuration> configurations = randomConfigurations(1000, seed);
-            std::vector<double> exact;
-            for (const Configuration& configuration : configurations)
-                exact.push_back(exactOcclusion(configuration, masking));
-            const double fit =
-                rms(configurations, exact, [](const Configuration& c) { return fitOcclusion(c); });
-            EXPECT_LT(fit, 0.025) << "0.035 is asked";
-            for (const SpecularSpacing spacing : {SpecularSpacing::cosine, SpecularSpacing::half_sine})
-            {
-                const TableSettings settings{.masking = masking, .spacing = spacing};
-                const TableValues values = unpackTable(packTable(cookTable(settings), settings));
-                const double table =
-                    rms(configurations, exact,
-                        [&](const Configuration& c) { return tableOcclusion(c, values, spacing); });
-                EXPECT_LT(fit, table / 2);
-                EXPECT_LT(table, 0.09);
-            }
+            const TableSettings settings{.masking = masking, .spacing = spacing};
+            const TableValues values = unpackTable(packTable(cookTable(settings), settings));
+            const double table =
+                rms(configurations, exact,
+                    [&](const Configuration& c) { return tableOcclusion(c, values, spacing); });
+            EXPECT_LT(fit, table / 2);
+            EXPECT_LT(table, 0.09);
         }
+    }
 }
 
 TEST(SpecularFit, isAShareEverywhere)
@@ -121,7 +120,7 @@ TEST(Refit, findsThatTheHeadersConstantsAreAsGoodAsAny)
 
 TEST(Compare, hasTheWaysInTheirOrderOfMerit)
 {
-    const Comparison comparison = compare({}, 200, 3);
+    const Comparison comparison = compare({}, 100, 3);
     const auto rms_of = [&](const std::string& start)
     {
         for (const ErrorFigures& figures : comparison.ways)

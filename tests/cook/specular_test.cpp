@@ -102,7 +102,7 @@ TEST(OcclusionOf, hasTheLimitsOfAShare)
 {
     for (const auto& [lobe, cone] : randomCases(40, 4))
     {
-        EXPECT_EQ(occlusionOf(lobe, {cone.axis, 0}), 0);
+        EXPECT_NEAR(occlusionOf(lobe, {cone.axis, 0}), 0, 1e-12);
         EXPECT_NEAR(occlusionOf(lobe, {cone.axis, std::numbers::pi}), 1, 1e-6);
         EXPECT_NEAR(occlusionOf(lobe, {{0, 0, 1}, kRightAngle}), 1, 1e-6) << "all that is above the horizon";
         const double rest = occlusionOf(lobe, {cone.axis * -1, std::numbers::pi - cone.half_angle});
