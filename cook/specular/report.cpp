@@ -31,7 +31,8 @@ using Values = std::vector<double>;
 
 ErrorFigures errorsOf(std::string name, const Values& values, const Values& exact)
 {
-    ErrorFigures figures{.name = std::move(name)};
+    ErrorFigures figures;
+    figures.name = std::move(name);
     const auto count = static_cast<double>(values.size());
     Values errors(values.size());
     for (size_t i = 0; i < values.size(); ++i)
@@ -249,7 +250,9 @@ nlohmann::ordered_json tableJson(const std::vector<ErrorFigures>& list)
 Comparison compare(const TableSettings& settings, size_t configuration_count, uint64_t seed)
 {
     HEARTH_ASSERT(configuration_count > 0);
-    Comparison comparison{.settings = settings, .configuration_count = configuration_count};
+    Comparison comparison;
+    comparison.settings = settings;
+    comparison.configuration_count = configuration_count;
     const Contest contest(randomConfigurations(configuration_count, seed), settings);
     compareWays(contest, contest.exact(), settings.normal_lambda, comparison.ways);
     compareInterpolations(contest, settings.normal_lambda, comparison.interpolations);
