@@ -103,6 +103,11 @@ Status checkMotion(const PackView& view)
     return check::checkNodeTree(view);
 }
 
+Status checkSpecular(const PackView& view)
+{
+    return check::checkSpecularTable(view);
+}
+
 Status checkPack(const PackView& view)
 {
     if (view.container().kind() != ContainerKind::pack)
@@ -119,7 +124,7 @@ Status checkPack(const PackView& view)
     HEARTH_TRY(checkHierarchy(view));
     HEARTH_TRY(check::checkMaterialsOfClusters(view));
     HEARTH_TRY(check::checkDeformedMeshes(view));
-    return check::checkSpecularTable(view);
+    return checkSpecular(view);
 }
 
 } // namespace hearth::formats

@@ -34,4 +34,7 @@ Status checkMotion(const PackView& view);
 /// Check meshes, levels, groups, clusters, pages and geometry alone: what a clusters part already has.
 Status checkHierarchy(const PackView& view);
 
+/// Check the table of specular occlusion alone: what a specular part has.
+Status checkSpecular(const PackView& view);
+
 } // namespace hearth::formats

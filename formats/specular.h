@@ -44,6 +44,22 @@ struct SpecularTableRecord
     uint8_t values[kSpecularTexels];
 };
 
+/// What node i of each axis stands for: half-angle / 90 degrees, roughness, cosine of beta.
+constexpr double specularNodeAperture(uint32_t i)
+{
+    return static_cast<double>(i) / (shared::kSpecularNodes - 1);
+}
+constexpr double specularNodeRoughness(uint32_t i)
+{
+    constexpr double kLeast = double{shared::kSpecularLeastRoughness};
+    return kLeast + (1 - kLeast) * static_cast<double>(i) / (shared::kSpecularNodes - 1);
+}
+constexpr double specularNodeCosBeta(uint32_t i, SpecularSpacing spacing)
+{
+    const double place = static_cast<double>(i) / (shared::kSpecularNodes - 1);
+    return spacing == SpecularSpacing::cosine ? 2 * place - 1 : 1 - 2 * (1 - place) * (1 - place);
+}
+
 } // namespace hearth::formats
 
 HEARTH_RECORD(hearth::formats::SpecularTableRecord, 4128,

@@ -31,7 +31,8 @@ using Values = std::vector<double>;
 
 ErrorFigures errorsOf(std::string name, const Values& values, const Values& exact)
 {
-    ErrorFigures figures{.name = std::move(name)};
+    ErrorFigures figures;
+    figures.name = std::move(name);
     const auto count = static_cast<double>(values.size());
     Values errors(values.size());
     for (size_t i = 0; i < values.size(); ++i)
@@ -140,9 +141,10 @@ private:
                 weight *= step == 1 ? part : 1 - part;
             }
             if (weight > 0)
-                sum += weight * viewKept(halfAngleOfNode(node[0]), roughnessOfNode(node[1]),
+                sum += weight * viewKept(kRightAngle * formats::specularNodeAperture(node[0]),
+                                         formats::specularNodeRoughness(node[1]),
                                          kRightAngle * node[3] / (kViewNodes - 1),
-                                         betaOfNode(node[2], settings_.spacing));
+                                         std::acos(formats::specularNodeCosBeta(node[2], settings_.spacing)));
         }
         return sum;
     }
@@ -194,18 +196,19 @@ void measureNodes(const TableSettings& settings, Comparison& comparison)
     constexpr uint32_t kStride = 37; // prime to 16: nodes of all kinds
     const TableValues values = cookTable(settings);
     std::vector<double> errors((values.size() + kStride - 1) / kStride);
-    tbb::parallel_for(size_t{0}, errors.size(),
-                      [&](size_t i)
-                      {
-                          const auto node = static_cast<uint32_t>(i * kStride);
-                          const AssumedPlace place =
-                              assumedPlace(roughnessOfNode(node / 16 % 16),
-                                           betaOfNode(node / 256, settings.spacing), settings);
-                          const double fine =
-                              occlusionOf(place.lobe, {place.axis, halfAngleOfNode(node % 16)},
-                                          {.outer = 128, .inner = 96});
-                          errors[i] = std::abs(double{values[node]} - fine);
-                      });
+    tbb::parallel_for(
+        size_t{0}, errors.size(),
+        [&](size_t i)
+        {
+            const auto node = static_cast<uint32_t>(i * kStride);
+            const AssumedPlace place =
+                assumedPlace(formats::specularNodeRoughness(node / 16 % 16),
+                             std::acos(formats::specularNodeCosBeta(node / 256, settings.spacing)), settings);
+            const double fine =
+                occlusionOf(place.lobe, {place.axis, kRightAngle * formats::specularNodeAperture(node % 16)},
+                            {.outer = 128, .inner = 96});
+            errors[i] = std::abs(double{values[node]} - fine);
+        });
     const double squares = std::inner_product(errors.begin(), errors.end(), errors.begin(), 0.0);
     comparison.quadrature_rms = std::sqrt(squares / static_cast<double>(errors.size()));
     comparison.quadrature_largest = *std::max_element(errors.begin(), errors.end());
@@ -247,7 +250,9 @@ nlohmann::ordered_json tableJson(const std::vector<ErrorFigures>& list)
 Comparison compare(const TableSettings& settings, size_t configuration_count, uint64_t seed)
 {
     HEARTH_ASSERT(configuration_count > 0);
-    Comparison comparison{.settings = settings, .configuration_count = configuration_count};
+    Comparison comparison;
+    comparison.settings = settings;
+    comparison.configuration_count = configuration_count;
     const Contest contest(randomConfigurations(configuration_count, seed), settings);
     compareWays(contest, contest.exact(), settings.normal_lambda, comparison.ways);
     compareInterpolations(contest, settings.normal_lambda, comparison.interpolations);

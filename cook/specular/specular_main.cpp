@@ -116,6 +116,8 @@ int run(const Arguments& arguments)
 /// What the options do not say about each other; empty where all is well.
 std::string faultOf(const Arguments& arguments)
 {
+    if (!(arguments.settings.normal_lambda >= 0 && arguments.settings.normal_lambda <= 1))
+        return "--normal-lambda must be a number from 0 to 1";
     if (!arguments.rows.empty() && arguments.fit)
         return "--evaluate and --fit do not go together";
     if (!arguments.rows.empty() && arguments.output.empty())
@@ -137,10 +139,9 @@ void addOptions(CLI::App& app, Arguments& arguments)
         ->transform(CLI::CheckedTransformer(maskings).description(""))
         ->type_name("NAME");
     app.add_option(
-           "--normal-lambda", arguments.settings.normal_lambda,
-           "where the table assumes the normal: 0 halves the angle of reflection vector and axis, 1 is the "
-           "axis; 0.4 by default")
-        ->check(CLI::Range(0.0, 1.0).description(""));
+        "--normal-lambda", arguments.settings.normal_lambda,
+        "where the table assumes the normal: 0 halves the angle of reflection vector and axis, 1 is the "
+        "axis; 0.4 by default");
     app.add_option("--spacing", arguments.settings.spacing,
                    "nodes between reflection vector and axis: cosine (the default) or half-sine")
         ->transform(CLI::CheckedTransformer(spacings).description(""))

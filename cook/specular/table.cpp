@@ -18,29 +18,7 @@ namespace
 constexpr uint32_t kNodes = shared::kSpecularNodes;
 constexpr double kRightAngle = std::numbers::pi / 2;
 
-double placeOfNode(uint32_t i)
-{
-    return static_cast<double>(i) / (kNodes - 1);
-}
-
 } // namespace
-
-double halfAngleOfNode(uint32_t i)
-{
-    return kRightAngle * placeOfNode(i);
-}
-
-double roughnessOfNode(uint32_t i)
-{
-    constexpr double kLeast = double{shared::kSpecularLeastRoughness};
-    return kLeast + (1 - kLeast) * placeOfNode(i);
-}
-
-double betaOfNode(uint32_t i, SpecularSpacing spacing)
-{
-    const double place = placeOfNode(i);
-    return spacing == SpecularSpacing::cosine ? std::acos(2 * place - 1) : 2 * std::asin(1 - place);
-}
 
 AssumedPlace assumedPlace(double roughness, double beta, const TableSettings& settings)
 {
@@ -55,13 +33,13 @@ TableValues cookTable(const TableSettings& settings)
     TableValues values{};
     std::array<double, kNodes> half_angles{};
     for (uint32_t i = 0; i < kNodes; ++i)
-        half_angles[i] = halfAngleOfNode(i);
+        half_angles[i] = kRightAngle * specularNodeAperture(i);
     tbb::parallel_for(uint32_t{0}, kNodes * kNodes,
                       [&](uint32_t row)
                       {
-                          const double beta = betaOfNode(row / kNodes, settings.spacing);
+                          const double beta = std::acos(specularNodeCosBeta(row / kNodes, settings.spacing));
                           const AssumedPlace place =
-                              assumedPlace(roughnessOfNode(row % kNodes), beta, settings);
+                              assumedPlace(specularNodeRoughness(row % kNodes), beta, settings);
                           std::array<double, kNodes> shares{};
                           occlusionsOf(place.lobe, place.axis, half_angles, shares);
                           double least =

@@ -26,11 +26,6 @@ struct TableSettings
 /// In the order of SpecularTableRecord::values.
 using TableValues = std::array<float, formats::kSpecularTexels>;
 
-/// What node i of 16 stands for.
-double halfAngleOfNode(uint32_t i);
-double roughnessOfNode(uint32_t i);
-double betaOfNode(uint32_t i, SpecularSpacing spacing);
-
 /// The lobe that the table assumes where reflection vector and cone axis are beta radians apart, with N = (0, 0, 1); and the
 /// axis.
 struct AssumedPlace

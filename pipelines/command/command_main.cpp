@@ -5,6 +5,7 @@
 #include "pipelines/command/cook.h"
 #include "pipelines/command/explain.h"
 #include "pipelines/command/extract.h"
+#include "pipelines/command/extract_specular.h"
 #include "pipelines/command/inspect.h"
 #include "pipelines/command/inspect_bounds.h"
 #include "pipelines/command/open_pack.h"
@@ -173,32 +174,47 @@ void addVerify(CLI::App& app, Work& run)
 
 void addExtract(CLI::App& app, Work& run)
 {
-    CLI::App* verb = app.add_subcommand("extract", "Write a level of detail of a mesh as PLY");
+    CLI::App* verb =
+        app.add_subcommand("extract", "Write a level of detail of a mesh as PLY, or a table as CSV");
     struct Options
     {
         std::string file;
         uint32_t mesh = 0;
         float error = 0;
+        std::string part;
         std::string animation;
         double time = 0;
         std::string output;
     };
     auto options = std::make_shared<Options>();
     verb->add_option("FILE", options->file, "pack")->required();
-    verb->add_option("--mesh", options->mesh, "index of the mesh")->required();
-    verb->add_option("--error", options->error,
-                     "largest error in the mesh's own units; 0: the source's triangles")
-        ->required();
-    const CLI::Option* animation = verb->add_option(
+    CLI::Option* mesh = verb->add_option("--mesh", options->mesh, "index of the mesh");
+    CLI::Option* error = verb->add_option("--error", options->error,
+                                          "largest error in the mesh's own units; 0: the source's triangles");
+    mesh->needs(error);
+    error->needs(mesh);
+    const CLI::Option* part =
+        verb->add_option("--part", options->part, "specular: its table, instead of a mesh")
+            ->check(CLI::IsMember({"specular"}))
+            ->excludes(mesh);
+    CLI::Option* animation = verb->add_option(
         "--animation", options->animation, "clip that poses the mesh: its name, or its index if it has none");
+    animation->needs(mesh);
     verb->add_option("--time", options->time, "seconds from the start of the clip")->needs("--animation");
-    verb->add_option("-o,--output", options->output, "PLY file to write")->required();
+    verb->add_option("-o,--output", options->output, "PLY or CSV file to write")->required();
     verb->footer("Example: hearth extract village.hearth --mesh 0 --error 0.01 -o cut.ply");
     verb->callback(
-        [options, animation, &run]
+        [options, mesh, part, animation, &run]
         {
-            run = [options, animation]
+            if (mesh->count() + part->count() == 0)
+                throw CLI::RequiredError("--mesh");
+            run = [options, part, animation]
             {
+                if (part->count() > 0)
+                {
+                    const Status status = command::extractSpecular(options->file, options->output);
+                    return status.ok() ? 0 : fail(status.error());
+                }
                 if (!(options->error >= 0) || !std::isfinite(options->error))
                     return usageError("--error must be a number from 0 on");
                 if (!std::isfinite(options->time))

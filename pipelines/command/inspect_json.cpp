@@ -144,6 +144,13 @@ Json sceneJson(const PackView& pack, const PackSummary& summary)
             json.update(clipJson(summary.meta.clips[i]));
         return json;
     };
+    const auto specular = [&](uint32_t i) -> Json
+    {
+        const SpecularTableRecord& record = pack.specularTables()[i];
+        return {{"masking", record.masking == 0 ? "separable" : "correlated"},
+                {"normal_lambda", record.normal_lambda},
+                {"spacing", record.spacing == 0 ? "cosine" : "half-sine"}};
+    };
     return {
         {"nodes", pack.nodes().size()},
         {"instances", pack.instances().size()},
@@ -156,7 +163,8 @@ Json sceneJson(const PackView& pack, const PackSummary& summary)
         {"materials", listJson(pack.materials().size(), [&](uint32_t i) { return materialJson(pack, i); })},
         {"images", listJson(pack.images().size(), [&](uint32_t i) { return imageJson(pack, i); })},
         {"skins", listJson(pack.skins().size(), skin)},
-        {"animations", listJson(pack.animations().size(), animation)}};
+        {"animations", listJson(pack.animations().size(), animation)},
+        {"specular_tables", listJson(pack.specularTables().size(), specular)}};
 }
 
 Json chunksJson(const PackView& pack)

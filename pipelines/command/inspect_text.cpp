@@ -49,6 +49,16 @@ std::string sceneText(const PackView& pack, const PackSummary& summary)
         summary.joint_nodes, pack.animations().size(), summary.morph_targets);
 }
 
+std::string specularText(const PackView& pack)
+{
+    std::string text;
+    for (const SpecularTableRecord& table : pack.specularTables())
+        text += fmt::format("specular   table for {} masking, normal lambda {}, spaced by {}\n",
+                            table.masking == 0 ? "separable" : "correlated", table.normal_lambda,
+                            table.spacing == 0 ? "cosine" : "half sine");
+    return text;
+}
+
 std::string meshText(const MeshSummary& mesh, size_t index)
 {
     std::string text = fmt::format("\nmesh {} \"{}\": {} triangles, {} vertices, {} faces; {}\n", index,
@@ -135,7 +145,7 @@ std::string chunksText(const PackView& pack)
 
 std::string inspectText(const PackView& pack, const PackSummary& summary)
 {
-    std::string text = headText(pack, summary) + sceneText(pack, summary);
+    std::string text = headText(pack, summary) + sceneText(pack, summary) + specularText(pack);
     for (size_t i = 0; i < summary.meshes.size(); ++i)
         text += meshText(summary.meshes[i], i);
     return text + imagesText(pack) + messagesText(summary.meta) + chunksText(pack);

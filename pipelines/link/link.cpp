@@ -285,7 +285,29 @@ Status copyChunks(ContainerWriter& writer, const PackView& part, uint32_t type, 
     return success();
 }
 
-Status writePack(const std::string& path, std::span<const Source> sources)
+/// The one table that all parts have; empty where there are no parts.
+Result<std::vector<SpecularTableRecord>> readSpecular(std::span<const std::string> paths)
+{
+    std::vector<SpecularTableRecord> tables;
+    for (const std::string& path : paths)
+    {
+        HEARTH_ASSIGN_OR_RETURN(const PackView part, openPart(path));
+        if (part.specularTables().size() != 1)
+            return Error{Issue::chunk_missing, path, chunkName(kChunkSpecular, 0),
+                         "this is not a specular part: it has " +
+                             std::to_string(part.specularTables().size()) + " tables"};
+        const SpecularTableRecord& table = part.specularTables()[0];
+        if (tables.empty())
+            tables.push_back(table);
+        else if (std::memcmp(&tables[0], &table, sizeof(table)) != 0)
+            return Error{Issue::meaning_reference, path, "",
+                         "its table of specular occlusion is not that of " + paths[0] + ": a pack has one"};
+    }
+    return tables;
+}
+
+Status writePack(const std::string& path, std::span<const Source> sources,
+                 const std::vector<SpecularTableRecord>& specular)
 {
     HEARTH_ASSIGN_OR_RETURN(ContainerWriter writer, ContainerWriter::create(path, ContainerKind::pack));
     HEARTH_TRY(writeMeta(writer, sources, path));
@@ -293,6 +315,8 @@ Status writePack(const std::string& path, std::span<const Source> sources)
     HEARTH_TRY(writeScene(writer, sources));
     HEARTH_TRY(writeMeshes(writer, sources));
     HEARTH_TRY(writeDeformedMeshes(writer, sources));
+    if (!specular.empty())
+        HEARTH_TRY(writer.addRecords<SpecularTableRecord>(kChunkSpecular, specular));
     HEARTH_TRY(writePages(writer, sources));
     for (const Source& source : sources)
         HEARTH_TRY(copyChunks(writer, source.textures_part, kChunkImageData, source.offsets.images));
@@ -309,7 +333,8 @@ Status checkWritten(const std::string& path)
 
 } // namespace
 
-Status linkPack(std::span<const SourceParts> sources, const std::string& output)
+Status linkPack(std::span<const SourceParts> sources, const std::string& output,
+                std::span<const std::string> specular_parts)
 {
     std::vector<Source> opened;
     for (const SourceParts& parts : sources)
@@ -318,9 +343,10 @@ Status linkPack(std::span<const SourceParts> sources, const std::string& output)
         opened.push_back(std::move(source));
     }
     HEARTH_TRY(placeSources(opened, output));
+    HEARTH_ASSIGN_OR_RETURN(const std::vector<SpecularTableRecord> specular, readSpecular(specular_parts));
 
     const std::string unchecked = output + ".unchecked-" + std::to_string(::getpid());
-    Status status = writePack(unchecked, opened);
+    Status status = writePack(unchecked, opened, specular);
     if (status.ok())
         status = checkWritten(unchecked);
     if (status.ok() && ::rename(unchecked.c_str(), output.c_str()) != 0)

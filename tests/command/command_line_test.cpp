@@ -63,6 +63,11 @@ TEST_F(CommandLine, saysWhatIsMissingOrOutOfRange)
     expectUsageError({"inspect", "a", "--format", "xml"}, "--format");
     expectUsageError({"extract", "a", "--mesh", "0", "--error", "-1", "-o", "b"}, "--error");
     expectUsageError({"extract", "a", "--mesh", "0", "--error", "nan", "-o", "b"}, "--error");
+    expectUsageError({"extract", "a", "-o", "b"}, "--mesh");
+    expectUsageError({"extract", "a", "--mesh", "0", "-o", "b"}, "--error");
+    expectUsageError({"extract", "a", "--part", "cone", "-o", "b"}, "--part");
+    expectUsageError({"extract", "a", "--part", "specular", "--mesh", "0", "--error", "0", "-o", "b"},
+                     "excludes");
     expectUsageError({"explain", "E9999"}, "E9999");
 }
 

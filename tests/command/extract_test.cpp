@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/command/extract.h"
+#include "pipelines/command/extract_specular.h"
 
 #include "pipelines/command/open_pack.h"
 #include "tests/command/sandbox.h"
 #include "tests/command/small_parts.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <gtest/gtest.h>
@@ -79,6 +81,28 @@ float areaFromAbove(const Ply& ply)
         area += std::abs((q[0] - p[0]) * (r[2] - p[2]) - (q[2] - p[2]) * (r[0] - p[0])) / 2;
     }
     return area;
+}
+
+struct TableRow
+{
+    double aperture = -1, roughness = -1, cos_beta = -2, value = -1;
+};
+
+std::vector<TableRow> readTable(const std::string& csv)
+{
+    std::istringstream lines(csv);
+    std::string line;
+    std::getline(lines, line);
+    EXPECT_EQ(line, "aperture,roughness,cos_beta,value");
+    std::vector<TableRow> rows;
+    while (std::getline(lines, line))
+    {
+        std::replace(line.begin(), line.end(), ',', ' ');
+        TableRow row;
+        std::istringstream(line) >> row.aperture >> row.roughness >> row.cos_beta >> row.value;
+        rows.push_back(row);
+    }
+    return rows;
 }
 
 class ExtractCut : public ::testing::Test
@@ -212,6 +236,44 @@ TEST_F(ExtractCut, saysWhereItCannotWrite)
     ASSERT_FALSE(status.ok());
     EXPECT_EQ(status.error().issue, Issue::cannot_write);
     EXPECT_EQ(sandbox.list(), std::vector<std::string>{"small.hearth"});
+}
+
+TEST(ExtractSpecular, writesEveryNodeOfTheTable)
+{
+    const Sandbox sandbox;
+    PackModel model = smallPack();
+    writePackFile(model, sandbox / "small.hearth");
+    ASSERT_TRUE(command::extractSpecular(sandbox / "small.hearth", sandbox / "table.csv").ok());
+    const std::vector<TableRow> rows = readTable(sandbox.read("table.csv"));
+    ASSERT_EQ(rows.size(), 4096u);
+    EXPECT_NEAR(rows[17].aperture, 1 / 15.0, 1e-6);
+    EXPECT_NEAR(rows[17].roughness, 0.089 + 0.911 / 15, 1e-6);
+    EXPECT_NEAR(rows[17].cos_beta, -1, 1e-6);
+    EXPECT_NEAR(rows[17].value, 17 / 255.0, 1e-6);
+    EXPECT_NEAR(rows[4095].roughness, 1, 1e-6);
+    EXPECT_NEAR(rows[4095].cos_beta, 1, 1e-6);
+    EXPECT_EQ(rows[4095].value, 1);
+
+    model.specular_tables[0].spacing = 1;
+    writeSpecularPart(model, sandbox / "specular.part");
+    ASSERT_TRUE(command::extractSpecular(sandbox / "specular.part", sandbox / "table.csv").ok());
+    const double half_sine = 1 - 1 / 15.0;
+    EXPECT_NEAR(readTable(sandbox.read("table.csv"))[256].cos_beta, 1 - 2 * half_sine * half_sine, 1e-6);
+}
+
+TEST(ExtractSpecular, refusesFilesWithoutATable)
+{
+    const Sandbox sandbox;
+    PackModel model = smallPack();
+    model.specular_tables[0].masking = 9;
+    writeSpecularPart(model, sandbox / "wrong.part");
+    EXPECT_EQ(command::extractSpecular(sandbox / "wrong.part", sandbox / "t").error().issue,
+              Issue::meaning_value);
+    model.specular_tables.clear();
+    writePackFile(model, sandbox / "small.hearth");
+    EXPECT_EQ(command::extractSpecular(sandbox / "small.hearth", sandbox / "t").error().issue,
+              Issue::chunk_missing);
+    EXPECT_FALSE(sandbox.has("t"));
 }
 
 } // namespace hearth::test

@@ -43,7 +43,7 @@ protected:
         return pack;
     }
 
-    Status link() { return link::linkPack(sources, sandbox / "out.hearth"); }
+    Status link() { return link::linkPack(sources, sandbox / "out.hearth", specular); }
 
     PackView linked()
     {
@@ -55,6 +55,7 @@ protected:
 
     Sandbox sandbox;
     std::vector<link::SourceParts> sources;
+    std::vector<std::string> specular;
 };
 
 template <typename T>
@@ -157,6 +158,41 @@ TEST_F(LinkPack, sourceWithoutDeformedMeshesNeedsNoBounds)
     model.deformed_groups.clear();
     addParts(model, "a");
     EXPECT_EQ(linked().container().find(kChunkDeformedMeshes), nullptr);
+}
+
+TEST_F(LinkPack, takesOneTableOfSpecularOcclusion)
+{
+    addParts(smallPack(), "a");
+    EXPECT_TRUE(linked().specularTables().empty()) << "that of an import part is none";
+    PackModel model = smallPack();
+    writeSpecularPart(model, sandbox / "one.part");
+    writeSpecularPart(model, sandbox / "same.part");
+    model.specular_tables[0].values[15] = 254;
+    writeSpecularPart(model, sandbox / "other.part");
+
+    specular = {sandbox / "one.part", sandbox / "same.part"};
+    const PackView pack = linked();
+    EXPECT_TRUE(sameBytes(pack.specularTables(), smallPack().specular_tables));
+
+    specular.push_back(sandbox / "other.part");
+    const Status differs = link();
+    ASSERT_FALSE(differs.ok());
+    EXPECT_EQ(differs.error().issue, Issue::meaning_reference);
+    EXPECT_EQ(differs.error().file, sandbox / "other.part");
+
+    specular = {sandbox / "a.clusters.part"};
+    EXPECT_EQ(link().error().issue, Issue::chunk_missing);
+}
+
+TEST_F(LinkPack, refusesAWrongTableOfSpecularOcclusion)
+{
+    addParts(smallPack(), "a");
+    PackModel model = smallPack();
+    model.specular_tables[0].spacing = 7;
+    writeSpecularPart(model, sandbox / "wrong.part");
+    specular = {sandbox / "wrong.part"};
+    EXPECT_EQ(link().error().issue, Issue::meaning_value);
+    EXPECT_FALSE(sandbox.has("out.hearth"));
 }
 
 TEST_F(LinkPack, secondSourceStandsBehindTheFirst)

@@ -78,6 +78,13 @@ void writeParts(const PackModel& pack, const std::string& folder, const std::str
     writeFile(path + ".skinning.part", assemble(ContainerKind::part, skinning_chunks));
 }
 
+void writeSpecularPart(const PackModel& pack, const std::string& path)
+{
+    const ChunkImage chunks[] = {plainChunk(kChunkSpecular, 0, sizeof(SpecularTableRecord),
+                                            std::as_bytes(std::span(pack.specular_tables)))};
+    writeFile(path, assemble(ContainerKind::part, chunks));
+}
+
 void writePackFile(const PackModel& pack, const std::string& path)
 {
     writeFile(path, pack.bytes());

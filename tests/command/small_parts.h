@@ -13,6 +13,9 @@ namespace hearth::test
 /// The string table stands in both import and clusters parts. Ends the test program where it cannot.
 void writeParts(const PackModel& pack, const std::string& folder, const std::string& prefix);
 
+/// Write a part with the specular tables of `pack`.
+void writeSpecularPart(const PackModel& pack, const std::string& path);
+
 /// A META text as hearth-import writes it, of an asset called `name`.
 std::string importMeta(const std::string& name);
 
