@@ -10,6 +10,7 @@
 #include "runtime/gpu/shadow_plan.h"
 #include "runtime/gpu/uploader.h"
 
+#include <algorithm>
 #include <array>
 #include <memory>
 #include <vector>
@@ -118,6 +119,13 @@ struct Scene
     uint32_t dropped_lights = 0;   ///< lights of the pack beyond shared::kMaxLights
     Box3 bounds;                   ///< world space, empty where there is nothing to draw
 };
+
+/// Whether a mesh says what it sees of the sky: else the settings of its occlusion do nothing.
+inline bool hasSkyVisibility(const Scene& scene)
+{
+    return std::any_of(scene.materials.begin(), scene.materials.end(),
+                       [](const SceneMaterial& m) { return m.variant.sky_visibility != 0; });
+}
 
 /// The first ones of the work list.
 inline uint32_t rigidItems(const Scene& scene)
