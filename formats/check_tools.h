@@ -126,5 +126,6 @@ Status checkMeshTables(const PackView& view);
 Status checkPageTables(const PackView& view);
 Status checkPageGeometry(const PackView& view);
 Status checkDeformedMeshes(const PackView& view);
+Status checkSpecularTable(const PackView& view);
 
 } // namespace hearth::formats::check

@@ -5,6 +5,7 @@
 #include "formats/deformation.h"
 #include "formats/mesh.h"
 #include "formats/scene.h"
+#include "formats/specular.h"
 
 #include <algorithm>
 #include <array>
@@ -57,6 +58,8 @@ inline constexpr std::array kChunkList{
     ChunkInfo{kChunkClusterJoints, 1, "u32[]", false, "which joints move each of these clusters"},
     ChunkInfo{kChunkDeformedGroups, 1, "DeformedGroupRecord[]", false,
               "parts only: where their groups can be"},
+    ChunkInfo{kChunkSpecular, 1, "SpecularTableRecord[]", false,
+              "the table of specular occlusion, one at most"},
 };
 
 /// The list's line for a type, or nullptr: readers skip types that they do not know.

@@ -57,6 +57,7 @@ constexpr RecordTable kRecords[] = {
     HEARTH_RECORD_TABLE(DeformedMeshRecord),
     HEARTH_RECORD_TABLE(DeformedClusterRecord),
     HEARTH_RECORD_TABLE(DeformedGroupRecord),
+    HEARTH_RECORD_TABLE(SpecularTableRecord),
 };
 #undef HEARTH_RECORD_TABLE
 
@@ -150,6 +151,12 @@ std::vector<ValueTable> valueTables()
           value("morph_position", SourceSemantic::morph_position, "f32[3] deltas, set = target"),
           value("morph_normal", SourceSemantic::morph_normal, "f32[3] deltas, set = target"),
           value("morph_tangent", SourceSemantic::morph_tangent, "f32[3] deltas, set = target")}},
+        {"SpecularMasking",
+         {value("separable", SpecularMasking::separable, "G1(view) G1(light)"),
+          value("correlated", SpecularMasking::correlated, "height-correlated: that of the runtime's BRDF")}},
+        {"SpecularSpacing",
+         {value("cosine", SpecularSpacing::cosine, "uniform in cos(beta)"),
+          value("half sine", SpecularSpacing::half_sine, "uniform in 1 - sin(beta / 2)")}},
     };
 }
 

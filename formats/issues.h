@@ -83,6 +83,8 @@ enum class IssueClass : uint8_t
       "correct the value in the profile")                                                                    \
     X(camera_path, 1600, malformed, "a camera path is not valid",                                            \
       "write a camera a line: PX,PY,PZ,TX,TY,TZ,FOV")                                                        \
+    X(table_rows, 1601, malformed, "rows of numbers are not as they should be",                              \
+      "write the column names first, then a row of numbers a line")                                          \
     X(container_truncated, 2000, malformed, "the file is too short", "cook the asset again")                 \
     X(container_magic, 2001, malformed, "the file is not a Hearth container", "name a .hearth file")         \
     X(container_version, 2002, malformed, "the file was written by another major version",                   \

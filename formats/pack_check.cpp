@@ -118,7 +118,8 @@ Status checkPack(const PackView& view)
     HEARTH_TRY(check::checkShadowSpheres(view));
     HEARTH_TRY(checkHierarchy(view));
     HEARTH_TRY(check::checkMaterialsOfClusters(view));
-    return check::checkDeformedMeshes(view);
+    HEARTH_TRY(check::checkDeformedMeshes(view));
+    return check::checkSpecularTable(view);
 }
 
 } // namespace hearth::formats

@@ -120,6 +120,7 @@ Status PackView::readTables()
     HEARTH_TRY(table(kChunkDeformedMeshes, deformed_meshes_));
     HEARTH_TRY(table(kChunkDeformedClusters, deformed_clusters_));
     HEARTH_TRY(table(kChunkClusterJoints, cluster_joints_));
+    HEARTH_TRY(table(kChunkSpecular, specular_tables_));
 
     // pages are read one by one from the file, each with its own codec
     const ChunkEntry* pages = reader_.find(kChunkPages);

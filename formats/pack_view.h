@@ -8,6 +8,7 @@
 #include "formats/deformation.h"
 #include "formats/mesh.h"
 #include "formats/scene.h"
+#include "formats/specular.h"
 #include "formats/visibility_code.h"
 
 #include <array>
@@ -296,6 +297,8 @@ public:
     std::span<const DeformedMeshRecord> deformedMeshes() const { return deformed_meshes_.span(); }
     std::span<const DeformedClusterRecord> deformedClusters() const { return deformed_clusters_.span(); }
     std::span<const uint32_t> clusterJoints() const { return cluster_joints_.span(); }
+    /// None or one.
+    std::span<const SpecularTableRecord> specularTables() const { return specular_tables_.span(); }
 
     /// Chunk PAGE, as it lies in the file.
     std::span<const std::byte> pageBytes() const { return page_bytes_.bytes(); }
@@ -346,6 +349,7 @@ private:
     Records<DeformedMeshRecord> deformed_meshes_;
     Records<DeformedClusterRecord> deformed_clusters_;
     Records<uint32_t> cluster_joints_;
+    Records<SpecularTableRecord> specular_tables_;
     ChunkData page_bytes_;
 };
 

@@ -204,7 +204,7 @@ Status writeClustersPart(const ContainerReader& part, const std::string& output_
     HEARTH_ASSIGN_OR_RETURN(const LodLists lods, readLodLists(part, mesh_count));
     HEARTH_ASSIGN_OR_RETURN(const PartMotion motion, PartMotion::read(part));
     Tables tables;
-    HEARTH_TRY(writer.beginChunk({.type = kChunkPages}, 1));
+    HEARTH_TRY(writer.beginChunk({.type = kChunkPages, .version = chunkVersion(kChunkPages)}, 1));
     for (uint32_t first = 0; first < mesh_count;)
     {
         const uint32_t end = endOfBatch(part, first, mesh_count);

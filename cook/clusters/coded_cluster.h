@@ -5,20 +5,14 @@
 
 #include "cook/clusters/cluster.h"
 #include "cook/clusters/hierarchy.h"
+#include "cook/pages/page_encode.h"
 
 #include <span>
-#include <vector>
 
 namespace hearth::clusters
 {
 
-/// Geometry of a cluster, decoded: what formats/mesh.h says of a page, one cluster at its page_word.
-struct CodedCluster
-{
-    std::vector<uint32_t> words;  ///< UV bases, then vertices
-    std::vector<uint8_t> indices; ///< three for each triangle
-    std::vector<uint32_t> morphs; ///< the morph section; empty in a mesh without targets
-};
+using pages::CodedCluster;
 
 /// How the vertices of a mesh are coded: as coarse as Config allows and the values do.
 uint32_t chooseLayout(const PreparedMesh& mesh, const Config& config);

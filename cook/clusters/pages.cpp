@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/clusters/pages.h"
 
-#include "cook/clusters/page_encode.h"
+#include "cook/clusters/coded_cluster.h"
 #include "formats/assert.h"
 #include "formats/container_reader.h"
 #include "formats/vertex_codec.h"
@@ -145,7 +145,7 @@ private:
     std::vector<CodedCluster> coded_; ///< from first_coded_ on
     size_t first_coded_ = 0;
     size_t stored_pages_ = 0;
-    tbb::enumerable_thread_specific<PageEncoder> encoders_;
+    tbb::enumerable_thread_specific<pages::PageEncoder> encoders_;
 };
 
 /// The pages that must be there before each page: those of the clusters that were made from its groups.

@@ -62,8 +62,10 @@ class SlopeLobe
 {
 public:
     explicit SlopeLobe(const Lobe& lobe)
-        : alpha_(lobe.roughness * lobe.roughness), view_x_(-std::sin(lobe.theta_o)),
-          view_z_(std::max(std::cos(lobe.theta_o), 0.0)), masking_(lobe.masking)
+        : alpha_(lobe.roughness * lobe.roughness),
+          view_x_(-std::sin(lobe.theta_o)),
+          view_z_(std::max(std::cos(lobe.theta_o), 0.0)),
+          masking_(lobe.masking)
     {
         const double tangent = -view_x_ / view_z_; // may be infinite
         view_masking_ = 0.5 + 0.5 * std::sqrt(1 + alpha_ * alpha_ * tangent * tangent);
@@ -108,7 +110,10 @@ class SlopeCone
 {
 public:
     SlopeCone(const SlopeLobe& lobe, const Double3& axis, double half_angle)
-        : view_x_(lobe.viewX()), view_z_(lobe.viewZ()), axis_(axis), cosine_(std::cos(half_angle)),
+        : view_x_(lobe.viewX()),
+          view_z_(lobe.viewZ()),
+          axis_(axis),
+          cosine_(std::cos(half_angle)),
           level_(view_x_ * axis.x + view_z_ * axis.z + cosine_)
     {
     }

@@ -4,26 +4,24 @@
 #pragma once
 
 #include "formats/double3.h"
+#include "formats/specular.h"
 
 #include <span>
 
 namespace hearth::specular
 {
 
-/// Which of Smith's masking-shadowing functions.
-/// E. Heitz, "Understanding the masking-shadowing function in microfacet-based BRDFs", JCGT 2014.
-enum class Masking
-{
-    separable = 0,  ///< masking and shadowing independent
-    correlated = 1, ///< both grow with the height of the microfacet: what the runtime's BRDF uses
-};
+/// E. Heitz, "Understanding the masking-shadowing function in microfacet-based BRDFs", JCGT 2014. The runtime's BRDF has the
+/// height-correlated one.
+using Masking = formats::SpecularMasking;
 
 /// A lobe in the frame of its normal N = (0, 0, 1): the view is V = (-sin theta_o, 0, cos theta_o), its mirror
 /// direction R = (sin theta_o, 0, cos theta_o).
 struct Lobe
 {
     double roughness = 1; ///< above 0, to 1; GGX alpha is its square
-    double theta_o = 0;   ///< angle between view and normal in radians, 0 to pi / 2 included: the limit of grazing views
+    double theta_o =
+        0; ///< angle between view and normal in radians, 0 to pi / 2 included: the limit of grazing views
     Masking masking = Masking::correlated;
 };
 
@@ -37,8 +35,8 @@ struct Cone
 /// Points of the quadrature: of each piece of the outer integral, and of each interval of the inner one.
 struct Fineness
 {
-    int outer = 24;
-    int inner = 16;
+    int outer = 32;
+    int inner = 24;
 };
 
 /// S = int D G2 / (4 cos_o) dw over the cone above the horizon, as a share of the same integral over all directions above

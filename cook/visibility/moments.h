@@ -14,7 +14,7 @@ namespace hearth::visibility
 struct Moments
 {
     float m0 = 0;
-    formats::Float3 m1;
+    Float3 m1;
 };
 
 } // namespace hearth::visibility

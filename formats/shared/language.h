@@ -1,6 +1,6 @@
 // Lets one header be C++ and GLSL: the types and words in which formats/shared is written.
 // Only what both languages understand may be used there: no swizzles, no references, no library beyond what is named here.
-// Bits agree where only + - * / and sqrt are used; angles and powers are as exact as each library has them.
+// Bits agree where only + - * / and sqrt are used; angles are as exact as each library has them.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #ifndef HEARTH_SHARED_LANGUAGE_H
 #define HEARTH_SHARED_LANGUAGE_H
@@ -28,11 +28,7 @@ namespace hearth::shared
 using uint = uint32_t;
 using std::abs;
 using std::acos;
-using std::atan2;
-using std::cos;
 using std::floor;
-using std::pow;
-using std::sin;
 using std::sqrt;
 inline float max(float a, float b)
 {
@@ -66,7 +62,6 @@ inline uint floatBits(float value)
 
 #define floatBits floatBitsToUint
 #define arcTangent atan
-#define atan2 atan
 
 #define Float2 vec2
 #define Float3 vec3

@@ -262,7 +262,7 @@ Status writeDeformedMeshes(ContainerWriter& writer, std::span<const Source> sour
 Status writePages(ContainerWriter& writer, std::span<const Source> sources)
 {
     constexpr std::byte kZeros[kChunkAlignment] = {};
-    HEARTH_TRY(writer.beginChunk({.type = kChunkPages}, 1));
+    HEARTH_TRY(writer.beginChunk({.type = kChunkPages, .version = chunkVersion(kChunkPages)}, 1));
     for (const Source& source : sources)
     {
         const std::span<const std::byte> pages = source.clusters_part.pageBytes();

@@ -82,10 +82,10 @@ TEST_F(Inspect, countsWhatEachMeshHas)
     EXPECT_EQ(strip["pages"], 3);
     EXPECT_DOUBLE_EQ(strip["fill"]["triangles_per_cluster"].get<double>(), 2.0);
     EXPECT_DOUBLE_EQ(strip["fill"]["vertices_per_cluster"].get<double>(), 4.0);
-    // 6 quads of 4 vertices, each 5 words, behind a UV base of 2; 6 indices each, padded to 8 bytes
-    EXPECT_EQ(strip["bytes"]["vertices"], 6 * (4 * 5 + 2) * 4);
+    // 6 quads of 4 vertices, each 6 words, behind a UV base of 2; 6 indices each, padded to 8 bytes
+    EXPECT_EQ(strip["bytes"]["vertices"], 6 * (4 * 6 + 2) * 4);
     EXPECT_EQ(strip["bytes"]["indices"], 6 * 8);
-    EXPECT_EQ(strip["bytes"]["pages"], 6 * ((4 * 5 + 2) * 4 + 8));
+    EXPECT_EQ(strip["bytes"]["pages"], 6 * ((4 * 6 + 2) * 4 + 8));
     EXPECT_EQ(strip["bytes"]["records"], 104 + 2 * 16 + 3 * 64 + 6 * 48 + 3 * 56 + 2 * 4);
 
     EXPECT_TRUE(json["meshes"][1]["levels"].empty());

@@ -168,6 +168,28 @@ TEST_F(ClustersProgram, codesNormalsAsAProfileSays)
     EXPECT_TRUE(isFine(16));
 }
 
+TEST_F(ClustersProgram, givesVerticesAnOpenVisibilityOnRequest)
+{
+    for (const bool wanted : {false, true})
+    {
+        std::vector<std::string> arguments{"rock.obj", "-o", "rock.part"};
+        if (wanted)
+            arguments.push_back("--visibility");
+        ASSERT_EQ(run(arguments).exit_code, 0);
+        auto reader = formats::ContainerReader::open(sandbox_ / "rock.part");
+        ASSERT_TRUE(reader.ok());
+        const auto view = formats::PackView::read(std::move(*reader));
+        ASSERT_TRUE(view.ok());
+        const formats::MeshRecord& mesh = view->meshes()[0];
+        ASSERT_EQ((mesh.attributes & formats::kVertexVisibility) != 0, wanted);
+        const std::vector<std::byte> page = view->decodePage(0).value();
+        const auto cluster = formats::ClusterGeometry::at(page, view->clusters()[0], mesh);
+        ASSERT_TRUE(cluster.has_value());
+        for (uint32_t v = 0; wanted && v < cluster->vertexCount(); ++v)
+            ASSERT_EQ(cluster->visibilityCode(v), formats::kVisibilityOpen);
+    }
+}
+
 TEST_F(ClustersProgram, takesLevelsMadeByHandAsTheImportDoes)
 {
     sandbox_.write("low.obj", objOf(shapes::rock(8, 0.3f)));

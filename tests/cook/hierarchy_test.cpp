@@ -236,6 +236,20 @@ TEST(Hierarchy, keepsFineNormalsWhereTheyAreSmooth)
     EXPECT_EQ(buildHierarchy(shapes::rock(48, 0.4f)).mesh.attributes & formats::kVertexFineNormal, 0u);
 }
 
+TEST(Hierarchy, withVisibilityIsValid)
+{
+    Config config;
+    config.visibility = true;
+    for (mesh::SourceMesh source : {shapes::rock(24, 0.3f), shapes::tangle(60, 400)})
+    {
+        const bool has_normals = !source.normals.empty();
+        const Hierarchy hierarchy = buildHierarchy(source, config);
+        EXPECT_EQ((hierarchy.mesh.attributes & formats::kVertexVisibility) != 0, has_normals);
+        const Status valid = validateHierarchy(source, hierarchy);
+        EXPECT_TRUE(valid.ok()) << formatMessage(valid.error());
+    }
+}
+
 TEST(Hierarchy, ofFoliageKeepsItsArea)
 {
     const std::vector<double> areas = areasOfLevels(buildHierarchy(shapes::foliage(6000)));

@@ -14,7 +14,7 @@ using namespace formats;
 namespace
 {
 
-size_t bytesOf(const clusters::CodedCluster& cluster)
+size_t bytesOf(const pages::CodedCluster& cluster)
 {
     return 4 * (cluster.words.size() + (cluster.indices.size() + 3) / 4 + cluster.morphs.size());
 }
@@ -23,7 +23,7 @@ size_t bytesOf(const clusters::CodedCluster& cluster)
 ClusterRecord& beginCluster(RandomPage& page, bool wide, std::mt19937& random)
 {
     size_t used = 0;
-    for (const clusters::CodedCluster& cluster : page.clusters)
+    for (const pages::CodedCluster& cluster : page.clusters)
         used += bytesOf(cluster);
     ClusterRecord record{};
     for (int32_t& base : record.base)
@@ -72,7 +72,7 @@ void addVertex(RandomPage& page, uint32_t layout, uint32_t x, uint32_t y, uint32
 std::vector<std::byte> RandomPage::content() const
 {
     std::vector<std::byte> bytes;
-    for (const clusters::CodedCluster& cluster : clusters)
+    for (const pages::CodedCluster& cluster : clusters)
     {
         const auto append = [&](const auto& values)
         {

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include "cook/clusters/page_encode.h"
+#include "cook/pages/page_encode.h"
 
 #include <random>
 #include <vector>
@@ -15,7 +15,7 @@ struct RandomPage
     uint32_t layout = 0;        ///< of the mesh
     uint32_t morph_targets = 0; ///< each cluster has up to so many of them
     std::vector<formats::ClusterRecord> records;
-    std::vector<clusters::CodedCluster> clusters;
+    std::vector<pages::CodedCluster> clusters;
 
     /// What the page is when it is decoded.
     std::vector<std::byte> content() const;

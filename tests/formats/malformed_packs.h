@@ -37,4 +37,7 @@ const std::vector<MalformedPack>& malformedHierarchies();
 /// Wrong bounds of deformed meshes.
 const std::vector<MalformedPack>& malformedDeformations();
 
+/// Wrong tables of specular occlusion.
+const std::vector<MalformedPack>& malformedSpecularTables();
+
 } // namespace hearth::test

@@ -108,6 +108,8 @@ constexpr auto kCaseName = [](const testing::TestParamInfo<MalformedPack>& info)
 INSTANTIATE_TEST_SUITE_P(Scene, MalformedPackTest, testing::ValuesIn(malformedScenes()), kCaseName);
 INSTANTIATE_TEST_SUITE_P(Deformation, MalformedPackTest, testing::ValuesIn(malformedDeformations()),
                          kCaseName);
+INSTANTIATE_TEST_SUITE_P(Specular, MalformedPackTest, testing::ValuesIn(malformedSpecularTables()),
+                         kCaseName);
 INSTANTIATE_TEST_SUITE_P(Hierarchy, MalformedPackTest, testing::ValuesIn(malformedHierarchies()), kCaseName);
 
 TEST(MalformedPacks, haveOneForEveryIssueOfMeaning)

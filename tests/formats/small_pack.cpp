@@ -255,6 +255,18 @@ void addBounds(PackModel& pack)
         {group.sphere_center, group.sphere_radius, static_cast<uint32_t>(pack.groups.size() - 1)});
 }
 
+/// A table in which only the aperture matters.
+void addSpecularTable(PackModel& pack)
+{
+    SpecularTableRecord table{};
+    table.aperture_nodes = table.roughness_nodes = table.beta_nodes = shared::kSpecularNodes;
+    table.normal_lambda = 0.5f;
+    table.least_roughness = shared::kSpecularLeastRoughness;
+    for (uint32_t i = 0; i < kSpecularTexels; ++i)
+        table.values[i] = static_cast<uint8_t>(17 * (i % shared::kSpecularNodes));
+    pack.specular_tables.push_back(table);
+}
+
 void addNodes(PackModel& pack)
 {
     NodeRecord node{};
@@ -470,6 +482,7 @@ std::vector<ChunkImage> PackModel::chunks(bool compressed) const
     table(kChunkDeformedMeshes, deformed_meshes);
     table(kChunkDeformedClusters, deformed_clusters);
     table(kChunkClusterJoints, cluster_joints);
+    table(kChunkSpecular, specular_tables);
     list.push_back(plainChunk(kChunkPages, 0, 1, page_bytes));
     for (uint32_t i = 0; i < image_data.size(); ++i)
         bytes(kChunkImageData, i, 1, image_data[i]);
@@ -488,6 +501,7 @@ PackModel smallPack()
     endMesh(pack, 0);
     addTriangle(pack);
     addBounds(pack);
+    addSpecularTable(pack);
     pack.sealPages();
     return pack;
 }

@@ -5,6 +5,7 @@
 #include "formats/deformation.h"
 #include "formats/mesh.h"
 #include "formats/scene.h"
+#include "formats/specular.h"
 #include "tests/formats/container_image.h"
 
 #include <string>
@@ -45,6 +46,7 @@ struct PackModel
     std::vector<formats::DeformedClusterRecord> deformed_clusters;
     std::vector<uint32_t> cluster_joints;
     std::vector<formats::DeformedGroupRecord> deformed_groups; ///< in parts alone
+    std::vector<formats::SpecularTableRecord> specular_tables;
 
     /// Encode decoded_pages into page_bytes again, and set offset, size and hash of the page records.
     /// The second page is stored as it is, the others by zstd.

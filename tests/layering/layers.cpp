@@ -19,8 +19,8 @@ struct Layer
     Folders may_include; ///< besides itself
 };
 
-// The first line that a path starts with holds. A folder of cook/ that is not named sees formats, cook/tools, cook/mesh
-// and cook/motion only.
+// The first line that a path starts with holds. A folder of cook/ that is not named sees formats, cook/tools, cook/mesh,
+// cook/motion, cook/pages and cook/sampling only.
 const std::vector<Layer>& layers()
 {
     static const std::vector<Layer> list = {
@@ -28,7 +28,10 @@ const std::vector<Layer>& layers()
         {"cook/tools/", {"formats/"}},
         {"cook/mesh/", {"formats/"}},
         {"cook/motion/", {"formats/"}},
-        {"cook/", {"formats/", "cook/tools/", "cook/mesh/", "cook/motion/"}},
+        {"cook/pages/", {"formats/"}},
+        {"cook/sampling/", {"formats/"}},
+        {"cook/",
+         {"formats/", "cook/tools/", "cook/mesh/", "cook/motion/", "cook/pages/", "cook/sampling/"}},
         // extract draws the cut that the runtime would draw
         {"pipelines/command/", {"formats/", "cook/", "pipelines/", "runtime/pack/"}},
         {"pipelines/", {"formats/", "cook/", "pipelines/"}},
@@ -54,7 +57,7 @@ const std::vector<Library>& libraries()
 {
     static const std::vector<Library> list = {
         {"xxhash.h", {"formats/"}},
-        {"zstd.h", {"formats/", "cook/clusters/"}}, // the cluster cooker compresses pages, in parallel
+        {"zstd.h", {"formats/", "cook/clusters/", "cook/pages/"}}, // pages are compressed in parallel
         {"vulkan/", {"runtime/gpu/", "runtime/c/", "runtime/viewer/"}, true},
         {"SDL.h", {"runtime/viewer/window/"}},
         {"SDL_vulkan.h", {"runtime/viewer/window/"}},
@@ -82,6 +85,7 @@ const std::vector<Library>& libraries()
         {"toml++/", {"cook/", "pipelines/"}},
         {"tbb/", {"cook/", "pipelines/", "sample_assets/"}, true},
         {"embree3/", {"cook/"}},
+        {"xmmintrin.h", {"cook/visibility/"}}, // how Embree wants the processor set
         {"CGAL/", {"cook/"}},
         {"Eigen/", {"cook/"}, true},
         {"ceres/", {"cook/"}},

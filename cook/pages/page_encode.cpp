@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "cook/clusters/page_encode.h"
+#include "cook/pages/page_encode.h"
 
-#include "cook/clusters/entropy_blocks.h"
-#include "cook/clusters/page_planes.h"
-#include "cook/clusters/triangle_walk.h"
+#include "cook/pages/entropy_blocks.h"
+#include "cook/pages/page_planes.h"
+#include "cook/pages/triangle_walk.h"
 #include "formats/assert.h"
 #include "formats/cluster_bounds.h"
 
 #include <algorithm>
 #include <bit>
 #include <cstring>
+#include <optional>
 
-namespace hearth::clusters
+namespace hearth::pages
 {
 
 namespace
@@ -133,8 +134,10 @@ class PageEncoder::State
 {
 public:
     std::vector<std::byte> encode(std::span<const ClusterRecord> records, uint32_t mesh_layout,
-                                  std::span<CodedCluster> clusters)
+                                  std::span<CodedCluster> clusters,
+                                  std::optional<std::span<const uint8_t>> codes)
     {
+        codes_ = codes;
         lanes_ = vertexLanes(mesh_layout);
         masks_ = LaneMasks(lanes_);
         blocks_ = (lanes_.count + kHalves - 1) / kHalves;
@@ -181,7 +184,8 @@ private:
             std::fill_n(c.known.begin(), vertices, uint16_t{0});
         else
             readRows(record, cluster);
-        const auto steps = walk_.walk(cluster.indices, std::span(c.known).first(vertices));
+        const auto steps = codes_ ? walk_.again(cluster.indices, takeCodes(record.triangle_count))
+                                  : walk_.walk(cluster.indices, std::span(c.known).first(vertices));
         static_cast<void>(addTriangle(steps[0]));
         for (size_t i = 1; i < steps.size(); i += 2)
         {
@@ -200,6 +204,13 @@ private:
         for (const uint32_t word : cluster.morphs)
             for (size_t i = 0; i < streams_.morphs.size(); ++i)
                 streams_.morphs[i].push_back(static_cast<uint8_t>(word >> 8 * i));
+    }
+
+    std::span<const uint8_t> takeCodes(uint32_t triangle_count)
+    {
+        const auto codes = codes_->first(codeBytes(triangle_count));
+        codes_ = codes_->subspan(codes.size());
+        return codes;
     }
 
     void readRows(const ClusterRecord& record, const CodedCluster& cluster)
@@ -369,6 +380,8 @@ private:
         return blocks_of_streams_.compress();
     }
 
+    std::optional<std::span<const uint8_t>>
+        codes_; ///< of the page as it was stored; those of the clusters that are left
     VertexLanes lanes_;
     LaneMasks masks_{VertexLanes{}};
     size_t blocks_ = 0; ///< vectors of a vertex
@@ -393,7 +406,14 @@ PageEncoder::~PageEncoder() = default;
 std::vector<std::byte> PageEncoder::encode(std::span<const ClusterRecord> records, uint32_t mesh_layout,
                                            std::span<CodedCluster> clusters)
 {
-    return state_->encode(records, mesh_layout, clusters);
+    return state_->encode(records, mesh_layout, clusters, std::nullopt);
 }
 
-} // namespace hearth::clusters
+std::vector<std::byte> PageEncoder::encodeAgain(std::span<const ClusterRecord> records, uint32_t mesh_layout,
+                                                std::span<CodedCluster> clusters,
+                                                std::span<const uint8_t> codes)
+{
+    return state_->encode(records, mesh_layout, clusters, codes);
+}
+
+} // namespace hearth::pages

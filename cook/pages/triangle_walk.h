@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-namespace hearth::clusters
+namespace hearth::pages
 {
 
 /// Where a triangle starts: formats::kEdge*, or from nothing.
@@ -32,6 +32,12 @@ public:
     /// indices  three for each of at most kClusterMaxTriangles
     /// known    of each vertex: not 0 where an earlier cluster has it; the walk begins there
     std::span<const WalkStep> walk(std::span<const uint8_t> indices, std::span<const uint16_t> known);
+
+    /// The walk that a stored page has gone already: its triangles, as they stand there, and its codes of them. Valid until
+    /// the next walk.
+    ///
+    /// codes  of the cluster, in formats::codeBytes
+    std::span<const WalkStep> again(std::span<const uint8_t> indices, std::span<const uint8_t> codes);
 
 private:
     static constexpr uint16_t kNothing = 4 * formats::kClusterMaxTriangles;
@@ -64,4 +70,4 @@ private:
     uint32_t step_count_ = 0;
 };
 
-} // namespace hearth::clusters
+} // namespace hearth::pages

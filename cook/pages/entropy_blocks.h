@@ -12,7 +12,7 @@
 
 struct ZSTD_CCtx_s;
 
-namespace hearth::clusters
+namespace hearth::pages
 {
 
 using Histogram = std::array<uint32_t, 256>;
@@ -58,4 +58,4 @@ private:
     double bits_ = 0;       ///< that it takes
 };
 
-} // namespace hearth::clusters
+} // namespace hearth::pages

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "cook/clusters/page_planes.h"
+#include "cook/pages/page_planes.h"
 
-#include "cook/clusters/entropy_blocks.h"
+#include "cook/pages/entropy_blocks.h"
 
 #include <algorithm>
 #include <bit>
 #include <cstring>
 
-namespace hearth::clusters
+namespace hearth::pages
 {
 
 using namespace formats;
@@ -279,4 +279,4 @@ void PagePlanes::collectEscapes(const LaneForms& forms)
         }
 }
 
-} // namespace hearth::clusters
+} // namespace hearth::pages

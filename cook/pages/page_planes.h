@@ -10,7 +10,7 @@
 #include <span>
 #include <vector>
 
-namespace hearth::clusters
+namespace hearth::pages
 {
 
 inline constexpr size_t kMostBlocks = (formats::kMaxLanes + formats::kHalves - 1) / formats::kHalves;
@@ -56,4 +56,4 @@ private:
     std::vector<uint8_t> escapes_;
 };
 
-} // namespace hearth::clusters
+} // namespace hearth::pages

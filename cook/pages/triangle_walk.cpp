@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "cook/clusters/triangle_walk.h"
+#include "cook/pages/triangle_walk.h"
 
 #include <algorithm>
 
-namespace hearth::clusters
+namespace hearth::pages
 {
 
 using namespace formats;
@@ -122,4 +122,17 @@ std::span<const WalkStep> TriangleWalk::walk(std::span<const uint8_t> indices,
     return std::span(steps_).first(step_count_);
 }
 
-} // namespace hearth::clusters
+std::span<const WalkStep> TriangleWalk::again(std::span<const uint8_t> indices,
+                                              std::span<const uint8_t> codes)
+{
+    indices_ = indices;
+    step_count_ = static_cast<uint32_t>(indices.size() / 3);
+    for (uint32_t t = 0; t < step_count_; ++t)
+    {
+        const uint32_t code = t == 0 ? kCodeRestart : codes[(t - 1) / 2] >> ((t - 1) % 2 * 4) & 15u;
+        steps_[t] = {code == kCodeRestart ? kEdgeNone : static_cast<uint8_t>(code / 3), cornersOf(t)};
+    }
+    return std::span(steps_).first(step_count_);
+}
+
+} // namespace hearth::pages

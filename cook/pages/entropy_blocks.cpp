@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "cook/clusters/entropy_blocks.h"
+#include "cook/pages/entropy_blocks.h"
 
 #include "formats/assert.h"
 
@@ -11,7 +11,7 @@
 #include <cmath>
 #include <cstring>
 
-namespace hearth::clusters
+namespace hearth::pages
 {
 
 namespace
@@ -162,4 +162,4 @@ std::vector<std::byte> EntropyBlocks::compress()
     return packed;
 }
 
-} // namespace hearth::clusters
+} // namespace hearth::pages

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/specular/configurations.h"
+
+#include <cmath>
+#include <numbers>
+#include <random>
+
+namespace hearth::specular
+{
+
+namespace
+{
+
+/// The widest angle between cone axis and normal: farther tilted cones are rare on real models, and nearly closed.
+constexpr double kMostTilt = std::numbers::pi / 3;
+
+/// Uniform in [0, 1). std::uniform_real_distribution is not the same in every library.
+double uniform(std::mt19937_64& random)
+{
+    return static_cast<double>(random() >> 11) * 0x1p-53;
+}
+
+} // namespace
+
+double exactOcclusion(const Configuration& configuration, Masking masking)
+{
+    return occlusionOf({configuration.roughness, configuration.theta_o, masking},
+                       {configuration.axis, configuration.half_angle});
+}
+
+double cosBetaOf(const Configuration& configuration)
+{
+    return std::sin(configuration.theta_o) * configuration.axis.x +
+           std::cos(configuration.theta_o) * configuration.axis.z;
+}
+
+float fitOcclusion(const Configuration& configuration, const shared::SpecularFit& fit)
+{
+    return shared::specularOcclusionBy(
+        fit, static_cast<float>(std::cos(configuration.half_angle)),
+        static_cast<float>(configuration.roughness), static_cast<float>(std::cos(configuration.theta_o)),
+        static_cast<float>(configuration.axis.z), static_cast<float>(cosBetaOf(configuration)));
+}
+
+float tableOcclusion(const Configuration& configuration, const TableValues& values, SpecularSpacing spacing)
+{
+    return lookUp(values, spacing, static_cast<float>(std::cos(configuration.half_angle)),
+                  static_cast<float>(configuration.roughness), static_cast<float>(cosBetaOf(configuration)));
+}
+
+std::vector<Configuration> randomConfigurations(size_t count, uint64_t seed)
+{
+    std::mt19937_64 random(seed);
+    std::vector<Configuration> configurations(count);
+    for (Configuration& configuration : configurations)
+    {
+        constexpr double kLeast = double{shared::kSpecularLeastRoughness};
+        configuration.half_angle = std::numbers::pi / 2 * uniform(random);
+        configuration.roughness = kLeast + (1 - kLeast) * uniform(random);
+        configuration.theta_o = std::numbers::pi / 2 * uniform(random);
+        const double tilt = kMostTilt * uniform(random);
+        const double around = 2 * std::numbers::pi * uniform(random);
+        configuration.axis = {std::sin(tilt) * std::cos(around), std::sin(tilt) * std::sin(around),
+                              std::cos(tilt)};
+    }
+    return configurations;
+}
+
+} // namespace hearth::specular

@@ -1,0 +1,27 @@
+// Finds the constants of the fit in formats/shared/specular_occlusion.h.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "cook/specular/configurations.h"
+
+#include <string>
+
+namespace hearth::specular
+{
+
+struct Refit
+{
+    shared::SpecularFit constants;
+    int iterations = 0;
+    double start_rms = 0; ///< of the constants in the header
+    double rms = 0;
+};
+
+/// Least squares over exact values of random configurations, starting from the constants in the header. Ceres by one thread:
+/// the same constants for the same seed.
+Refit refit(size_t configuration_count, uint64_t seed, Masking masking);
+
+/// The constants as the header has them.
+std::string constantsText(const shared::SpecularFit& fit);
+
+} // namespace hearth::specular

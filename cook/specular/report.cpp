@@ -1,0 +1,284 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/specular/report.h"
+
+#include "cook/specular/older_ways.h"
+#include "formats/assert.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <numeric>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <tbb/parallel_for.h>
+
+namespace hearth::specular
+{
+
+namespace
+{
+
+constexpr double kRightAngle = std::numbers::pi / 2;
+
+/// Nodes of theta_o of the four-dimensional table: 32 KiB.
+constexpr int kViewNodes = 8;
+
+constexpr double kTalksNormalLambda = 0.78;
+
+using Values = std::vector<double>;
+
+ErrorFigures errorsOf(std::string name, const Values& values, const Values& exact)
+{
+    ErrorFigures figures{.name = std::move(name)};
+    const auto count = static_cast<double>(values.size());
+    Values errors(values.size());
+    for (size_t i = 0; i < values.size(); ++i)
+    {
+        const double error = values[i] - exact[i];
+        figures.rms += error * error / count;
+        figures.bias += error / count;
+        errors[i] = std::abs(error);
+    }
+    figures.rms = std::sqrt(figures.rms);
+    std::sort(errors.begin(), errors.end());
+    figures.p95 = errors[errors.size() * 95 / 100];
+    figures.largest = errors.back();
+    return figures;
+}
+
+/// The ways, over one set of configurations.
+class Contest
+{
+public:
+    Contest(std::vector<Configuration> configurations, const TableSettings& settings)
+        : configurations_(std::move(configurations)), settings_(settings)
+    {
+    }
+
+    Values of(const std::function<double(const Configuration&)>& way) const
+    {
+        Values values(configurations_.size());
+        tbb::parallel_for(size_t{0}, values.size(), [&](size_t i) { values[i] = way(configurations_[i]); });
+        return values;
+    }
+
+    Values exact() const
+    {
+        return of([&](const Configuration& c) { return exactOcclusion(c, settings_.masking); });
+    }
+
+    /// A table of three dimensions with infinitely many nodes.
+    Values idealTable(double normal_lambda) const
+    {
+        TableSettings settings = settings_;
+        settings.normal_lambda = normal_lambda;
+        return of(
+            [settings](const Configuration& c)
+            {
+                const double beta = std::acos(std::clamp(cosBetaOf(c), -1.0, 1.0));
+                const AssumedPlace place = assumedPlace(c.roughness, beta, settings);
+                return occlusionOf(place.lobe, {place.axis, c.half_angle});
+            });
+    }
+
+    /// One with 16 each, linear between them; `rounded` to 8 bits or not.
+    Values table(double normal_lambda, SpecularSpacing spacing, bool rounded) const
+    {
+        const TableSettings settings{settings_.masking, normal_lambda, spacing};
+        TableValues values = cookTable(settings);
+        if (rounded)
+            values = unpackTable(packTable(values, settings));
+        return of([&](const Configuration& c) { return double{tableOcclusion(c, values, spacing)}; });
+    }
+
+    /// theta_o is kept; the normal lies in the plane of reflection vector and axis, on the side of the axis.
+    double viewKept(double half_angle, double roughness, double theta_o, double beta) const
+    {
+        const double tilt = theta_o - beta;
+        return occlusionOf({roughness, theta_o, settings_.masking},
+                           {{std::sin(tilt), 0, std::cos(tilt)}, half_angle});
+    }
+
+    Values idealViewKept() const
+    {
+        return of(
+            [this](const Configuration& c) {
+                return viewKept(c.half_angle, c.roughness, c.theta_o,
+                                std::acos(std::clamp(cosBetaOf(c), -1.0, 1.0)));
+            });
+    }
+
+    /// The same between the sixteen nodes around each configuration.
+    Values tableViewKept() const
+    {
+        return of([this](const Configuration& c) { return lookUpViewKept(c); });
+    }
+
+private:
+    double lookUpViewKept(const Configuration& c) const
+    {
+        const Float3 place = shared::specularTablePlace(
+            static_cast<float>(std::cos(c.half_angle)), static_cast<float>(c.roughness),
+            static_cast<float>(cosBetaOf(c)), static_cast<shared::uint>(settings_.spacing));
+        const std::array<double, 4> at{
+            double{place.x} * (shared::kSpecularNodes - 1), double{place.y} * (shared::kSpecularNodes - 1),
+            double{place.z} * (shared::kSpecularNodes - 1), c.theta_o / kRightAngle * (kViewNodes - 1)};
+        double sum = 0;
+        for (uint32_t corner = 0; corner < 16; ++corner)
+        {
+            std::array<uint32_t, 4> node{};
+            double weight = 1;
+            for (uint32_t axis = 0; axis < 4; ++axis)
+            {
+                const uint32_t last = axis == 3 ? kViewNodes - 1 : shared::kSpecularNodes - 1;
+                const uint32_t first = std::min(static_cast<uint32_t>(at[axis]), last - 1);
+                const uint32_t step = corner >> axis & 1;
+                const double part = at[axis] - first;
+                node[axis] = first + step;
+                weight *= step == 1 ? part : 1 - part;
+            }
+            if (weight > 0)
+                sum += weight * viewKept(halfAngleOfNode(node[0]), roughnessOfNode(node[1]),
+                                         kRightAngle * node[3] / (kViewNodes - 1),
+                                         betaOfNode(node[2], settings_.spacing));
+        }
+        return sum;
+    }
+
+    std::vector<Configuration> configurations_;
+    TableSettings settings_;
+};
+
+void compareWays(const Contest& contest, const Values& exact, double lambda, std::vector<ErrorFigures>& ways)
+{
+    const auto add = [&](std::string name, const Values& values)
+    { ways.push_back(errorsOf(std::move(name), values, exact)); };
+    add("fit, no table", contest.of([](const Configuration& c) { return double{fitOcclusion(c)}; }));
+    add(fmt::format("table, cosine, normal lambda {}", lambda),
+        contest.table(lambda, SpecularSpacing::cosine, true));
+    add(fmt::format("table, half sine, normal lambda {}", lambda),
+        contest.table(lambda, SpecularSpacing::half_sine, true));
+    const Values talk = contest.table(kTalksNormalLambda, SpecularSpacing::cosine, true);
+    add(fmt::format("table, cosine, normal lambda {}", kTalksNormalLambda), talk);
+    const Values tilts = contest.of([](const Configuration& c) { return std::max(c.axis.z, 0.0); });
+    Values darkened(talk.size());
+    std::transform(talk.begin(), talk.end(), tilts.begin(), darkened.begin(), std::multiplies<>());
+    add("the same times dot(axis, normal): the talk's shader", darkened);
+    add("table of four dimensions, 32 KiB, theta_o kept", contest.tableViewKept());
+    add("four dimensions, without interpolation", contest.idealViewKept());
+    for (int tenths = 0; tenths <= 10; ++tenths)
+        add(fmt::format("three dimensions, without interpolation, normal lambda {:.1f}", tenths / 10.0),
+            contest.idealTable(tenths / 10.0));
+    add(fmt::format("three dimensions, without interpolation, normal lambda {}", kTalksNormalLambda),
+        contest.idealTable(kTalksNormalLambda));
+    add("two cones, smoothstep", contest.of(overlapOfCones));
+    add("ambient occlusion alone", contest.of(fromAmbientOcclusion));
+}
+
+void compareInterpolations(const Contest& contest, double lambda, std::vector<ErrorFigures>& list)
+{
+    const Values ideal = contest.idealTable(lambda);
+    list.push_back(errorsOf("cosine", contest.table(lambda, SpecularSpacing::cosine, false), ideal));
+    list.push_back(errorsOf("cosine, 8 bits", contest.table(lambda, SpecularSpacing::cosine, true), ideal));
+    list.push_back(errorsOf("half sine", contest.table(lambda, SpecularSpacing::half_sine, false), ideal));
+    list.push_back(
+        errorsOf("half sine, 8 bits", contest.table(lambda, SpecularSpacing::half_sine, true), ideal));
+    list.push_back(errorsOf("four dimensions", contest.tableViewKept(), contest.idealViewKept()));
+}
+
+/// Some nodes of the table again, by a quadrature whose error is far below what is asked of the table.
+void measureNodes(const TableSettings& settings, Comparison& comparison)
+{
+    constexpr uint32_t kStride = 37; // prime to 16: nodes of all kinds
+    const TableValues values = cookTable(settings);
+    std::vector<double> errors((values.size() + kStride - 1) / kStride);
+    tbb::parallel_for(size_t{0}, errors.size(),
+                      [&](size_t i)
+                      {
+                          const auto node = static_cast<uint32_t>(i * kStride);
+                          const AssumedPlace place =
+                              assumedPlace(roughnessOfNode(node / 16 % 16),
+                                           betaOfNode(node / 256, settings.spacing), settings);
+                          const double fine =
+                              occlusionOf(place.lobe, {place.axis, halfAngleOfNode(node % 16)},
+                                          {.outer = 128, .inner = 96});
+                          errors[i] = std::abs(double{values[node]} - fine);
+                      });
+    const double squares = std::inner_product(errors.begin(), errors.end(), errors.begin(), 0.0);
+    comparison.quadrature_rms = std::sqrt(squares / static_cast<double>(errors.size()));
+    comparison.quadrature_largest = *std::max_element(errors.begin(), errors.end());
+}
+
+const char* nameOf(Masking masking)
+{
+    return masking == Masking::separable ? "separable" : "correlated";
+}
+
+const char* nameOf(SpecularSpacing spacing)
+{
+    return spacing == SpecularSpacing::cosine ? "cosine" : "half-sine";
+}
+
+std::string tableText(std::string_view title, const std::vector<ErrorFigures>& list)
+{
+    std::string text = fmt::format("{:<64}{:>8}{:>9}{:>8}{:>8}\n", title, "rms", "bias", "p95", "max");
+    for (const ErrorFigures& figures : list)
+        text += fmt::format("{:<64}{:>8.4f}{:>+9.4f}{:>8.4f}{:>8.4f}\n", figures.name, figures.rms,
+                            figures.bias, figures.p95, figures.largest);
+    return text;
+}
+
+nlohmann::ordered_json tableJson(const std::vector<ErrorFigures>& list)
+{
+    nlohmann::ordered_json array = nlohmann::ordered_json::array();
+    for (const ErrorFigures& figures : list)
+        array.push_back({{"name", figures.name},
+                         {"rms", figures.rms},
+                         {"bias", figures.bias},
+                         {"p95", figures.p95},
+                         {"max", figures.largest}});
+    return array;
+}
+
+} // namespace
+
+Comparison compare(const TableSettings& settings, size_t configuration_count, uint64_t seed)
+{
+    HEARTH_ASSERT(configuration_count > 0);
+    Comparison comparison{.settings = settings, .configuration_count = configuration_count};
+    const Contest contest(randomConfigurations(configuration_count, seed), settings);
+    compareWays(contest, contest.exact(), settings.normal_lambda, comparison.ways);
+    compareInterpolations(contest, settings.normal_lambda, comparison.interpolations);
+    measureNodes(settings, comparison);
+    return comparison;
+}
+
+std::string comparisonText(const Comparison& comparison)
+{
+    return fmt::format("{} random configurations, {} masking, table spaced by {}\n\n",
+                       comparison.configuration_count, nameOf(comparison.settings.masking),
+                       nameOf(comparison.settings.spacing)) +
+           tableText("against the exact value", comparison.ways) + "\n" +
+           tableText("interpolation: against what the nodes are taken from", comparison.interpolations) +
+           fmt::format("\nnodes against a finer quadrature, before rounding: rms {:.1e}, max {:.1e}\n",
+                       comparison.quadrature_rms, comparison.quadrature_largest);
+}
+
+std::string comparisonJson(const Comparison& comparison, double cook_seconds)
+{
+    const nlohmann::ordered_json document{{"schema", "hearth.specular/1"},
+                                          {"masking", nameOf(comparison.settings.masking)},
+                                          {"normal_lambda", comparison.settings.normal_lambda},
+                                          {"spacing", nameOf(comparison.settings.spacing)},
+                                          {"cook_seconds", cook_seconds},
+                                          {"configurations", comparison.configuration_count},
+                                          {"ways", tableJson(comparison.ways)},
+                                          {"interpolation", tableJson(comparison.interpolations)},
+                                          {"nodes_rms", comparison.quadrature_rms},
+                                          {"nodes_max", comparison.quadrature_largest}};
+    return document.dump(2) + "\n";
+}
+
+} // namespace hearth::specular

@@ -1,0 +1,42 @@
+// Compares the ways to know the specular occlusion of a cone, each against the exact value.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "cook/specular/configurations.h"
+
+#include <string>
+#include <vector>
+
+namespace hearth::specular
+{
+
+/// Errors over random configurations.
+struct ErrorFigures
+{
+    std::string name;
+    double rms = 0;
+    double bias = 0; ///< mean of value - exact
+    double p95 = 0;  ///< of the magnitude
+    double largest = 0;
+};
+
+struct Comparison
+{
+    TableSettings settings;
+    size_t configuration_count = 0;
+    std::vector<ErrorFigures> ways;           ///< against the exact value of the five numbers
+    std::vector<ErrorFigures> interpolations; ///< of tables without rounding, against what they interpolate
+    double quadrature_rms = 0; ///< the table's nodes against a quadrature of four times as many points
+    double quadrature_largest = 0;
+};
+
+/// Deterministic; seconds for a thousand configurations.
+Comparison compare(const TableSettings& settings, size_t configuration_count, uint64_t seed);
+
+/// For people.
+std::string comparisonText(const Comparison& comparison);
+
+/// Schema "hearth.specular/1".
+std::string comparisonJson(const Comparison& comparison, double cook_seconds);
+
+} // namespace hearth::specular

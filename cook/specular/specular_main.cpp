@@ -1,0 +1,194 @@
+// hearth-specular: cooks the table of specular occlusion, and measures it and the fit.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/specular/fit.h"
+#include "cook/specular/report.h"
+#include "cook/specular/rows.h"
+#include "cook/tools/whole_file.h"
+#include "formats/container_writer.h"
+#include "formats/program.h"
+
+#include <CLI/CLI.hpp>
+
+#include <chrono>
+#include <cstdio>
+#include <fstream>
+#include <iterator>
+#include <memory>
+
+#include <tbb/global_control.h>
+
+namespace
+{
+
+using namespace hearth;
+using namespace hearth::specular;
+
+struct Arguments
+{
+    std::string output;
+    std::string rows;
+    std::string report;
+    bool fit = false;
+    TableSettings settings;
+    size_t configurations = 1000;
+    uint64_t seed = 1;
+    size_t jobs = 0;
+};
+
+Status writeText(const std::string& path, std::string_view text)
+{
+    if (path == "-")
+        return std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0
+                   ? success()
+                   : Error{Issue::read_failed, "stdout", "", "cannot be written"};
+    HEARTH_ASSIGN_OR_RETURN(tools::WholeFile file, tools::WholeFile::create(path));
+    file.write(text);
+    return file.finish();
+}
+
+Result<std::string> readText(const std::string& path)
+{
+    std::ifstream file(path, std::ios::binary);
+    std::string text{std::istreambuf_iterator<char>(file), {}};
+    if (!file.is_open() || file.bad())
+        return Error{Issue::input_missing, path, "", "cannot be read"};
+    return text;
+}
+
+Status evaluate(const Arguments& arguments)
+{
+    HEARTH_ASSIGN_OR_RETURN(const std::string text, readText(arguments.rows));
+    HEARTH_ASSIGN_OR_RETURN(const std::vector<Configuration> configurations, readRows(text, arguments.rows));
+    // as a pack has it: rounded
+    const TableValues values = unpackTable(packTable(cookTable(arguments.settings), arguments.settings));
+    return writeText(arguments.output, evaluateRows(configurations, values, arguments.settings.spacing));
+}
+
+Status printFit(const Arguments& arguments)
+{
+    const Refit found = refit(arguments.configurations, arguments.seed, arguments.settings.masking);
+    std::printf("%zu configurations, %d iterations: rms %.5f, with the header's constants %.5f\n%s\n",
+                arguments.configurations, found.iterations, found.rms, found.start_rms,
+                constantsText(found.constants).c_str());
+    return success();
+}
+
+Status writePart(const Arguments& arguments, const TableValues& values)
+{
+    const formats::SpecularTableRecord record = packTable(values, arguments.settings);
+    HEARTH_ASSIGN_OR_RETURN(formats::ContainerWriter writer,
+                            formats::ContainerWriter::create(arguments.output, formats::ContainerKind::part));
+    HEARTH_TRY(writer.addRecords<formats::SpecularTableRecord>(formats::kChunkSpecular, {&record, 1}));
+    return writer.finish();
+}
+
+Status cook(const Arguments& arguments)
+{
+    const auto start = std::chrono::steady_clock::now();
+    const TableValues values = cookTable(arguments.settings);
+    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    if (!arguments.output.empty())
+        HEARTH_TRY(writePart(arguments, values));
+    if (arguments.report.empty())
+        return success();
+    const Comparison comparison = compare(arguments.settings, arguments.configurations, arguments.seed);
+    if (arguments.report != "-")
+        HEARTH_TRY(writeText("-", comparisonText(comparison) + "table cooked in " + std::to_string(seconds) +
+                                      " s\n"));
+    return writeText(arguments.report, comparisonJson(comparison, seconds));
+}
+
+int run(const Arguments& arguments)
+{
+    std::unique_ptr<tbb::global_control> limit;
+    if (arguments.jobs > 0)
+        limit = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism,
+                                                      arguments.jobs);
+    const Status done = !arguments.rows.empty() ? evaluate(arguments)
+                        : arguments.fit         ? printFit(arguments)
+                                                : cook(arguments);
+    if (done.ok())
+        return 0;
+    std::fprintf(stderr, "%s\n", formatMessage(done.error()).c_str());
+    return exitCode(done.error());
+}
+
+/// What the options do not say about each other; empty where all is well.
+std::string faultOf(const Arguments& arguments)
+{
+    if (!arguments.rows.empty() && arguments.fit)
+        return "--evaluate and --fit do not go together";
+    if (!arguments.rows.empty() && arguments.output.empty())
+        return "--evaluate needs -o";
+    if (arguments.rows.empty() && !arguments.fit && arguments.output.empty() && arguments.report.empty())
+        return "-o, --report or --fit is needed";
+    return {};
+}
+
+void addOptions(CLI::App& app, Arguments& arguments)
+{
+    const std::map<std::string, Masking> maskings{{"separable", Masking::separable},
+                                                  {"correlated", Masking::correlated}};
+    const std::map<std::string, SpecularSpacing> spacings{{"cosine", SpecularSpacing::cosine},
+                                                          {"half-sine", SpecularSpacing::half_sine}};
+    app.add_option("-o,--output", arguments.output, "specular part to write; with --evaluate: the CSV file");
+    app.add_option("--masking", arguments.settings.masking,
+                   "Smith's masking-shadowing: separable or correlated (the default, as the runtime's BRDF)")
+        ->transform(CLI::CheckedTransformer(maskings).description(""))
+        ->type_name("NAME");
+    app.add_option(
+           "--normal-lambda", arguments.settings.normal_lambda,
+           "where the table assumes the normal: 0 halves the angle of reflection vector and axis, 1 is the "
+           "axis; 0.4 by default")
+        ->check(CLI::Range(0.0, 1.0).description(""));
+    app.add_option("--spacing", arguments.settings.spacing,
+                   "nodes between reflection vector and axis: cosine (the default) or half-sine")
+        ->transform(CLI::CheckedTransformer(spacings).description(""))
+        ->type_name("NAME");
+    app.add_option(
+        "--report", arguments.report,
+        "compare table, fit and what others do with the exact values: print it, and write JSON; - is "
+        "standard output");
+    app.add_option(
+        "--evaluate", arguments.rows,
+        "CSV file of aperture_rad,roughness,theta_o_rad,axis_x,axis_y,axis_z: write table,fit for each row");
+    app.add_flag("--fit", arguments.fit, "find the constants of the fit again and print them");
+    app.add_option("--configurations", arguments.configurations,
+                   "random ones, for --report and --fit; 1000 by default")
+        ->check(CLI::Range(10, 1000000).description(""));
+    app.add_option("--seed", arguments.seed, "of the random configurations");
+    app.add_option("-j,--jobs", arguments.jobs, "threads to use; the result does not depend on it");
+    app.footer(
+        "Example: hearth-specular -o specular.part --report specular.json\n"
+        "Exit codes: 0 done, 2 usage, 65 malformed input, 66 input missing, 70 internal, 73 cannot write, "
+        "74 I/O");
+}
+
+int program(int argc, char** argv)
+{
+    CLI::App app(
+        "Cooks the table of specular occlusion: how much of a GGX lobe a visibility cone lets through.");
+    Arguments arguments;
+    addOptions(app, arguments);
+    try
+    {
+        app.parse(argc, argv);
+    }
+    catch (const CLI::ParseError& error)
+    {
+        return app.exit(error) == 0 ? 0 : 2;
+    }
+    if (const std::string fault = faultOf(arguments); !fault.empty())
+    {
+        std::fprintf(stderr, "%s\n", formatMessage({Issue::usage, "hearth-specular", "", fault}).c_str());
+        return 2;
+    }
+    return run(arguments);
+}
+
+} // namespace
+
+int main(int argc, char** argv)
+{
+    return hearth::runProgram("hearth-specular", [&] { return program(argc, argv); });
+}

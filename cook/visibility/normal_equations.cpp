@@ -1,0 +1,237 @@
+// Least squares vertex baking: L. Kavan, A. W. Bargteil, P.-P. Sloan, "Least squares vertex baking", 2011. Differs: the
+// regulariser as one row for each edge, weighted by (A1 + A2)^2, and the mass sampled like the right-hand side.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/visibility/normal_equations.h"
+
+#include "formats/assert.h"
+#include "formats/double3.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace hearth::visibility
+{
+
+namespace
+{
+
+// A vertex with less than this share of the mass that its triangles' area is for has been missed by the samples, but for
+// points far away from it.
+constexpr double kStarved = 0.02;
+
+// The membrane by the triangle's mass: enough for the regulariser's null space, too little to flatten anything that a
+// sample says.
+constexpr double kMembrane = 0.01;
+
+double areaOf(std::span<const Float3> positions, const uint32_t* corners)
+{
+    const Double3 a = widen(positions[corners[0]]);
+    return length(cross(widen(positions[corners[1]]) - a, widen(positions[corners[2]]) - a)) / 2;
+}
+
+/// What the samples of one triangle add up to.
+struct TriangleSums
+{
+    double mass[6] = {0, 0, 0, 0, 0, 0}; ///< corners 00, 11, 22, 01, 12, 20
+    Block4 right[3];
+};
+
+std::vector<TriangleSums> sumSamples(size_t triangle_count, std::span<const SampleRef> samples,
+                                     std::span<const Moments> values)
+{
+    std::vector<TriangleSums> sums(triangle_count);
+    for (size_t i = 0; i < samples.size(); ++i)
+    {
+        const SampleRef& sample = samples[i];
+        if (sample.triangle == kNowhere)
+            continue;
+        TriangleSums& sum = sums[sample.triangle];
+        const double u = sample.u, v = sample.v, area = sample.area;
+        const double weights[3] = {1 - u - v, u, v};
+        const Block4 value = blockOf(values[i]);
+        for (size_t k = 0; k < 3; ++k)
+        {
+            sum.mass[k] += weights[k] * weights[k] * area;
+            sum.mass[3 + k] += weights[k] * weights[(k + 1) % 3] * area;
+            sum.right[k].addScaled(value, weights[k] * area);
+        }
+    }
+    return sums;
+}
+
+/// Which entries the matrix has: vertices of one triangle, and those opposite to each other across an edge.
+SparseMatrix patternOf(const Proxy& proxy)
+{
+    const size_t rows = proxy.positions.size();
+    std::vector<uint32_t> next(rows + 1, 0);
+    // every pair twice, once for each row; pairs along an edge come from each triangle that has it
+    const auto forPairs = [&](const auto& use)
+    {
+        for (size_t t = 0; t < proxy.indices.size(); t += 3)
+            for (size_t k = 0; k < 3; ++k)
+                use(proxy.indices[t + k], proxy.indices[t + (k + 1) % 3]);
+        for (const InteriorEdge& edge : proxy.edges)
+            use(edge.k, edge.l);
+    };
+    std::vector<uint32_t> first(rows + 1, 0);
+    for (size_t row = 0; row < rows; ++row)
+        first[row + 1] = 1; // the diagonal
+    forPairs(
+        [&](uint32_t a, uint32_t b)
+        {
+            ++first[a + 1];
+            ++first[b + 1];
+        });
+    std::partial_sum(first.begin(), first.end(), first.begin());
+    std::vector<uint32_t> entries(first.back());
+    std::copy(first.begin(), first.end(), next.begin());
+    for (uint32_t row = 0; row < rows; ++row)
+        entries[next[row]++] = row;
+    forPairs(
+        [&](uint32_t a, uint32_t b)
+        {
+            entries[next[a]++] = b;
+            entries[next[b]++] = a;
+        });
+    SparseMatrix matrix;
+    matrix.row_start.push_back(0);
+    matrix.columns.reserve(entries.size());
+    for (size_t row = 0; row < rows; ++row)
+    {
+        const auto begin = entries.begin() + first[row], end = entries.begin() + first[row + 1];
+        std::sort(begin, end);
+        matrix.columns.insert(matrix.columns.end(), begin, std::unique(begin, end));
+        matrix.row_start.push_back(static_cast<uint32_t>(matrix.columns.size()));
+    }
+    matrix.values.assign(matrix.columns.size(), 0);
+    return matrix;
+}
+
+double& entry(SparseMatrix& matrix, uint32_t row, uint32_t column)
+{
+    const auto begin = matrix.columns.begin() + matrix.row_start[row];
+    const auto end = matrix.columns.begin() + matrix.row_start[row + 1];
+    const auto found = std::find(begin, end, column); // a dozen: faster than by halves
+    return matrix.values[static_cast<size_t>(found - matrix.columns.begin())];
+}
+
+void addSymmetric(SparseMatrix& matrix, uint32_t a, uint32_t b, double value)
+{
+    entry(matrix, a, b) += value;
+    entry(matrix, b, a) +=
+        value; // twice on the diagonal, where a triangle names a vertex twice: both products are its
+}
+
+void addMass(NormalEquations& system, const Proxy& proxy, const std::vector<TriangleSums>& sums)
+{
+    for (size_t t = 0; t < sums.size(); ++t)
+    {
+        const uint32_t* corners = proxy.indices.data() + t * 3;
+        const double* mass = sums[t].mass;
+        for (size_t k = 0; k < 3; ++k)
+        {
+            entry(system.matrix, corners[k], corners[k]) += mass[k];
+            addSymmetric(system.matrix, corners[k], corners[(k + 1) % 3], mass[3 + k]);
+            system.right[corners[k]].addScaled(sums[t].right[k], 1);
+            system.mass[corners[k]] += mass[k] + mass[3 + k] + mass[3 + (k + 2) % 3];
+        }
+    }
+}
+
+void addJumps(NormalEquations& system, const Proxy& proxy, double alpha)
+{
+    for (const InteriorEdge& edge : proxy.edges)
+    {
+        const std::array<double, 4> jump = gradientJump(proxy.positions, edge);
+        const std::array<uint32_t, 4> vertices{edge.a, edge.b, edge.k, edge.l};
+        for (size_t i = 0; i < 4; ++i)
+        {
+            entry(system.matrix, vertices[i], vertices[i]) += alpha * jump[i] * jump[i];
+            for (size_t j = i + 1; j < 4; ++j)
+                addSymmetric(system.matrix, vertices[i], vertices[j], alpha * jump[i] * jump[j]);
+        }
+    }
+}
+
+/// sum over the sides of the triangle of (u_i - u_j)^2, for triangles with a vertex that has too little mass.
+void addMembrane(NormalEquations& system, const Proxy& proxy)
+{
+    std::vector<double> expected(system.mass.size(), 0);
+    for (size_t t = 0; t < proxy.indices.size(); t += 3)
+        for (size_t k = 0; k < 3; ++k)
+            expected[proxy.indices[t + k]] += areaOf(proxy.positions, &proxy.indices[t]) / 3;
+    const auto starved = [&](uint32_t v) { return system.mass[v] < kStarved * expected[v]; };
+    for (size_t t = 0; t < proxy.indices.size(); t += 3)
+    {
+        const uint32_t* corners = &proxy.indices[t];
+        if (std::none_of(corners, corners + 3, starved))
+            continue;
+        const double weight = kMembrane * areaOf(proxy.positions, corners);
+        for (size_t k = 0; k < 3; ++k)
+        {
+            const uint32_t a = corners[k], b = corners[(k + 1) % 3];
+            if (a == b)
+                continue;
+            entry(system.matrix, a, a) += weight;
+            entry(system.matrix, b, b) += weight;
+            addSymmetric(system.matrix, a, b, -weight);
+        }
+    }
+}
+
+std::vector<uint32_t> islandsOf(const Proxy& proxy)
+{
+    std::vector<uint32_t> island(proxy.positions.size());
+    std::iota(island.begin(), island.end(), 0u);
+    const auto find = [&](uint32_t v)
+    {
+        while (island[v] != v)
+            v = island[v] = island[island[v]];
+        return v;
+    };
+    for (size_t t = 0; t < proxy.indices.size(); t += 3)
+        for (size_t k = 1; k < 3; ++k)
+        {
+            const uint32_t a = find(proxy.indices[t]), b = find(proxy.indices[t + k]);
+            island[std::max(a, b)] = std::min(a, b);
+        }
+    for (uint32_t v = 0; v < island.size(); ++v)
+        island[v] = find(v);
+    return island;
+}
+
+} // namespace
+
+std::array<double, 4> gradientJump(std::span<const Float3> positions, const InteriorEdge& edge)
+{
+    const Double3 a = widen(positions[edge.a]);
+    const Double3 along = widen(positions[edge.b]) - a;
+    const Double3 to_k = widen(positions[edge.k]) - a, to_l = widen(positions[edge.l]) - a;
+    const double length2 = dot(along, along);
+    const double double_k = length(cross(along, to_k)), double_l = length(cross(along, to_l));
+    if (!(length2 > 0) || !(double_k > 0) || !(double_l > 0))
+        return {0, 0, 0, 0};
+    // u_k minus u at the foot of k on the edge, by the height 2 A / L; the gradients agree along the edge
+    const double weight = (double_k + double_l) / 2 * std::sqrt(length2);
+    const double k = weight / double_k, l = weight / double_l;
+    const double foot_k = dot(to_k, along) / length2, foot_l = dot(to_l, along) / length2;
+    return {-k * (1 - foot_k) - l * (1 - foot_l), -k * foot_k - l * foot_l, k, l};
+}
+
+NormalEquations assemble(const Proxy& proxy, std::span<const SampleRef> samples,
+                         std::span<const Moments> values, double alpha)
+{
+    HEARTH_ASSERT(samples.size() == values.size());
+    const std::vector<TriangleSums> sums = sumSamples(proxy.indices.size() / 3, samples, values);
+    NormalEquations system;
+    system.matrix = patternOf(proxy);
+    system.right.resize(proxy.positions.size());
+    system.mass.assign(proxy.positions.size(), 0);
+    addMass(system, proxy, sums);
+    addJumps(system, proxy, alpha);
+    addMembrane(system, proxy);
+    system.island = islandsOf(proxy);
+    return system;
+}
+
+} // namespace hearth::visibility

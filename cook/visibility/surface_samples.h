@@ -1,0 +1,44 @@
+// Where on a mesh visibility is measured.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "formats/math.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace hearth::visibility
+{
+
+struct SurfaceSample
+{
+    uint32_t triangle;
+    float u, v; ///< weights of the triangle's corners 1 and 2; corner 0 has 1 - u - v
+    float area; ///< that the sample stands for: the triangle's over its number of samples, in square metres
+
+    friend bool operator==(const SurfaceSample&, const SurfaceSample&) = default;
+};
+
+struct SurfaceSampleSettings
+{
+    double samples_per_vertex = 8; ///< what the whole mesh gets for each of its positions; at least 0
+    uint32_t least_per_triangle =
+        1; ///< so that those are seen, too, that the others leave no area to; at least 1
+    uint64_t seed = 0;
+};
+
+/// Even in area, apart from triangles that would get less than the least number, and stratified: the counts follow the
+/// areas along the Morton curve without drifting, and within a triangle the points are a net. Triangles without area
+/// get no samples. The areas of a triangle's samples sum to the triangle's.
+/// Deterministic, O(T log T + S log S).
+///
+/// positions  finite, metres
+/// corners    three positions' indices for each triangle, in range (asserted)
+/// returns    along the Morton curve, so that neighbours see alike. More than settings.samples_per_vertex ask for where
+///            the least number of each triangle is more already
+std::vector<SurfaceSample> surfaceSamples(std::span<const Float3> positions,
+                                          std::span<const uint32_t> corners,
+                                          const SurfaceSampleSettings& settings);
+
+} // namespace hearth::visibility
