@@ -5,6 +5,7 @@
 #include "tests/cook/shapes.h"
 #include "tests/reference/gltf_material.h"
 #include "tests/reference/pack_geometry.h"
+#include "tests/runtime/deformed_scene.h"
 #include "tests/runtime/gpu_fixture.h"
 #include "tests/runtime/lit_scene.h"
 
@@ -96,7 +97,10 @@ protected:
         const uint32_t id = picture.visibility[y * kWidth + x];
         const VisibleCluster slot = picture.list.slots.at(id >> kTriangleBits);
         const formats::InstanceRecord& instance = pack_->instances()[slot.instance];
-        const reference::DoubleAffine world(instance.world_from_object);
+        const auto pose = posed_.find(slot.instance);
+        const reference::DoubleAffine world = pose == posed_.end()
+                                                  ? reference::DoubleAffine(instance.world_from_object)
+                                                  : reference::DoubleAffine(pose->second);
         const formats::ClusterGeometry cluster = geometry_->cluster(slot.cluster);
         const auto vertices = cluster.triangle(id & ((1u << kTriangleBits) - 1));
 
@@ -200,6 +204,7 @@ protected:
     std::optional<reference::PackGeometry> geometry_;
     std::unique_ptr<gpu::Scene> scene_;
     Camera camera_;
+    std::map<uint32_t, Affine3d> posed_; ///< instances all of whose joints stand so
 };
 
 constexpr Float3 kNone{0.35f, 0.05f, 0.05f};
@@ -276,6 +281,51 @@ TEST_F(SkyViewTest, specularOcclusionIsTheFit)
                      });
 }
 
+/// By trilinear interpolation in doubles.
+TEST_F(SkyViewTest, specularOcclusionIsLookedUpInTheTable)
+{
+    formats::SpecularTableRecord table{};
+    table.aperture_nodes = table.roughness_nodes = table.beta_nodes = kSpecularNodes;
+    table.least_roughness = kSpecularLeastRoughness;
+    const auto value = [](uint32_t x, uint32_t y, uint32_t z)
+    {
+        return static_cast<uint8_t>(x * 15 + (y * z * 30) / 225);
+    }; // rises with the aperture, at each node another
+    for (uint32_t i = 0; i < formats::kSpecularTexels; ++i)
+        table.values[i] = value(i & 15u, i >> 4 & 15u, i >> 8);
+    for (const uint32_t spacing : {kSpecularSpacingCosine, kSpecularSpacingHalfSine})
+    {
+        table.spacing = spacing;
+        test_.model().specular_tables = {table};
+        load();
+        expectPixels(show(kViewSpecularOcclusion, kAmbientOcclusionExact, kSpecularOcclusionTable), 1,
+                     [&](const TwinPoint& p)
+                     {
+                         if (!p.says)
+                             return kNone;
+                         const Double3 mirror = p.normal * (2 * dot(p.normal, p.to_eye)) - p.to_eye;
+                         const Float3 place = specularTablePlace(p.cone.cos_aperture, 0.4f,
+                                                                 cosine(p.cone.axis, mirror), spacing);
+                         double sum = 0;
+                         for (uint32_t corner = 0; corner < 8; ++corner)
+                         {
+                             double weight = 1;
+                             uint32_t node[3];
+                             for (int axis = 0; axis < 3; ++axis)
+                             {
+                                 const double at = double{place[axis]} * 15,
+                                              low = std::min(std::floor(at), 14.0);
+                                 const bool upper = (corner >> axis & 1u) != 0;
+                                 node[axis] = static_cast<uint32_t>(low) + (upper ? 1 : 0);
+                                 weight *= upper ? at - low : 1 - (at - low);
+                             }
+                             sum += weight * value(node[0], node[1], node[2]) / 255;
+                         }
+                         return grey(static_cast<float>(sum) * p.cone.scale);
+                     });
+    }
+}
+
 /// The picture, from the material model of the reference.
 TEST_F(SkyViewTest, thePictureIsOccludedByLobe)
 {
@@ -303,6 +353,49 @@ TEST_F(SkyViewTest, thePictureIsOccludedByLobe)
                          };
                          return Float3{shown(radiance.x), shown(radiance.y), shown(radiance.z)};
                      });
+}
+
+/// All joints of a limb turned alike are the limb turned.
+TEST_F(SkyOcclusionTest, conesOfCharactersTurnWithTheirPose)
+{
+    DeformedSceneOptions options{.limbs = 3, .tentacles = 1, .blobs = 1, .rocks = 0, .pose_count = 1};
+    options.visibility = leaningCones;
+    const DeformedScene deformed(options, 5);
+    pack_.emplace(deformed.pack());
+    geometry_.emplace(reference::PackGeometry::decode(*pack_).value());
+    scene_ = upload(*pack_);
+    lookAtBall();
+    std::mt19937 random(3);
+    std::vector<TestPose> poses;
+    for (const uint32_t instance : deformed.deformedInstances())
+    {
+        // the first limb here, another that is mirrored beside it, the rest out of sight
+        TestPose pose = deformed.randomPose(instance, random);
+        const bool mirrored = (pack_->instances()[instance].flags & formats::kInstanceMirrored) != 0;
+        const bool shown = poses.empty() || mirrored;
+        posed_[instance] =
+            widen(similarity(0.9f, mirrored ? 2.0f : 0.7f, mirrored,
+                             shown ? Float3{mirrored ? 1.3f : -0.7f, -1, 0} : Float3{0, 500, 0}));
+        std::fill(pose.world_from_bind.begin(), pose.world_from_bind.end(), posed_[instance]);
+        std::fill(pose.morph_weights.begin(), pose.morph_weights.end(), 0.0f);
+        pose.free = true;
+        poses.push_back(pose);
+    }
+    const auto views = viewsOf(poses);
+    for (const uint32_t view : {kViewBentNormal, kViewAmbientOcclusion})
+    {
+        const Picture picture =
+            draw(*scene_, camera_, {.width = kWidth, .height = kHeight, .shown = view, .poses = views});
+        const size_t seen = expectPixels(picture, 1,
+                                         [&](const TwinPoint& p)
+                                         {
+                                             EXPECT_TRUE(p.says);
+                                             return view == kViewBentNormal
+                                                        ? p.cone.axis * 0.5f + Float3{0.5f, 0.5f, 0.5f}
+                                                        : grey(twinAmbient(p, kAmbientOcclusionExact));
+                                         });
+        EXPECT_GT(seen, 1000u);
+    }
 }
 
 namespace
