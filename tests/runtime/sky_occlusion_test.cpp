@@ -358,7 +358,8 @@ TEST_F(SkyViewTest, thePictureIsOccludedByLobe)
 /// All joints of a limb turned alike are the limb turned.
 TEST_F(SkyOcclusionTest, conesOfCharactersTurnWithTheirPose)
 {
-    DeformedSceneOptions options{.limbs = 3, .tentacles = 1, .blobs = 1, .rocks = 0, .pose_count = 1};
+    DeformedSceneOptions options{
+        .limbs = 3, .tentacles = 1, .blobs = 1, .rocks = 0, .pose_count = 1, .rings = 16};
     options.visibility = leaningCones;
     const DeformedScene deformed(options, 5);
     pack_.emplace(deformed.pack());
@@ -374,8 +375,8 @@ TEST_F(SkyOcclusionTest, conesOfCharactersTurnWithTheirPose)
         const bool mirrored = (pack_->instances()[instance].flags & formats::kInstanceMirrored) != 0;
         const bool shown = poses.empty() || mirrored;
         posed_[instance] =
-            widen(similarity(0.9f, mirrored ? 2.0f : 0.7f, mirrored,
-                             shown ? Float3{mirrored ? 1.3f : -0.7f, -1, 0} : Float3{0, 500, 0}));
+            widened(similarity(0.9f, mirrored ? 2.0f : 0.7f, mirrored,
+                               shown ? Float3{mirrored ? 1.3f : -0.7f, -1, 0} : Float3{0, 500, 0}));
         std::fill(pose.world_from_bind.begin(), pose.world_from_bind.end(), posed_[instance]);
         std::fill(pose.morph_weights.begin(), pose.morph_weights.end(), 0.0f);
         pose.free = true;
@@ -394,7 +395,7 @@ TEST_F(SkyOcclusionTest, conesOfCharactersTurnWithTheirPose)
                                                         ? p.cone.axis * 0.5f + Float3{0.5f, 0.5f, 0.5f}
                                                         : grey(twinAmbient(p, kAmbientOcclusionExact));
                                          });
-        EXPECT_GT(seen, 1000u);
+        EXPECT_GT(seen, 600u);
     }
 }
 
