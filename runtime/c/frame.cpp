@@ -45,8 +45,11 @@ Status check(const hearth_renderer& renderer, const hearth_frame& frame)
         return usage("depth_scale is not above 0");
     if ((frame.cull_flags & ~uint32_t{HEARTH_CULL_EVERYTHING}) != 0)
         return usage("cull_flags has bits that this version does not know");
-    if (frame.shown > HEARTH_SHOW_BONES || frame.shaded_area > HEARTH_SHADE_TILES)
+    if (frame.shown > HEARTH_SHOW_SPECULAR_OCCLUSION || frame.shaded_area > HEARTH_SHADE_TILES)
         return usage("shown or shaded_area has a value that this version does not know");
+    if (frame.ambient_occlusion > HEARTH_AMBIENT_OCCLUSION_OFF ||
+        frame.specular_occlusion > HEARTH_SPECULAR_OCCLUSION_OFF)
+        return usage("ambient_occlusion or specular_occlusion has a value that this version does not know");
     if (frame.shown == HEARTH_SHOW_OVERDRAW && !renderer.shows_overdraw)
         return usage("HEARTH_SHOW_OVERDRAW needs a renderer with HEARTH_FEATURE_OVERDRAW");
     if (frame.lod_knot_count > 0 && frame.lod_knots == nullptr)
@@ -152,7 +155,9 @@ Result<gpu::FrameInput> makeInput(const hearth_scene& scene, const gpu::FrameTar
     return gpu::FrameInput{.view = view,
                            .shading = {.shown = frame.shown,
                                        .depth_scale = frame.depth_scale,
-                                       .area = static_cast<gpu::ShadedArea>(frame.shaded_area)},
+                                       .area = static_cast<gpu::ShadedArea>(frame.shaded_area),
+                                       .ambient_occlusion = frame.ambient_occlusion,
+                                       .specular_occlusion = frame.specular_occlusion},
                            .moves = scene.moves,
                            .poses = scene.poses,
                            .shadow_spheres = scene.shadow_spheres,

@@ -29,7 +29,7 @@
 #endif
 
 /* Major version << 16 | minor version. A library takes callers of its major version and of no later minor version. */
-#define HEARTH_API_VERSION 0x00010002u
+#define HEARTH_API_VERSION 0x00010003u
 
 typedef int32_t hearth_result;
 enum
@@ -391,7 +391,29 @@ enum
     HEARTH_SHOW_CONES = 8,
     HEARTH_SHOW_OVERDRAW = 9,     /* needs HEARTH_FEATURE_OVERDRAW */
     HEARTH_SHOW_SHADOW_MAPS = 10, /* which is looked up; needs a scene with shadows */
-    HEARTH_SHOW_BONES = 11        /* 1.2: main bones of characters */
+    HEARTH_SHOW_BONES = 11,       /* 1.2: main bones of characters */
+    /* 1.3: of packs with visibility; dark red where a mesh has none */
+    HEARTH_SHOW_AMBIENT_OCCLUSION = 12,
+    HEARTH_SHOW_BENT_NORMAL = 13,       /* axis of the visibility cone */
+    HEARTH_SHOW_APERTURE = 14,          /* its half-angle, white: 90 degrees */
+    HEARTH_SHOW_SPECULAR_OCCLUSION = 15 /* as the eye sees it */
+};
+
+/* How much of the sky's light reaches a surface, in packs with visibility (1.3). */
+enum
+{
+    HEARTH_AMBIENT_OCCLUSION_EXACT = 0,
+    HEARTH_AMBIENT_OCCLUSION_SMOOTHSTEP = 1,
+    HEARTH_AMBIENT_OCCLUSION_QUADRATIC = 2,
+    HEARTH_AMBIENT_OCCLUSION_OFF = 3
+};
+
+/* The same of its mirror image (1.3). */
+enum
+{
+    HEARTH_SPECULAR_OCCLUSION_FIT = 0,
+    HEARTH_SPECULAR_OCCLUSION_TABLE = 1, /* the pack's; where it has none, the fit */
+    HEARTH_SPECULAR_OCCLUSION_OFF = 2
 };
 
 /* Where each material is shaded; the picture is the same. */
@@ -493,14 +515,17 @@ typedef struct hearth_frame
     /* since 1.2 */
     const hearth_pose* poses; /* read while recording; an instance at most once */
     uint32_t pose_count;
-    uint32_t reserved; /* 0 */
+    /* since 1.3 */
+    uint32_t ambient_occlusion;  /* HEARTH_AMBIENT_OCCLUSION_* */
+    uint32_t specular_occlusion; /* HEARTH_SPECULAR_OCCLUSION_* */
+    uint32_t reserved;           /* 0 */
 } hearth_frame;
 
 #define HEARTH_FRAME_INIT                                                                                    \
     {                                                                                                        \
         sizeof(hearth_frame), HEARTH_CULL_EVERYTHING, {{0, 0, 0}, {0, 0, -1}, {0, 1, 0}, 0.8f, 0.01f}, 1,    \
             NULL, 0, 0, NULL, HEARTH_SHOW_FINAL, 1, HEARTH_SHADE_AUTOMATIC, 0, NULL, VK_NULL_HANDLE, NULL,   \
-            0, 0                                                                                             \
+            0, HEARTH_AMBIENT_OCCLUSION_EXACT, HEARTH_SPECULAR_OCCLUSION_FIT, 0                              \
     }
 
 /* ---- Clips (1.2): played on the CPU, for a frame's moves and poses. ---- */

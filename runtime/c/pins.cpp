@@ -30,6 +30,18 @@ static_assert(HEARTH_SHOW_CONES == shared::kViewCones);
 static_assert(HEARTH_SHOW_OVERDRAW == shared::kViewOverdraw);
 static_assert(HEARTH_SHOW_SHADOW_MAPS == shared::kViewShadowMaps);
 static_assert(HEARTH_SHOW_BONES == shared::kViewBones);
+static_assert(HEARTH_SHOW_AMBIENT_OCCLUSION == shared::kViewAmbientOcclusion);
+static_assert(HEARTH_SHOW_BENT_NORMAL == shared::kViewBentNormal);
+static_assert(HEARTH_SHOW_APERTURE == shared::kViewAperture);
+static_assert(HEARTH_SHOW_SPECULAR_OCCLUSION == shared::kViewSpecularOcclusion);
+
+static_assert(HEARTH_AMBIENT_OCCLUSION_EXACT == shared::kAmbientOcclusionExact);
+static_assert(HEARTH_AMBIENT_OCCLUSION_SMOOTHSTEP == shared::kAmbientOcclusionSmoothstep);
+static_assert(HEARTH_AMBIENT_OCCLUSION_QUADRATIC == shared::kAmbientOcclusionQuadratic);
+static_assert(HEARTH_AMBIENT_OCCLUSION_OFF == shared::kAmbientOcclusionOff);
+static_assert(HEARTH_SPECULAR_OCCLUSION_FIT == shared::kSpecularOcclusionFit);
+static_assert(HEARTH_SPECULAR_OCCLUSION_TABLE == shared::kSpecularOcclusionTable);
+static_assert(HEARTH_SPECULAR_OCCLUSION_OFF == shared::kSpecularOcclusionOff);
 
 constexpr bool equal(int c, gpu::ShadedArea area)
 {

@@ -10,6 +10,7 @@
 #include "runtime/gpu/shadow_plan.h"
 #include "runtime/gpu/uploader.h"
 
+#include <algorithm>
 #include <array>
 #include <memory>
 #include <vector>
@@ -113,11 +114,18 @@ struct Scene
     uint32_t group_item_count = 0; ///< of a streamed scene
     uint32_t slot_capacity = 0;
     uint32_t used_slices = shared::kPoolSlices; ///< 1 where the first holds all geometry
-    bool has_specular_table = false;
-    uint32_t specular_spacing = 0; ///< shared::kSpecularSpacing* of the table
-    uint32_t dropped_lights = 0;   ///< lights of the pack beyond shared::kMaxLights
-    Box3 bounds;                   ///< world space, empty where there is nothing to draw
+    Image specular_table;                       ///< empty where the pack has none
+    uint32_t specular_spacing = 0;              ///< shared::kSpecularSpacing* of the table
+    uint32_t dropped_lights = 0;                ///< lights of the pack beyond shared::kMaxLights
+    Box3 bounds;                                ///< world space, empty where there is nothing to draw
 };
+
+/// Whether a mesh says what it sees of the sky: else the settings of its occlusion do nothing.
+inline bool hasSkyVisibility(const Scene& scene)
+{
+    return std::any_of(scene.materials.begin(), scene.materials.end(),
+                       [](const SceneMaterial& m) { return m.variant.sky_visibility != 0; });
+}
 
 /// The first ones of the work list.
 inline uint32_t rigidItems(const Scene& scene)
@@ -142,5 +150,9 @@ Result<std::unique_ptr<Scene>> uploadScene(const Device& device, const DrawLayou
 /// The images of the materials, and one descriptor set for each row of the material table. Needs scene.pool and scene.used_slices.
 Status uploadMaterials(const Device& device, const DrawLayouts& layouts, const formats::PackView& pack,
                        Uploader& uploader, Scene& scene);
+
+/// Of packs that have one; needs scene.draw_set.
+Status uploadSpecularTable(const Device& device, const formats::PackView& pack, Uploader& uploader,
+                           Scene& scene);
 
 } // namespace hearth::gpu

@@ -306,6 +306,7 @@ Result<std::unique_ptr<Scene>> uploadScene(const Device& device, const DrawLayou
     HEARTH_TRY(uploadMaterials(device, layouts, pack, *scene->staging, *scene));
     findSkyVisibility(pack, *scene);
     fillSpareBindings(device, *scene);
+    HEARTH_TRY(uploadSpecularTable(device, pack, *scene->staging, *scene));
     scene->staging->finish();
     scene->bins = std::move(layout.bins);
     if (scene->deformation != nullptr)

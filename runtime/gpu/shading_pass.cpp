@@ -31,8 +31,8 @@ uint32_t deformedVertices(const ShadingVariant& variant)
 
 uint32_t skyOcclusion(const Scene& scene, const ShadingView& view)
 {
-    const bool no_table =
-        view.specular_occlusion == shared::kSpecularOcclusionTable && !scene.has_specular_table;
+    const bool no_table = view.specular_occlusion == shared::kSpecularOcclusionTable &&
+                          scene.specular_table.view.get() == VK_NULL_HANDLE;
     return shared::skyOcclusionBits(view.ambient_occlusion,
                                     no_table ? shared::kSpecularOcclusionFit : view.specular_occlusion,
                                     scene.specular_spacing);

@@ -24,7 +24,16 @@ const char* const kDrawHelp =
     "as\n"
     "                          large as allowed), cones (red: none), bones (of\n"
     "                          characters; grey: none), overdraw (white: 16) or shadow-maps (grey:\n"
-    "                          none)\n"
+    "                          none); of packs with visibility also ao, bent-normal, aperture (white: 90 "
+    "degrees),\n"
+    "                          specular-occlusion (dark red: a mesh without)\n"
+    "      --ambient-occlusion MODE\n"
+    "                          of the sky, in packs with visibility: exact (default), smoothstep, quadratic, "
+    "off\n"
+    "      --specular-occlusion MODE\n"
+    "                          of the sky's mirror image, the same: fit (default), table (the pack's, else "
+    "the fit),\n"
+    "                          off\n"
     "      --shadows SETTINGS  off (default), on, or some of maps=N (16 at most), texels=N (1024), kernel=N "
     "(1:\n"
     "                          3x3), bias=B (2: how much coarser than the picture), splits=N (4), near=M, "
@@ -195,6 +204,16 @@ void addDrawOptions(CommandLine& command_line, DrawOptions& options)
                           [&](std::string_view text) { return parseLodCurve(text, settings); });
     command_line.addValue("--view", [&](std::string_view text)
                           { return parseChoice("--view", viewNames(), text, settings.view); });
+    command_line.addValue("--ambient-occlusion",
+                          [&](std::string_view text) {
+                              return parseChoice("--ambient-occlusion", ambientOcclusionNames(), text,
+                                                 settings.ambient_occlusion);
+                          });
+    command_line.addValue("--specular-occlusion",
+                          [&](std::string_view text) {
+                              return parseChoice("--specular-occlusion", specularOcclusionNames(), text,
+                                                 settings.specular_occlusion);
+                          });
     command_line.addValue(
         "--shaded-area", [&](std::string_view text)
         { return parseChoice("--shaded-area", shadedAreaNames(), text, settings.shaded_area); });

@@ -20,6 +20,10 @@ std::span<const Named<uint32_t>> viewNames()
         {"cones", shared::kViewCones},
         {"overdraw", shared::kViewOverdraw},
         {"bones", shared::kViewBones},
+        {"ao", shared::kViewAmbientOcclusion},
+        {"bent-normal", shared::kViewBentNormal},
+        {"aperture", shared::kViewAperture},
+        {"specular-occlusion", shared::kViewSpecularOcclusion},
         {"shadow-maps", shared::kViewShadowMaps},
     };
     return kViews;
@@ -33,6 +37,23 @@ std::span<const Named<gpu::ShadedArea>> shadedAreaNames()
         {"tiles", gpu::ShadedArea::tiles},
     };
     return kAreas;
+}
+
+std::span<const Named<uint32_t>> ambientOcclusionNames()
+{
+    static constexpr Named<uint32_t> kModes[] = {{"exact", shared::kAmbientOcclusionExact},
+                                                 {"smoothstep", shared::kAmbientOcclusionSmoothstep},
+                                                 {"quadratic", shared::kAmbientOcclusionQuadratic},
+                                                 {"off", shared::kAmbientOcclusionOff}};
+    return kModes;
+}
+
+std::span<const Named<uint32_t>> specularOcclusionNames()
+{
+    static constexpr Named<uint32_t> kModes[] = {{"fit", shared::kSpecularOcclusionFit},
+                                                 {"table", shared::kSpecularOcclusionTable},
+                                                 {"off", shared::kSpecularOcclusionOff}};
+    return kModes;
 }
 
 std::span<const Named<uint32_t>> cullTestNames()
@@ -54,7 +75,9 @@ gpu::FrameInput makeFrame(const FrameSettings& settings, const shared::Camera& c
     return {.view = view,
             .shading = {.shown = settings.view,
                         .depth_scale = length(camera.target - camera.position),
-                        .area = settings.shaded_area}};
+                        .area = settings.shaded_area,
+                        .ambient_occlusion = settings.ambient_occlusion,
+                        .specular_occlusion = settings.specular_occlusion}};
 }
 
 } // namespace hearth::viewer

@@ -19,6 +19,8 @@ struct FrameSettings
     uint32_t view = shared::kViewFinal;     ///< shared::kView*
     gpu::ShadedArea shaded_area = gpu::ShadedArea::automatic;
     uint32_t cull_flags = shared::kCullEverything;
+    uint32_t ambient_occlusion = shared::kAmbientOcclusionExact; ///< shared::kAmbientOcclusion*
+    uint32_t specular_occlusion = shared::kSpecularOcclusionFit; ///< shared::kSpecularOcclusion*
 };
 
 /// A value and what people call it.
@@ -32,6 +34,8 @@ struct Named
 /// All views, the picture first.
 std::span<const Named<uint32_t>> viewNames();
 std::span<const Named<gpu::ShadedArea>> shadedAreaNames();
+std::span<const Named<uint32_t>> ambientOcclusionNames();
+std::span<const Named<uint32_t>> specularOcclusionNames();
 /// Flag by flag.
 std::span<const Named<uint32_t>> cullTestNames();
 

@@ -1,4 +1,4 @@
-// hearth-reference: draws a pack with rays, slowly, and can say by FLIP how far another picture is from that.
+// hearth-reference: draws a pack with rays, slowly, and can say how far another picture is from that.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "formats/animation.h"
 #include "formats/pack_check.h"
@@ -8,6 +8,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include <cmath>
 #include <cstdio>
 
 namespace
@@ -66,13 +67,22 @@ shared::Camera givenCamera(const std::vector<float>& v)
     return camera;
 }
 
+/// Root mean square of the differences of displayed values, 0 to 1.
+double rmse(const Picture& a, const Picture& b)
+{
+    double sum = 0;
+    for (size_t i = 0; i < a.rgb.size(); ++i)
+        sum += std::pow((a.rgb[i] - b.rgb[i]) / 255.0, 2);
+    return std::sqrt(sum / static_cast<double>(a.rgb.size()));
+}
+
 Status compare(const Picture& reference, const Arguments& arguments)
 {
     HEARTH_ASSIGN_OR_RETURN(const Picture test, readPng(arguments.compare));
     if (test.width != reference.width || test.height != reference.height)
         return Error{Issue::usage, arguments.compare, "", "the picture has another size"};
     const FlipMap map = flip(reference, test);
-    std::printf("FLIP %.6f\n", map.mean());
+    std::printf("FLIP %.6f\nRMSE %.6f\n", map.mean(), rmse(reference, test));
     return arguments.flip_map.empty() ? success() : writePng(arguments.flip_map, showFlip(map));
 }
 
@@ -134,7 +144,7 @@ int main(int argc, char** argv)
                    "diffuse bounces of what hides the sky (default 0: it is black)");
     app.add_flag("--integrate-sky", arguments.options.sky.integrate,
                  "the sky as one radiance, in place of the runtime's forms of it");
-    app.add_option("--compare", arguments.compare, "print the FLIP difference to this PNG");
+    app.add_option("--compare", arguments.compare, "print how far this PNG is from that, by FLIP and RMSE");
     app.add_option("--flip-map", arguments.flip_map, "write that difference as a picture");
     try
     {

@@ -163,12 +163,12 @@ TEST_F(CApiTest, otherVersionsAreRefused)
     EXPECT_THAT(message_, HasSubstr("compile with the hearth.h of the library"));
 
     description = c_caller_description(caller_);
-    for (const uint32_t version : {0x00020000u, 0x00010003u, 0u})
+    for (const uint32_t version : {0x00020000u, 0x00010004u, 0u})
     {
         description.api_version = version;
         EXPECT_EQ(hearth_renderer_create(&description, &renderer, message_, sizeof(message_)),
                   HEARTH_ERROR_USAGE);
-        EXPECT_THAT(message_, HasSubstr("the library is 1.2"));
+        EXPECT_THAT(message_, HasSubstr("the library is 1.3"));
     }
     description = c_caller_description(caller_);
     description.features = 1u << 31;
@@ -208,7 +208,9 @@ TEST_F(CFrameRulesTest, framesThatBreakRulesAreRefused)
     EXPECT_THAT(refused([](F& f) { f.error_pixels = -1; }), HasSubstr("error_pixels"));
     EXPECT_THAT(refused([](F& f) { f.depth_scale = kNan; }), HasSubstr("depth_scale"));
     EXPECT_THAT(refused([](F& f) { f.cull_flags = 16; }), HasSubstr("cull_flags"));
-    EXPECT_THAT(refused([](F& f) { f.shown = 12; }), HasSubstr("shown"));
+    EXPECT_THAT(refused([](F& f) { f.shown = 16; }), HasSubstr("shown"));
+    EXPECT_THAT(refused([](F& f) { f.ambient_occlusion = 4; }), HasSubstr("ambient_occlusion"));
+    EXPECT_THAT(refused([](F& f) { f.specular_occlusion = 3; }), HasSubstr("specular_occlusion"));
     EXPECT_THAT(refused([](F& f) { f.shown = HEARTH_SHOW_SHADOW_MAPS; }), HasSubstr("with shadows"));
     EXPECT_THAT(refused([](F& f) { f.shaded_area = 3; }), HasSubstr("shaded_area"));
     EXPECT_THAT(refused([](F& f) { f.move_count = 1; }), HasSubstr("moves is NULL"));

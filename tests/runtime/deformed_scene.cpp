@@ -296,6 +296,8 @@ PosedVertex posedVertex(const ClusterGeometry& geometry, uint32_t vertex, const 
 DeformedScene::DeformedScene(const DeformedSceneOptions& options, uint32_t seed) : options_(options)
 {
     std::mt19937 random(seed);
+    clusters::Config config;
+    config.visibility = options.visibility != nullptr;
     const uint32_t material = test_.addMaterial(plainMaterial());
     const uint32_t rock = test_.addMesh(withMaterial(shapes::rock(16, 0.3f), material));
     for (uint32_t i = 0; i < options.rocks; ++i)
@@ -303,7 +305,7 @@ DeformedScene::DeformedScene(const DeformedSceneOptions& options, uint32_t seed)
 
     mesh::SourceMesh limb = withMaterial(makeTube(options.rings, 24), material);
     addInfluences(limb, 6, 1.7f);
-    addDeformed(test_.addMesh(limb), addSkin(6), 6, options.pose_count, random);
+    addDeformed(test_.addMesh(limb, config), addSkin(6), 6, options.pose_count, random);
     addInstances(meshes_.back(), options.limbs, random);
 
     formats::MaterialRecord two_sided = plainMaterial();
@@ -311,14 +313,16 @@ DeformedScene::DeformedScene(const DeformedSceneOptions& options, uint32_t seed)
     mesh::SourceMesh tentacle = withMaterial(makeTube(options.rings, 16), test_.addMaterial(two_sided));
     addInfluences(tentacle, 12, 3.6f);
     addMorphTargets(tentacle, 3);
-    addDeformed(test_.addMesh(tentacle), addSkin(12), 12, options.pose_count, random);
+    addDeformed(test_.addMesh(tentacle, config), addSkin(12), 12, options.pose_count, random);
     addInstances(meshes_.back(), options.tentacles, random);
 
     mesh::SourceMesh blob = withMaterial(makeTube(options.rings / 2, 20), material);
     addMorphTargets(blob, 2);
-    addDeformed(test_.addMesh(blob), kNone, 1, options.pose_count, random);
+    addDeformed(test_.addMesh(blob, config), kNone, 1, options.pose_count, random);
     addInstances(meshes_.back(), options.blobs, random);
 
+    if (options.visibility)
+        test_.setVisibility(options.visibility);
     const PackView unbounded = test_.assemble();
     {
         auto geometry = reference::PackGeometry::decode(unbounded);

@@ -47,12 +47,13 @@ struct DeformedSceneOptions
 {
     uint32_t limbs =
         5; ///< instances, at least one, as of the next two: of a limb of 6 joints, each third one mirrored
-    uint32_t tentacles = 2;  ///< instances with eight influences and three morph targets
-    uint32_t blobs = 2;      ///< instances with morph targets alone
-    uint32_t rocks = 4;      ///< rigid instances
-    uint32_t pose_count = 8; ///< of each deformed mesh
-    uint32_t rings = 40;     ///< of triangles, in a limb
-    float reach = 3;         ///< metres from the origin
+    uint32_t tentacles = 2;             ///< instances with eight influences and three morph targets
+    uint32_t blobs = 2;                 ///< instances with morph targets alone
+    uint32_t rocks = 4;                 ///< rigid instances
+    uint32_t pose_count = 8;            ///< of each deformed mesh
+    uint32_t rings = 40;                ///< of triangles, in a limb
+    float reach = 3;                    ///< metres from the origin
+    TestScene::Visibility visibility{}; ///< of what is deformed; none: the meshes do not say
 };
 
 class DeformedScene

@@ -132,7 +132,10 @@ Picture GpuTest::draw(const gpu::Scene& scene, gpu::FrameTargets& targets, const
     if (options.shown == shared::kViewOverdraw)
         HEARTH_ASSERT(renderer().prepareOverdraw().ok());
     const gpu::FrameInput input{.view = viewOf(scene, camera, options),
-                                .shading = {.shown = options.shown, .area = options.area},
+                                .shading = {.shown = options.shown,
+                                            .area = options.area,
+                                            .ambient_occlusion = options.ambient_occlusion,
+                                            .specular_occlusion = options.specular_occlusion},
                                 .moves = options.moves,
                                 .poses = options.poses,
                                 .shadow_spheres = options.shadow_spheres};

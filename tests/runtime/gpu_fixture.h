@@ -41,6 +41,8 @@ struct DrawOptions
     uint32_t flags = shared::kCullEverything;
     uint32_t shown = shared::kViewFinal;
     gpu::ShadedArea area = gpu::ShadedArea::automatic;
+    uint32_t ambient_occlusion = shared::kAmbientOcclusionExact;
+    uint32_t specular_occlusion = shared::kSpecularOcclusionFit;
     std::vector<shared::LodKnot> lod_curve{};
     std::span<const gpu::InstanceMove> moves{};
     std::span<const gpu::InstancePose> poses{};

@@ -123,9 +123,9 @@ uint32_t TestScene::addImage(TexelFormat format, uint32_t width, uint32_t height
     return countOf(model_.images) - 1;
 }
 
-uint32_t TestScene::addMesh(const mesh::SourceMesh& mesh)
+uint32_t TestScene::addMesh(const mesh::SourceMesh& mesh, const clusters::Config& config)
 {
-    return addHierarchy(clusters::buildHierarchy(mesh));
+    return addHierarchy(clusters::buildHierarchy(mesh, config));
 }
 
 uint32_t TestScene::addHierarchy(const clusters::Hierarchy& hierarchy)
@@ -158,6 +158,37 @@ void TestScene::addLight(const LightRecord& light)
 {
     model_.lights.push_back(light);
     model_.lights.back().node = addNode(kNone, light.world_from_light);
+}
+
+void TestScene::setVisibility(const Visibility& visibility)
+{
+    const PackView view = assemble();
+    model_.decoded_pages.resize(view.pages().size());
+    for (uint32_t p = 0; p < view.pages().size(); ++p)
+    {
+        const PageRecord& page = view.pages()[p];
+        std::vector<std::byte>& bytes = model_.decoded_pages[p];
+        bytes.resize(page.size);
+        HEARTH_ASSERT(view.decodePage(p, bytes).ok());
+        for (const ClusterRecord& cluster : recordsOf(view.clusters(), page.clusters))
+        {
+            const auto geometry = ClusterGeometry::at(bytes, cluster, view.meshes()[page.mesh]);
+            HEARTH_ASSERT(geometry);
+            if (!geometry->has(kVertexVisibility))
+                continue;
+            const uint32_t layout = geometry->layout();
+            const auto first = static_cast<size_t>(geometry->bytes().data() - bytes.data()) +
+                               4 * (uvBaseWords(layout) + attributeWord(layout, kVertexVisibility));
+            for (uint32_t v = 0; v < geometry->vertexCount(); ++v)
+            {
+                const shared::VisibilityMoments moments =
+                    visibility(page.mesh, geometry->position(v), geometry->normal(v));
+                const uint32_t code = encodeVisibility(moments.m0, moments.m1, geometry->normal(v));
+                std::memcpy(bytes.data() + first + size_t{4} * v * vertexWords(layout), &code, sizeof(code));
+            }
+        }
+    }
+    model_.sealPages();
 }
 
 PackView TestScene::build()

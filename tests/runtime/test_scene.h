@@ -9,6 +9,7 @@
 #include "formats/shared/lod_curve.h"
 #include "tests/formats/small_pack.h"
 
+#include <functional>
 #include <random>
 
 namespace hearth::test
@@ -28,11 +29,15 @@ public:
     uint32_t addImage(formats::TexelFormat format, uint32_t width, uint32_t height,
                       const std::vector<uint32_t>& texels);
     /// Cooks the mesh; returns its number.
-    uint32_t addMesh(const mesh::SourceMesh& mesh);
+    uint32_t addMesh(const mesh::SourceMesh& mesh, const clusters::Config& config = {});
     uint32_t addHierarchy(const clusters::Hierarchy& hierarchy);
     /// Sets the flags and scale_max that the importer would.
     void addInstance(uint32_t mesh, const Affine3& world_from_object);
     void addLight(const formats::LightRecord& light);
+    /// What the vertices of all levels see of the sky, where they say it: after all meshes. In object space.
+    using Visibility =
+        std::function<shared::VisibilityMoments(uint32_t mesh, Float3 position, Float3 normal)>;
+    void setVisibility(const Visibility& visibility);
 
     /// The pack, which has passed the checker. The scene must outlive it and not change.
     formats::PackView build();

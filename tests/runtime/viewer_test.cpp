@@ -82,6 +82,9 @@ TEST(RenderOptions, everyOptionIsRead)
                                 "noise:7",
                                 "--shaded-area",
                                 "tiles",
+                                "--ambient-occlusion",
+                                "smoothstep",
+                                "--specular-occlusion=table",
                                 "--budget",
                                 "3M",
                                 "--shadows",
@@ -111,6 +114,8 @@ TEST(RenderOptions, everyOptionIsRead)
     EXPECT_EQ(options->pyramid, PyramidStart::noise);
     EXPECT_EQ(options->noise_seed, 7u);
     EXPECT_EQ(options->settings.shaded_area, gpu::ShadedArea::tiles);
+    EXPECT_EQ(options->settings.ambient_occlusion, shared::kAmbientOcclusionSmoothstep);
+    EXPECT_EQ(options->settings.specular_occlusion, shared::kSpecularOcclusionTable);
     EXPECT_EQ(options->geometry_budget, 3u << 20);
     ASSERT_EQ(options->settings.lod_curve.size(), 2u);
     EXPECT_EQ(options->settings.lod_curve[1].distance, 50);
@@ -170,6 +175,8 @@ TEST(RenderOptions, mistakesAreNamed)
         expectUsage({"a.hearth", "-o", "a.png", "--camera", camera}, camera);
     expectUsage({"a.hearth", "-o", "a.png", "--error-pixels", "-1"}, "-1");
     expectUsage({"a.hearth", "-o", "a.png", "--shaded-area", "half"}, "half");
+    expectUsage({"a.hearth", "-o", "a.png", "--ambient-occlusion", "table"}, "smoothstep");
+    expectUsage({"a.hearth", "-o", "a.png", "--specular-occlusion", "exact"}, "table");
     expectUsage({"a.hearth", "-o", "a.png", "--view", "pretty"}, "pretty");
     expectUsage({"a.hearth", "-o", "a.png", "--samples", "2"}, "2");
     for (const char* shadows : {"", "yes", "on,maps=4", "maps=0", "maps=65", "texels=1000", "kernel=4",

@@ -140,7 +140,7 @@ void Panel::build(ViewSettings& settings, const PanelFacts& facts)
         if (const uint32_t dropped = facts.scene.scene().dropped_lights; dropped > 0)
             showProblem(std::to_string(dropped) + " lights are more than can be drawn");
         chooseCamera(settings, facts);
-        buildPicture(settings.frame, facts.scene.scene().shadows != nullptr);
+        buildPicture(settings.frame, facts.scene.scene());
         buildAnimation(settings.playback, facts);
         buildCurve(settings.frame);
         buildStreaming(settings, facts);
@@ -150,13 +150,19 @@ void Panel::build(ViewSettings& settings, const PanelFacts& facts)
     ImGui::End();
 }
 
-void Panel::buildPicture(FrameSettings& settings, bool has_shadows)
+void Panel::buildPicture(FrameSettings& settings, const gpu::Scene& scene)
 {
     // the last one shows shadow maps
-    chooseNamed("View", viewNames().first(viewNames().size() - (has_shadows ? 0 : 1)), settings.view);
+    chooseNamed("View", viewNames().first(viewNames().size() - (scene.shadows != nullptr ? 0 : 1)),
+                settings.view);
     ImGui::SliderFloat("Error, pixels", &settings.error_pixels, 0, kMostError, "%.2f",
                        ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
     chooseNamed("Shaded area", shadedAreaNames(), settings.shaded_area);
+    if (gpu::hasSkyVisibility(scene))
+    {
+        chooseNamed("Ambient occlusion", ambientOcclusionNames(), settings.ambient_occlusion);
+        chooseNamed("Specular occlusion", specularOcclusionNames(), settings.specular_occlusion);
+    }
 }
 
 void Panel::buildCurve(FrameSettings& settings)

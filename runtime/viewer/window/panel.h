@@ -54,7 +54,7 @@ public:
     void build(ViewSettings& settings, const PanelFacts& facts);
 
 private:
-    void buildPicture(FrameSettings& settings, bool has_shadows);
+    void buildPicture(FrameSettings& settings, const gpu::Scene& scene);
     void buildCurve(FrameSettings& settings);
     void buildStreaming(ViewSettings& settings, const PanelFacts& facts);
     void buildCulling(ViewSettings& settings, const PanelFacts& facts);

@@ -26,6 +26,7 @@ void main()
     point.normal = normalizeOr(in_normal, vec3(0.0, 1.0, 0.0));
     point.flat_normal = point.normal; // no shadows look at it
     completeFrame(point.normal, in_tangent, in_side, point.tangent, point.bitangent);
+    point.sky = openSky(point.normal);
     point.color = in_color;
     // where both sides are drawn, mirrored instances are not drawn with the other front face
     bool turned = (material.flags & kMaterialDoubleSided) != 0u && in_mirrored != 0u;
