@@ -24,7 +24,7 @@ Status extractSpecular(const std::string& path, const std::string& output)
     constexpr uint32_t kNodes = shared::kSpecularNodes;
     std::string text = "aperture,roughness,cos_beta,value\n";
     for (uint32_t i = 0; i < kSpecularTexels; ++i)
-        text += fmt::format("{:.9g},{:.9g},{:.9g},{:.9g}\n", specularNodeAperture(i % kNodes),
+        text += fmt::format("{:.7g},{:.7g},{:.7g},{:.7g}\n", specularNodeAperture(i % kNodes),
                             specularNodeRoughness(i / kNodes % kNodes),
                             specularNodeCosBeta(i / kNodes / kNodes, spacing), table.values[i] / 255.0);
     HEARTH_ASSIGN_OR_RETURN(tools::WholeFile csv, tools::WholeFile::create(output));
