@@ -189,6 +189,7 @@ private:
         std::vector<Moments> sum(samples.size());
         RaySettings rays = settings_.rays;
         rays.rays_per_sample = settings_.rays.rays_per_sample / count;
+        rays.seed += statistics.mesh; // meshes that lie on each other have no noise in common
         statistics.samples = samples.size();
         for (uint32_t i = 0; i < count; ++i)
         {

@@ -63,6 +63,8 @@ void addCook(CLI::App& app, Work& run)
     CLI::App* verb = app.add_subcommand("cook", "Turn sources into a pack");
     struct Options : command::CookOptions
     {
+        bool bakes_visibility = false;
+        command::VisibilityOptions baked;
         bool quiet = false;
         bool verbose = false;
     };
@@ -78,6 +80,24 @@ void addCook(CLI::App& app, Work& run)
         ->allow_extra_args(false);
     verb->add_option("--profile", options->profile,
                      "TOML file that says how far each level of detail is simplified");
+    auto* visibility =
+        verb->add_flag("--visibility", options->bakes_visibility,
+                       "bake what each vertex sees of its surroundings: ambient and specular occlusion");
+    verb->add_option("--visibility-quality", options->baked.quality, "rays that it takes")
+        ->check(CLI::IsMember({"draft", "default", "high"}))
+        ->needs(visibility);
+    verb->add_option("--visibility-occluders", options->baked.occluders,
+                     "what is in the way: all of the source's scene, or each asset alone")
+        ->check(CLI::IsMember({"scene", "asset"}))
+        ->needs(visibility);
+    auto* distance = verb->add_option("--visibility-distance", options->baked.distance,
+                                      "metres: what is farther away hides nothing; no limit by default")
+                         ->check(CLI::PositiveNumber)
+                         ->needs(visibility);
+    verb->add_option("--visibility-power", options->baked.power,
+                     "visibility of what is t metres away is (t / distance)^power; nothing by default")
+        ->check(CLI::Range(0.0, 16.0))
+        ->needs(distance);
     verb->add_option("--report", options->report_file, "write a report as JSON");
     auto* quiet = verb->add_flag("-q,--quiet", options->quiet, "print errors only");
     verb->add_flag("-v,--verbose", options->verbose, "print the command line of every stage")
@@ -90,6 +110,8 @@ void addCook(CLI::App& app, Work& run)
             options->verbosity = options->quiet     ? command::Verbosity::quiet
                                  : options->verbose ? command::Verbosity::all
                                                     : command::Verbosity::normal;
+            if (options->bakes_visibility)
+                options->visibility = options->baked;
             run = [options] { return command::cook(*options); };
         });
 }

@@ -52,48 +52,80 @@ std::string statisticsFile(const std::string& folder, size_t index)
     return fmt::format("{}/{}.clusters.json", folder, index);
 }
 
-void addSource(Plan& plan, const std::string& programs, const std::string& folder, size_t index,
-               const CookOptions& options)
+/// The flags of hearth-visibility.
+std::vector<std::string> visibilityFlags(const VisibilityOptions& options)
 {
-    const std::string& source = options.sources[index];
-    const auto part = [&](const char* kind) { return fmt::format("{}/{}.{}.part", folder, index, kind); };
-    const size_t import_stage = plan.size();
-    plan.push_back({"import",
-                    index,
-                    {programs + "/hearth-import", source, "-o", part("import")},
-                    part("import"),
-                    {},
-                    source});
-    for (const std::string& lod : options.lods)
-        plan.back().command.insert(plan.back().command.end(), {"--lod", lod});
-    if (!options.profile.empty())
-        plan.back().command.insert(plan.back().command.end(), {"--profile", options.profile});
-    for (const char* kind : {"textures", "clusters"})
-        plan.push_back({kind,
-                        index,
-                        {programs + "/hearth-" + kind, part("import"), "-o", part(kind)},
-                        part(kind),
-                        {import_stage},
-                        source});
-    if (!options.profile.empty())
-        plan.back().command.insert(plan.back().command.end(), {"--profile", options.profile});
-    if (!options.report_file.empty())
-        plan.back().command.insert(plan.back().command.end(), {"--stats", statisticsFile(folder, index)});
-    plan.push_back({"skinning",
-                    index,
-                    {programs + "/hearth-skinning", part("import"), part("clusters"), "-o", part("skinning")},
-                    part("skinning"),
-                    {plan.size() - 1},
-                    source});
+    std::vector<std::string> flags{"--quality", options.quality, "--occluders", options.occluders};
+    if (options.distance > 0)
+        flags.insert(flags.end(), {"--distance", fmt::format("{}", options.distance), "--power",
+                                   fmt::format("{}", options.power)});
+    return flags;
 }
 
-void addLink(Plan& plan, const std::string& programs, const std::string& packed, const CookOptions& options)
+/// Appends the source's stages; returns those whose parts the link reads, in this order: import, clusters, textures,
+/// skinning.
+std::vector<size_t> addSource(Plan& plan, const std::string& programs, const std::string& folder,
+                              size_t index, const CookOptions& options)
+{
+    const std::string& source = options.sources[index];
+    const auto part = [&](const std::string& kind)
+    { return fmt::format("{}/{}.{}.part", folder, index, kind); };
+    /// Runs hearth-`kind` over the parts of stages before.
+    const auto add = [&](const std::string& kind, const std::vector<size_t>& inputs)
+    {
+        Stage stage{kind, index, {programs + "/hearth-" + kind}, part(kind), inputs, source};
+        for (const size_t input : inputs)
+            stage.command.push_back(plan[input].output);
+        stage.command.insert(stage.command.end(), {"-o", stage.output});
+        plan.push_back(std::move(stage));
+        return plan.size() - 1;
+    };
+    const auto addFlags = [&](size_t stage, const std::vector<std::string>& flags)
+    { plan[stage].command.insert(plan[stage].command.end(), flags.begin(), flags.end()); };
+
+    const size_t import_stage = add("import", {});
+    plan[import_stage].command.insert(plan[import_stage].command.begin() + 1, source);
+    for (const std::string& lod : options.lods)
+        addFlags(import_stage, {"--lod", lod});
+    const size_t textures = add("textures", {import_stage});
+    const size_t clusters = add("clusters", {import_stage});
+    if (!options.profile.empty())
+        for (const size_t stage : {import_stage, clusters})
+            addFlags(stage, {"--profile", options.profile});
+    if (!options.report_file.empty())
+        addFlags(clusters, {"--stats", statisticsFile(folder, index)});
+    const size_t skinning = add("skinning", {import_stage, clusters});
+    if (!options.visibility)
+        return {import_stage, clusters, textures, skinning};
+    addFlags(clusters, {"--visibility"});
+    const size_t visibility = add("visibility", {import_stage, clusters});
+    addFlags(visibility, visibilityFlags(*options.visibility));
+    return {import_stage, visibility, textures, skinning};
+}
+
+/// The table that shading needs beside visibilities; no source has a say in it.
+std::string addSpecular(Plan& plan, const std::string& programs, const std::string& folder,
+                        const CookOptions& options)
+{
+    const std::string part = folder + "/specular.part";
+    plan.push_back({"specular",
+                    options.sources.size(),
+                    {programs + "/hearth-specular", "-o", part},
+                    part,
+                    {},
+                    options.output});
+    return part;
+}
+
+/// inputs  stages whose parts the link reads, in this order
+void addLink(Plan& plan, const std::string& programs, const std::string& folder, const std::string& packed,
+             const std::vector<size_t>& inputs, const CookOptions& options)
 {
     Stage link{"link", options.sources.size(), {programs + "/hearth-link"}, packed, {}, options.output};
-    // the link reads import, clusters, textures and skinning parts, in this order
-    for (size_t first = 0; first < plan.size(); first += 4)
-        for (const size_t part : {first, first + 2, first + 1, first + 3})
-            link.command.push_back(plan[part].output);
+    for (const size_t input : inputs)
+        link.command.push_back(plan[input].output);
+    if (options.visibility)
+        link.command.insert(link.command.end(), {"--specular", addSpecular(plan, programs, folder, options)});
     link.command.insert(link.command.end(), {"-o", packed});
     for (size_t i = 0; i < plan.size(); ++i)
         link.after.push_back(i);
@@ -222,7 +254,7 @@ uint64_t sizeOf(const std::string& path)
 void printStage(const CookOptions& options, const Stage& stage, const StageRecord& record)
 {
     if (options.verbosity != Verbosity::quiet)
-        print(faint(fmt::format("{:<9}{:>9.2f} s {:>12}  {}", stage.name, record.seconds,
+        print(faint(fmt::format("{:<10}{:>8.2f} s {:>12}  {}", stage.name, record.seconds,
                                 readableSize(record.output_bytes), stage.subject)));
 }
 
@@ -342,9 +374,11 @@ std::optional<Failure> cookInPrivate(const CookOptions& options, CookOutcome& ou
     Plan plan;
     const std::string programs = programFolder();
     const std::string packed = beside->path() + "/pack.hearth";
+    std::vector<size_t> inputs;
     for (size_t i = 0; i < options.sources.size(); ++i)
-        addSource(plan, programs, parts->path(), i, options);
-    addLink(plan, programs, packed, options);
+        for (const size_t part : addSource(plan, programs, parts->path(), i, options))
+            inputs.push_back(part);
+    addLink(plan, programs, parts->path(), packed, inputs, options);
     if (auto failure = runPlan(plan, children, options, outcome))
         return failure;
 
@@ -372,7 +406,7 @@ int cook(const CookOptions& options)
     }
     outcome.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     if (outcome.exit_code == 0 && options.verbosity != Verbosity::quiet)
-        print(fmt::format("{:<9}{:>9.2f} s {:>12}  {}", "cooked", outcome.seconds,
+        print(fmt::format("{:<10}{:>8.2f} s {:>12}  {}", "cooked", outcome.seconds,
                           readableSize(outcome.output_bytes), options.output));
 
     if (!options.report_file.empty() && outcome.exit_code != kInterrupted)

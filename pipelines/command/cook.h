@@ -5,11 +5,21 @@
 #include "pipelines/command/terminal.h"
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace hearth::command
 {
+
+/// What hearth-visibility is told.
+struct VisibilityOptions
+{
+    std::string quality = "default";
+    std::string occluders = "scene";
+    double distance = 0; ///< metres; 0: no limit
+    double power = 0;    ///< with a distance only
+};
 
 struct CookOptions
 {
@@ -19,16 +29,17 @@ struct CookOptions
     /// the memory of another mesh.
     unsigned jobs = 2;
     Verbosity verbosity = Verbosity::normal;
-    std::vector<std::string> lods; ///< "N=FILE": levels of detail of the only source
-    std::string profile;           ///< TOML file that the cookers read; empty: none
-    std::string report_file;       ///< empty: none
+    std::vector<std::string> lods;               ///< "N=FILE": levels of detail of the only source
+    std::string profile;                         ///< TOML file that the cookers read; empty: none
+    std::string report_file;                     ///< empty: none
+    std::optional<VisibilityOptions> visibility; ///< none: vertices do not say what they see
 };
 
 /// One cooker's run.
 struct StageRecord
 {
-    std::string stage; ///< "import", "clusters", "textures", "skinning", "link"
-    size_t source = 0; ///< index of the source; their number for the link
+    std::string stage; ///< "import", "clusters", "textures", "skinning", "visibility", "specular", "link"
+    size_t source = 0; ///< index of the source; their number for what is not of one source
     double seconds = 0;
     double cpu_seconds = 0;
     uint64_t peak_rss_bytes = 0;
