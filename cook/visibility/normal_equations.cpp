@@ -1,5 +1,5 @@
-// Least squares vertex baking: L. Kavan, A. W. Bargteil, P.-P. Sloan, "Least squares vertex baking", 2011. Differs: the
-// regulariser as one row for each edge, weighted by (A1 + A2)^2, and the mass sampled like the right-hand side.
+// Least squares vertex baking: L. Kavan, A. W. Bargteil, P.-P. Sloan, "Least squares vertex baking", 2011. Differs:
+// the regulariser as one row for each edge, weighted by (A1 + A2)^2, and the mass sampled like the right-hand side.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/visibility/normal_equations.h"
 
@@ -15,8 +15,9 @@ namespace hearth::visibility
 namespace
 {
 
-// Of the determinant that a triangle's mass would have if it were sampled everywhere. With less, corners would follow the
-// noise of samples that lie in a row, and the solver would take hundreds of iterations for models of loose triangles.
+// Of the determinant that a triangle's mass would have if it were sampled everywhere. With less, corners would follow
+// the noise of samples that lie in a row, and the solver would take hundreds of iterations for models of loose
+// triangles.
 constexpr double kPoor = 0.3;
 
 double areaOf(std::span<const Float3> positions, const uint32_t* corners)
@@ -177,8 +178,9 @@ void addJumps(NormalEquations& system, const Proxy& proxy, std::span<const doubl
     }
 }
 
-/// 1 where the samples say nothing about differences within the triangle, 0 where they say enough: by their mass' determinant over that
-/// of the mass of the whole area, which is (A / 12)^3 times that of ((2, 1, 1), (1, 2, 1), (1, 1, 2)).
+/// 1 where the samples say nothing about differences within the triangle, 0 where they say enough: by their mass'
+/// determinant over that of the mass of the whole area, which is (A / 12)^3 times that of ((2, 1, 1), (1, 2, 1), (1,
+/// 1, 2)).
 double poverty(const TriangleSums& sums, double area)
 {
     const double* m = sums.mass;

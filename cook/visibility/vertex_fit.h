@@ -36,8 +36,8 @@ struct HeldVertices
     std::span<const Moments> moments;
 };
 
-/// Fit, and bring each vertex' moments back to what its normal allows (moment_clamp.h). Held vertices keep their bits.
-/// Constants come back as they are; all results are finite. The same bits for any number of threads.
+/// Fit, and bring each vertex' moments back to what its normal allows (moment_clamp.h). Held vertices keep their
+/// bits. Constants come back as they are; all results are finite. The same bits for any number of threads.
 /// samples  on the proxy: samplesOnProxy()
 /// values   one for each sample
 /// source   L. Kavan, A. W. Bargteil, P.-P. Sloan, "Least squares vertex baking", 2011
