@@ -26,8 +26,8 @@ public:
         double distance2 = 0;
     };
 
-    /// The nearest point, no farther than sqrt(`limit2`), on a triangle whose plane faces `normal` (dot > 0); triangles
-    /// without area face nothing. Triangle kNowhere if there is none.
+    /// The nearest point, no farther than sqrt(`limit2`), on a triangle whose plane faces `normal` (dot > 0);
+    /// triangles without area face nothing. Triangle kNowhere if there is none.
     /// normal  need not have length 1; 0: all triangles will do
     /// hint    a triangle that is probably near, or kNowhere: the answer is as good without, but for ties
     Found find(Float3 point, Float3 normal, double limit2, uint32_t hint) const;

@@ -36,8 +36,9 @@ struct RefinedCone
     double distance2 = 0;       ///< and of the result's; not greater
 };
 
-/// The cone whose harmonics are nearest to `visibility`, by Levenberg-Marquardt from `start`, and from its aperture and scale about `normal`: with
-/// two openings there are several minima. Both sides have three bands: against the cone itself a narrow cone would fit as a wide one.
+/// The cone whose harmonics are nearest to `visibility`, by Levenberg-Marquardt from `start`, and from its aperture
+/// and scale about `normal`: with two openings there are several minima. Both sides have three bands: against the
+/// cone itself a narrow cone would fit as a wide one.
 RefinedCone refineCone(const Sh9& visibility, const ConeFit& start, Double3 normal);
 
 struct RefineStatistics

@@ -58,8 +58,8 @@ std::vector<double> inverseDiagonal(const SparseMatrix& matrix)
     return inverse;
 }
 
-/// The tridiagonal matrix that conjugate gradients have found: its eigenvalues lie among those of the scaled matrix, the
-/// extreme ones soon near its extreme ones.
+/// The tridiagonal matrix that conjugate gradients have found: its eigenvalues lie among those of the scaled matrix,
+/// the extreme ones soon near its extreme ones.
 class Lanczos
 {
 public:

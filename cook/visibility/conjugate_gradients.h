@@ -10,7 +10,8 @@
 namespace hearth::visibility
 {
 
-/// Symmetric, positive semidefinite, in compressed rows: columns ascend in each row, the diagonal is there and positive.
+/// Symmetric, positive semidefinite, in compressed rows: columns ascend in each row, the diagonal is there and
+/// positive.
 struct SparseMatrix
 {
     std::vector<uint32_t> row_start; ///< of each row, and the end
@@ -31,10 +32,11 @@ struct SolveStatistics
 
 /// Solve A x = b, from what x is at first. Ends when the residual r of every right-hand side has
 /// sqrt(r^T D^-1 r) <= tolerance sqrt(b^T D^-1 b), D the diagonal and b all right-hand sides together: they have one
-/// unit, and one that is about 0 need not be solved to its own last bits. Where the matrix is singular but the system is
-/// not contradictory, x keeps what the start has of the null space.
+/// unit, and one that is about 0 need not be solved to its own last bits. Where the matrix is singular but the system
+/// is not contradictory, x keeps what the start has of the null space.
 /// Sums have a fixed order: the same bits for any number of threads. Time O(iterations * entries).
-/// source  M. Hestenes, E. Stiefel, 1952; eigenvalues of the Lanczos matrix as in G. Golub, C. Van Loan, "Matrix Computations", 10.2
+/// source  M. Hestenes, E. Stiefel, 1952; eigenvalues of the Lanczos matrix as in G. Golub, C. Van Loan, "Matrix
+///         Computations", 10.2
 SolveStatistics solve(const SparseMatrix& matrix, const std::vector<Block4>& b, std::vector<Block4>& x,
                       double tolerance, uint32_t max_iterations);
 

@@ -21,8 +21,8 @@ struct InteriorEdge
     friend bool operator==(const InteriorEdge&, const InteriorEdge&) = default;
 };
 
-/// The edges that exactly two of the triangles have, sorted by (a, b): borders and edges where three or more triangles
-/// meet are not among them. Triangles may be oriented differently. Time and memory O(triangles).
+/// The edges that exactly two of the triangles have, sorted by (a, b): borders and edges where three or more
+/// triangles meet are not among them. Triangles may be oriented differently. Time and memory O(triangles).
 /// indices  three different vertices for each triangle, less than vertex_count
 std::vector<InteriorEdge> interiorEdges(std::span<const uint32_t> indices, size_t vertex_count);
 

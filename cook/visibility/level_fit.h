@@ -17,8 +17,8 @@ struct LevelMesh
     /// For each vertex the vertex of the level below (the one before this, finer) that it must not differ from, or
     /// kNowhere. Empty for the finest. Cuts that mix the two levels meet in such vertices.
     std::span<const uint32_t> finer_vertex;
-    /// How far samples are looked for on this level: larger than its error, less than what would be another side of the object. Units of
-    /// the positions; 0: a twentieth of the diagonal of the samples' box.
+    /// How far samples are looked for on this level: larger than its error, less than what would be another side of
+    /// the object. Units of the positions; 0: a twentieth of the diagonal of the samples' box.
     float reach = 0;
 };
 
@@ -28,10 +28,10 @@ struct LevelFitSettings
     FitSettings fit;
     /// Of a level at most, so that all levels together take little time: four times what the finest has by default.
     uint32_t samples_per_vertex = 32;
-    /// Jumps of gradients weigh alpha times the square of the level's vertices by the finest's: that is the same penalty of
-    /// curvature in metres on each level, so that they approach one function, and with one alpha the coarse ones would be blurred
-    /// until copies of vertices were nearer to the truth. Not less than this share of alpha: with the samples that a vertex has, noise
-    /// would come through.
+    /// Jumps of gradients weigh alpha times the square of the level's vertices by the finest's: that is the same
+    /// penalty of curvature in metres on each level, so that they approach one function, and with one alpha the
+    /// coarse ones would be blurred until copies of vertices were nearer to the truth. Not less than this share of
+    /// alpha: with the samples that a vertex has, noise would come through.
     double least_alpha = 0.03;
 };
 
@@ -43,16 +43,16 @@ struct LevelFit
     uint32_t samples = 0; ///< that were used; statistics.lost_samples of them lie nowhere on this level
 };
 
-/// The finest level first. Held vertices have the bits of the level below; so, from level to level, cuts have no jumps.
-/// Samples of coarser levels are an even choice by area along the order of the samples, which should be one that keeps
-/// neighbours together (Morton's), each moved to the nearest point that faces its way.
+/// The finest level first. Held vertices have the bits of the level below; so, from level to level, cuts have no
+/// jumps. Samples of coarser levels are an even choice by area along the order of the samples, which should be one
+/// that keeps neighbours together (Morton's), each moved to the nearest point that faces its way.
 /// samples  on the triangles of levels[0]
 /// values   one for each sample
 std::vector<LevelFit> fitLevels(std::span<const LevelMesh> levels, std::span<const SampleRef> samples,
                                 std::span<const Moments> values, const LevelFitSettings& settings = {});
 
-/// An even choice: `count` steps of equal area along the samples, and for each the sample that its middle falls on; how often a sample
-/// is chosen is its new area. All samples as they are, if they are no more.
+/// An even choice: `count` steps of equal area along the samples, and for each the sample that its middle falls on;
+/// how often a sample is chosen is its new area. All samples as they are, if they are no more.
 /// returns  indices, ascending, and the area of each
 struct SampleChoice
 {

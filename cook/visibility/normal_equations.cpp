@@ -1,5 +1,5 @@
-// Least squares vertex baking: L. Kavan, A. W. Bargteil, P.-P. Sloan, "Least squares vertex baking", 2011. Differs: the
-// regulariser as one row for each edge, weighted by (A1 + A2)^2, and the mass sampled like the right-hand side.
+// Least squares vertex baking: L. Kavan, A. W. Bargteil, P.-P. Sloan, "Least squares vertex baking", 2011. Differs:
+// the regulariser as one row for each edge, weighted by (A1 + A2)^2, and the mass sampled like the right-hand side.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/visibility/normal_equations.h"
 
@@ -15,17 +15,10 @@ namespace hearth::visibility
 namespace
 {
 
-// A vertex with less than this share of the mass that its triangles' area is for has been missed by the samples, but for
-// points far away from it.
-constexpr double kStarved = 0.02;
-
-// The membrane by the triangle's area. A sixth of what the mass itself says about differences within a triangle: enough that every model
-// of the corpus is solved in 40 iterations (0.003 needs 45), and at a tip that two samples lie on, less wrong than their noise.
-constexpr double kMembrane = 0.005;
-
-// Sides across which a triangle has a neighbour; with fewer a corner of it belongs to no other triangle, and the regulariser says
-// little or nothing about it.
-constexpr uint8_t kHeldSides = 2;
+// Of the determinant that a triangle's mass would have if it were sampled everywhere. With less, corners would follow
+// the noise of samples that lie in a row, and the solver would take hundreds of iterations for models of loose
+// triangles.
+constexpr double kPoor = 0.3;
 
 double areaOf(std::span<const Float3> positions, const uint32_t* corners)
 {
@@ -185,22 +178,29 @@ void addJumps(NormalEquations& system, const Proxy& proxy, std::span<const doubl
     }
 }
 
-/// sum over the sides of the triangle of (u_i - u_j)^2, for triangles with a vertex that has too little mass, and for those
-/// that hang by one side or none: their corners would follow the noise of a few samples.
-void addMembrane(NormalEquations& system, const Proxy& proxy, std::span<const double> areas)
+/// 1 where the samples say nothing about differences within the triangle, 0 where they say enough: by their mass'
+/// determinant over that of the mass of the whole area, which is (A / 12)^3 times that of ((2, 1, 1), (1, 2, 1), (1,
+/// 1, 2)).
+double poverty(const TriangleSums& sums, double area)
 {
-    // sides across which the regulariser says what a triangle is like
-    std::vector<uint8_t> sides(proxy.indices.size() / 3, 0);
-    for (const InteriorEdge& edge : proxy.edges)
-        for (const uint32_t triangle : edge.triangles)
-            ++sides[triangle];
-    const auto starved = [&](uint32_t v) { return system.mass[v] < kStarved * areas[v]; };
-    for (size_t t = 0; t < proxy.indices.size(); t += 3)
+    const double* m = sums.mass;
+    const double determinant = m[0] * m[1] * m[2] + 2 * m[3] * m[4] * m[5] - m[0] * m[4] * m[4] -
+                               m[1] * m[5] * m[5] - m[2] * m[3] * m[3];
+    const double twelfth = area / 12, whole = 4 * twelfth * twelfth * twelfth;
+    return whole > 0 ? std::clamp(1 - determinant / (kPoor * whole), 0.0, 1.0) : 0;
+}
+
+/// share * area * poverty times the sum over the sides of the triangle of (u_i - u_j)^2.
+void addMembrane(NormalEquations& system, const Proxy& proxy, const std::vector<TriangleSums>& sums,
+                 double share)
+{
+    for (size_t t = 0; t < sums.size(); ++t)
     {
-        const uint32_t* corners = &proxy.indices[t];
-        if (sides[t / 3] >= kHeldSides && std::none_of(corners, corners + 3, starved))
+        const uint32_t* corners = &proxy.indices[t * 3];
+        const double area = areaOf(proxy.positions, corners);
+        const double weight = share * area * poverty(sums[t], area);
+        if (!(weight > 0))
             continue;
-        const double weight = kMembrane * areaOf(proxy.positions, corners);
         for (size_t k = 0; k < 3; ++k)
         {
             const uint32_t a = corners[k], b = corners[(k + 1) % 3];
@@ -253,7 +253,7 @@ std::array<double, 4> gradientJump(std::span<const Float3> positions, const Inte
 }
 
 NormalEquations assemble(const Proxy& proxy, std::span<const SampleRef> samples,
-                         std::span<const Moments> values, double alpha, double stiffness)
+                         std::span<const Moments> values, const FitSettings& settings)
 {
     HEARTH_ASSERT(samples.size() == values.size());
     const std::vector<TriangleSums> sums = sumSamples(proxy.indices.size() / 3, samples, values);
@@ -262,9 +262,8 @@ NormalEquations assemble(const Proxy& proxy, std::span<const SampleRef> samples,
     system.right.resize(proxy.positions.size());
     system.mass.assign(proxy.positions.size(), 0);
     addMass(system, proxy, sums);
-    const std::vector<double> areas = areasOfVertices(proxy);
-    addJumps(system, proxy, areas, alpha, stiffness);
-    addMembrane(system, proxy, areas);
+    addJumps(system, proxy, areasOfVertices(proxy), settings.alpha, settings.stiffness);
+    addMembrane(system, proxy, sums, settings.membrane);
     system.island = islandsOf(proxy);
     return system;
 }

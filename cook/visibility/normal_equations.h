@@ -4,6 +4,7 @@
 #pragma once
 
 #include "cook/visibility/conjugate_gradients.h"
+#include "cook/visibility/fit_settings.h"
 #include "cook/visibility/proxy.h"
 
 #include <array>
@@ -11,8 +12,8 @@
 namespace hearth::visibility
 {
 
-/// The jump of the gradient across an edge times (A1 + A2), as a sum over its four corners: it is 0 for a function that
-/// is linear over the two triangles unfolded into a plane. All 0 where a triangle has no area.
+/// The jump of the gradient across an edge times (A1 + A2), as a sum over its four corners: it is 0 for a function
+/// that is linear over the two triangles unfolded into a plane. All 0 where a triangle has no area.
 /// returns  factors of a, b, k, l; their unit is a length
 std::array<double, 4> gradientJump(std::span<const Float3> positions, const InteriorEdge& edge);
 
@@ -24,13 +25,12 @@ struct NormalEquations
     std::vector<uint32_t> island; ///< of each vertex: the lowest vertex that triangles connect it with
 };
 
-/// sum_s area_s (u(s) - f_s)^2 + alpha sum_e jump_e(u)^2 -> min, as matrix u = right. Mass and right-hand side are summed
-/// over the same samples, so that constants fit exactly whatever the samples are. Triangles at vertices that the samples
-/// all but miss, and those with less than two neighbours, get a little of a membrane, which constants do not feel either.
-/// samples    triangles of the proxy, or kNowhere: not used
-/// values     one for each sample
-/// stiffness  FitSettings::stiffness
+/// sum_s area_s (u(s) - f_s)^2 + alpha sum_e jump_e(u)^2 -> min, as matrix u = right. Mass and right-hand side are
+/// summed over the same samples, so that constants fit exactly whatever the samples are. Triangles that have too few
+/// samples, or only in a row, get a little of a membrane, which constants do not feel either.
+/// samples  triangles of the proxy, or kNowhere: not used
+/// values   one for each sample
 NormalEquations assemble(const Proxy& proxy, std::span<const SampleRef> samples,
-                         std::span<const Moments> values, double alpha, double stiffness);
+                         std::span<const Moments> values, const FitSettings& settings);
 
 } // namespace hearth::visibility

@@ -18,8 +18,8 @@ namespace hearth::visibility
 namespace
 {
 
-// How far a vertex may lie from the rest of the surface, in thinnesses of the longest edge of its triangles, to be taken
-// for a point of it: a corner of a sliver that was dropped lies within one of its other two.
+// How far a vertex may lie from the rest of the surface, in thinnesses of the longest edge of its triangles, to be
+// taken for a point of it: a corner of a sliver that was dropped lies within one of its other two.
 constexpr double kBeside = 10;
 
 // Samples that are looked up one after another; each starts where the one before was found.

@@ -1,5 +1,5 @@
-// The mesh that visibility is fitted on: one vertex where the source has several, and no triangle that is all but a line.
-// See README.md, "The proxy".
+// The mesh that visibility is fitted on: one vertex where the source has several, and no triangle that is all but a
+// line. See README.md, "The proxy".
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -16,8 +16,8 @@ namespace hearth::visibility
 
 struct ProxySettings
 {
-    /// Positions as far apart, by the farther of the mesh's longest side and its farthest coordinate, are one: two steps of a
-    /// float there. Import's grids are coarser or as fine as floats allow.
+    /// Positions as far apart, by the farther of the mesh's longest side and its farthest coordinate, are one: two
+    /// steps of a float there. Import's grids are coarser or as fine as floats allow.
     double position_tolerance = 0x1p-22;
     /// Normals as far apart in each axis face the same way: six degrees. Facets of rounded shapes are often less far
     /// apart; edges that are meant to be hard, more.
@@ -64,14 +64,14 @@ struct Proxy
 /// Deterministic. Time O(n log n).
 Proxy makeProxy(const MeshView& source, const ProxySettings& settings = {});
 
-/// Where samples of the source's triangles lie on the proxy: on triangles that are still there with the same weights, else
-/// at the nearest point that faces the same way. Their triangle is kNowhere if there is none where their own was: a sliver
-/// can face anywhere, and what it sees then is nothing that the surface sees.
+/// Where samples of the source's triangles lie on the proxy: on triangles that are still there with the same weights,
+/// else at the nearest point that faces the same way. Their triangle is kNowhere if there is none where their own
+/// was: a sliver can face anywhere, and what it sees then is nothing that the surface sees.
 std::vector<SampleRef> samplesOnProxy(const Proxy& proxy, const MeshView& source,
                                       std::span<const SampleRef> samples);
 
-/// Values of the proxy's vertices, brought back to the source's. Where the proxy is empty: the open hemisphere about the
-/// vertex' normal.
+/// Values of the proxy's vertices, brought back to the source's. Where the proxy is empty: the open hemisphere about
+/// the vertex' normal.
 std::vector<Moments> valuesOfSource(const Proxy& proxy, std::span<const Moments> values,
                                     std::span<const Float3> source_normals);
 

@@ -20,8 +20,8 @@ using Corners = std::array<uint32_t, 3>;
 // A flip or a collapse makes work for the neighbours; of meshes seen, the worst were done after four rounds.
 constexpr int kRounds = 16;
 
-// An edge of a thin triangle, by its longest: shorter ones are collapsed. In thinnesses: a corner that is as far along
-// the longest edge from its end would leave a thin triangle behind if it were flipped.
+// An edge of a thin triangle, by its longest: shorter ones are collapsed. In thinnesses: a corner that is as far
+// along the longest edge from its end would leave a thin triangle behind if it were flipped.
 constexpr double kShort = 4;
 
 struct Shape

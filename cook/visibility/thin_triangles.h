@@ -32,8 +32,8 @@ struct CleanTriangles
 
 /// No triangle that is left is lower than `thinness` times its longest edge, no two have the same three vertices, and
 /// none names a vertex twice. Short edges of thin triangles are collapsed, to the vertex with the lower index; where
-/// a corner lies beside the middle of the longest edge, that edge is flipped if it has one other triangle and the two become less
-/// thin; what is still thin is dropped.
+/// a corner lies beside the middle of the longest edge, that edge is flipped if it has one other triangle and the two
+/// become less thin; what is still thin is dropped.
 /// indices   three for each triangle
 /// thinness  least height by longest edge; 0: only duplicates and those that name a vertex twice go
 CleanTriangles removeThinTriangles(std::span<const Float3> positions, std::span<const uint32_t> indices,

@@ -100,7 +100,7 @@ FitResult fitVertices(const Proxy& proxy, std::span<const SampleRef> samples, st
     const size_t count = proxy.positions.size();
     HEARTH_ASSERT(samples.size() == values.size() && held.is_held.size() == held.moments.size());
     HEARTH_ASSERT(held.is_held.empty() || held.is_held.size() == count);
-    NormalEquations system = assemble(proxy, samples, values, settings.alpha, settings.stiffness);
+    NormalEquations system = assemble(proxy, samples, values, settings);
     Start start = startOf(proxy, system, held);
     eliminate(system, start);
 

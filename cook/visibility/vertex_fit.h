@@ -4,25 +4,13 @@
 #pragma once
 
 #include "cook/visibility/conjugate_gradients.h"
+#include "cook/visibility/fit_settings.h"
 #include "cook/visibility/proxy.h"
 
 #include <vector>
 
 namespace hearth::visibility
 {
-
-struct FitSettings
-{
-    /// Of the jumps of the gradient, against the distances of the samples: without a unit. 0.1 lets a quarter of the samples' variance
-    /// through that averages around a vertex would; 0 lets through more than all of it, 1 blurs and takes three times the iterations.
-    double alpha = 0.1;
-    /// The most that the square of a factor of a jump may be, by the area that is the vertex' own; jumps with more count as much less.
-    /// Between triangles of one size and shape it is 1 to 2. Where a small or flat one meets a large one it grows with the
-    /// square of their ratio, and so do iterations: scans took hundreds, with any proxy. Infinity: the sum as published.
-    double stiffness = 4;
-    double tolerance = 1e-8;       ///< of the solver; what is stored has eight bits a value or so
-    uint32_t max_iterations = 500; ///< a mesh that needs 40 is already a bad one
-};
 
 struct FitStatistics
 {
@@ -48,8 +36,8 @@ struct HeldVertices
     std::span<const Moments> moments;
 };
 
-/// Fit, and bring each vertex' moments back to what its normal allows (moment_clamp.h). Held vertices keep their bits.
-/// Constants come back as they are; all results are finite. The same bits for any number of threads.
+/// Fit, and bring each vertex' moments back to what its normal allows (moment_clamp.h). Held vertices keep their
+/// bits. Constants come back as they are; all results are finite. The same bits for any number of threads.
 /// samples  on the proxy: samplesOnProxy()
 /// values   one for each sample
 /// source   L. Kavan, A. W. Bargteil, P.-P. Sloan, "Least squares vertex baking", 2011

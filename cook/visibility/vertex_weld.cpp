@@ -1,5 +1,5 @@
-// A hash grid in six dimensions: three of the position, three of the normal. A vertex lies in one cell and looks into all
-// that its tolerances touch, mostly that one.
+// A hash grid in six dimensions: three of the position, three of the normal. A vertex lies in one cell and looks into
+// all that its tolerances touch, mostly that one.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/visibility/vertex_weld.h"
 

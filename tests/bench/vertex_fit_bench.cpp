@@ -56,7 +56,7 @@ void assembly(benchmark::State& state)
     const Proxy proxy = makeProxy(test::viewOf(scene().rock));
     const std::vector<SampleRef> samples = samplesOnProxy(proxy, test::viewOf(scene().rock), scene().samples);
     for (auto _ : state)
-        benchmark::DoNotOptimize(assemble(proxy, samples, scene().values, 0.1, 4));
+        benchmark::DoNotOptimize(assemble(proxy, samples, scene().values, {}));
 }
 BENCHMARK(assembly)->Unit(benchmark::kMillisecond)->UseRealTime();
 
@@ -66,7 +66,7 @@ void solution(benchmark::State& state)
     const OneCore one(kParallelism, 1);
     const Proxy proxy = makeProxy(test::viewOf(scene().rock));
     const std::vector<SampleRef> samples = samplesOnProxy(proxy, test::viewOf(scene().rock), scene().samples);
-    const NormalEquations system = assemble(proxy, samples, scene().values, 0.1, 4);
+    const NormalEquations system = assemble(proxy, samples, scene().values, {});
     SolveStatistics statistics;
     for (auto _ : state)
     {
