@@ -28,7 +28,7 @@ struct SamplePoints
     double diagonal = 0;
 };
 
-SamplePoints pointsOf(const MeshView& mesh, std::span<const SampleRef> samples)
+SamplePoints pointsOf(const MeshView& mesh, std::span<const SurfaceSample> samples)
 {
     SamplePoints points;
     points.positions.resize(samples.size());
@@ -36,7 +36,7 @@ SamplePoints pointsOf(const MeshView& mesh, std::span<const SampleRef> samples)
     tbb::parallel_for(size_t{0}, samples.size(),
                       [&](size_t i)
                       {
-                          const SampleRef& sample = samples[i];
+                          const SurfaceSample& sample = samples[i];
                           const uint32_t* corners = mesh.indices.data() + size_t{sample.triangle} * 3;
                           const Float3 a = mesh.positions[corners[0]];
                           const Float3 ab = mesh.positions[corners[1]] - a,
@@ -52,11 +52,11 @@ SamplePoints pointsOf(const MeshView& mesh, std::span<const SampleRef> samples)
 }
 
 /// The chosen samples on the proxy of a coarser level.
-std::vector<SampleRef> transfer(const SamplePoints& points, const SampleChoice& choice, const Proxy& proxy,
-                                double reach)
+std::vector<SurfaceSample> transfer(const SamplePoints& points, const SampleChoice& choice,
+                                    const Proxy& proxy, double reach)
 {
     const ClosestPoint surface(proxy.view(), proxy.indices.size() / 3);
-    std::vector<SampleRef> result(choice.samples.size());
+    std::vector<SurfaceSample> result(choice.samples.size());
     tbb::parallel_for(
         size_t{0}, (result.size() + kBlock - 1) / kBlock,
         [&](size_t block)
@@ -97,7 +97,7 @@ Held heldOf(const LevelMesh& level, const Proxy& proxy, std::span<const Moments>
     return held;
 }
 
-LevelFit fitLevel(const LevelMesh& level, const Proxy& proxy, std::span<const SampleRef> samples,
+LevelFit fitLevel(const LevelMesh& level, const Proxy& proxy, std::span<const SurfaceSample> samples,
                   std::span<const Moments> values, const FitSettings& settings,
                   std::span<const Moments> finer)
 {
@@ -114,19 +114,19 @@ LevelFit fitLevel(const LevelMesh& level, const Proxy& proxy, std::span<const Sa
 
 } // namespace
 
-SampleChoice chooseSamples(std::span<const SampleRef> samples, size_t count)
+SampleChoice chooseSamples(std::span<const SurfaceSample> samples, size_t count)
 {
     SampleChoice choice;
     if (samples.size() <= count)
     {
         choice.samples.resize(samples.size());
         std::iota(choice.samples.begin(), choice.samples.end(), 0u);
-        for (const SampleRef& sample : samples)
+        for (const SurfaceSample& sample : samples)
             choice.areas.push_back(sample.area);
         return choice;
     }
     double total = 0;
-    for (const SampleRef& sample : samples)
+    for (const SurfaceSample& sample : samples)
         total += sample.area;
     const double step = total / static_cast<double>(count);
     double passed = 0;
@@ -145,7 +145,7 @@ SampleChoice chooseSamples(std::span<const SampleRef> samples, size_t count)
     return choice;
 }
 
-std::vector<LevelFit> fitLevels(std::span<const LevelMesh> levels, std::span<const SampleRef> samples,
+std::vector<LevelFit> fitLevels(std::span<const LevelMesh> levels, std::span<const SurfaceSample> samples,
                                 std::span<const Moments> values, const LevelFitSettings& settings)
 {
     HEARTH_ASSERT(!levels.empty() && levels[0].finer_vertex.empty() && samples.size() == values.size());

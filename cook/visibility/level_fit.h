@@ -48,7 +48,7 @@ struct LevelFit
 /// that keeps neighbours together (Morton's), each moved to the nearest point that faces its way.
 /// samples  on the triangles of levels[0]
 /// values   one for each sample
-std::vector<LevelFit> fitLevels(std::span<const LevelMesh> levels, std::span<const SampleRef> samples,
+std::vector<LevelFit> fitLevels(std::span<const LevelMesh> levels, std::span<const SurfaceSample> samples,
                                 std::span<const Moments> values, const LevelFitSettings& settings = {});
 
 /// An even choice: `count` steps of equal area along the samples, and for each the sample that its middle falls on;
@@ -59,6 +59,6 @@ struct SampleChoice
     std::vector<uint32_t> samples;
     std::vector<float> areas;
 };
-SampleChoice chooseSamples(std::span<const SampleRef> samples, size_t count);
+SampleChoice chooseSamples(std::span<const SurfaceSample> samples, size_t count);
 
 } // namespace hearth::visibility

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include "cook/visibility/surface_samples.h"
 #include "formats/math.h"
 
 #include <cstdint>
@@ -23,6 +22,15 @@ struct MeshView
     size_t triangleCount() const { return indices.size() / 3; }
 };
 
-using SampleRef = SurfaceSample;
+/// The point (1 - u - v) corner0 + u corner1 + v corner2 of a triangle.
+struct SurfaceSample
+{
+    uint32_t triangle = kNowhere;
+    float u = 0;
+    float v = 0;
+    float area = 0; ///< that the sample stands for, in the squared units of the positions; not negative
+
+    friend bool operator==(const SurfaceSample&, const SurfaceSample&) = default;
+};
 
 } // namespace hearth::visibility

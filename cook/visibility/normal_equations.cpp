@@ -33,13 +33,13 @@ struct TriangleSums
     Block4 right[3];
 };
 
-std::vector<TriangleSums> sumSamples(size_t triangle_count, std::span<const SampleRef> samples,
+std::vector<TriangleSums> sumSamples(size_t triangle_count, std::span<const SurfaceSample> samples,
                                      std::span<const Moments> values)
 {
     std::vector<TriangleSums> sums(triangle_count);
     for (size_t i = 0; i < samples.size(); ++i)
     {
-        const SampleRef& sample = samples[i];
+        const SurfaceSample& sample = samples[i];
         if (sample.triangle == kNowhere)
             continue;
         TriangleSums& sum = sums[sample.triangle];
@@ -252,7 +252,7 @@ std::array<double, 4> gradientJump(std::span<const Float3> positions, const Inte
     return {-k * (1 - foot_k) - l * (1 - foot_l), -k * foot_k - l * foot_l, k, l};
 }
 
-NormalEquations assemble(const Proxy& proxy, std::span<const SampleRef> samples,
+NormalEquations assemble(const Proxy& proxy, std::span<const SurfaceSample> samples,
                          std::span<const Moments> values, const FitSettings& settings)
 {
     HEARTH_ASSERT(samples.size() == values.size());

@@ -30,7 +30,7 @@ struct NormalEquations
 /// samples, or only in a row, get a little of a membrane, which constants do not feel either.
 /// samples  triangles of the proxy, or kNowhere: not used
 /// values   one for each sample
-NormalEquations assemble(const Proxy& proxy, std::span<const SampleRef> samples,
+NormalEquations assemble(const Proxy& proxy, std::span<const SurfaceSample> samples,
                          std::span<const Moments> values, const FitSettings& settings);
 
 } // namespace hearth::visibility

@@ -254,10 +254,10 @@ namespace
 {
 
 /// A sample on a triangle of the proxy whose corners are those of its own, perhaps in another order.
-SampleRef turned(const SampleRef& sample, const std::array<uint32_t, 3>& own, uint32_t triangle,
-                 const uint32_t* corners)
+SurfaceSample turned(const SurfaceSample& sample, const std::array<uint32_t, 3>& own, uint32_t triangle,
+                     const uint32_t* corners)
 {
-    SampleRef result = sample;
+    SurfaceSample result = sample;
     result.triangle = triangle;
     if (own[0] == corners[0] && own[1] == corners[1] && own[2] == corners[2])
         return result;
@@ -274,16 +274,16 @@ SampleRef turned(const SampleRef& sample, const std::array<uint32_t, 3>& own, ui
 
 } // namespace
 
-std::vector<SampleRef> samplesOnProxy(const Proxy& proxy, const MeshView& source,
-                                      std::span<const SampleRef> samples)
+std::vector<SurfaceSample> samplesOnProxy(const Proxy& proxy, const MeshView& source,
+                                          std::span<const SurfaceSample> samples)
 {
-    const auto gone = [&](const SampleRef& sample)
+    const auto gone = [&](const SurfaceSample& sample)
     { return proxy.triangle_of_source[sample.triangle] == kNowhere; };
     std::optional<ClosestPoint> surface;
     if (std::any_of(samples.begin(), samples.end(), gone))
         surface.emplace(proxy.view(), proxy.smooth_count);
-    std::vector<SampleRef> result(samples.size());
-    const auto place = [&](const SampleRef& sample, uint32_t hint)
+    std::vector<SurfaceSample> result(samples.size());
+    const auto place = [&](const SurfaceSample& sample, uint32_t hint)
     {
         const uint32_t* corners = source.indices.data() + size_t{sample.triangle} * 3;
         if (const uint32_t triangle = proxy.triangle_of_source[sample.triangle]; triangle != kNowhere)
@@ -298,7 +298,7 @@ std::vector<SampleRef> samplesOnProxy(const Proxy& proxy, const MeshView& source
         const double reach = longestEdge(source, sample.triangle) * proxy.thinness * kBeside;
         const ClosestPoint::Found found =
             surface->find(a + ab * sample.u + ac * sample.v, cross(ab, ac), reach * reach, hint);
-        return SampleRef{found.triangle, found.u, found.v, sample.area};
+        return SurfaceSample{found.triangle, found.u, found.v, sample.area};
     };
     tbb::parallel_for(size_t{0}, (samples.size() + kBlock - 1) / kBlock,
                       [&](size_t block)

@@ -67,8 +67,8 @@ Proxy makeProxy(const MeshView& source, const ProxySettings& settings = {});
 /// Where samples of the source's triangles lie on the proxy: on triangles that are still there with the same weights,
 /// else at the nearest point that faces the same way. Their triangle is kNowhere if there is none where their own
 /// was: a sliver can face anywhere, and what it sees then is nothing that the surface sees.
-std::vector<SampleRef> samplesOnProxy(const Proxy& proxy, const MeshView& source,
-                                      std::span<const SampleRef> samples);
+std::vector<SurfaceSample> samplesOnProxy(const Proxy& proxy, const MeshView& source,
+                                          std::span<const SurfaceSample> samples);
 
 /// Values of the proxy's vertices, brought back to the source's. Where the proxy is empty: the open hemisphere about
 /// the vertex' normal.

@@ -2,24 +2,12 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include "formats/math.h"
+#include "cook/visibility/mesh_view.h"
 
-#include <cstdint>
-#include <span>
 #include <vector>
 
 namespace hearth::visibility
 {
-
-struct SurfaceSample
-{
-    uint32_t triangle = 0xFFFFFFFFu;
-    float u = 0, v = 0; ///< weights of the triangle's corners 1 and 2; corner 0 has 1 - u - v
-    float area =
-        0; ///< that the sample stands for: the triangle's over its number of samples, in square metres
-
-    friend bool operator==(const SurfaceSample&, const SurfaceSample&) = default;
-};
 
 struct SurfaceSampleSettings
 {

@@ -94,8 +94,8 @@ void eliminate(NormalEquations& system, Start& start)
 
 } // namespace
 
-FitResult fitVertices(const Proxy& proxy, std::span<const SampleRef> samples, std::span<const Moments> values,
-                      const FitSettings& settings, const HeldVertices& held)
+FitResult fitVertices(const Proxy& proxy, std::span<const SurfaceSample> samples,
+                      std::span<const Moments> values, const FitSettings& settings, const HeldVertices& held)
 {
     const size_t count = proxy.positions.size();
     HEARTH_ASSERT(samples.size() == values.size() && held.is_held.size() == held.moments.size());
@@ -109,8 +109,9 @@ FitResult fitVertices(const Proxy& proxy, std::span<const SampleRef> samples, st
     statistics.vertices = static_cast<uint32_t>(count);
     statistics.unseen = start.unseen;
     statistics.entries = system.matrix.columns.size();
-    statistics.lost_samples = static_cast<uint32_t>(std::count_if(
-        samples.begin(), samples.end(), [](const SampleRef& sample) { return sample.triangle == kNowhere; }));
+    statistics.lost_samples = static_cast<uint32_t>(std::count_if(samples.begin(), samples.end(),
+                                                                  [](const SurfaceSample& sample)
+                                                                  { return sample.triangle == kNowhere; }));
     std::vector<Block4> x = start.values;
     for (size_t v = 0; v < count; ++v)
         if (start.fixed[v] != 0)

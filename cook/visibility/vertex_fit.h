@@ -41,7 +41,8 @@ struct HeldVertices
 /// samples  on the proxy: samplesOnProxy()
 /// values   one for each sample
 /// source   L. Kavan, A. W. Bargteil, P.-P. Sloan, "Least squares vertex baking", 2011
-FitResult fitVertices(const Proxy& proxy, std::span<const SampleRef> samples, std::span<const Moments> values,
-                      const FitSettings& settings = {}, const HeldVertices& held = {});
+FitResult fitVertices(const Proxy& proxy, std::span<const SurfaceSample> samples,
+                      std::span<const Moments> values, const FitSettings& settings = {},
+                      const HeldVertices& held = {});
 
 } // namespace hearth::visibility

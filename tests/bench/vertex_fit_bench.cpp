@@ -19,7 +19,7 @@ using namespace hearth::visibility;
 struct Scene
 {
     mesh::SourceMesh rock = shapes::rock(129, 0.5f);
-    std::vector<SampleRef> samples = test::samplesOf(test::viewOf(rock), 4);
+    std::vector<SurfaceSample> samples = test::samplesOf(test::viewOf(rock), 4);
     std::vector<Moments> values;
 
     Scene()
@@ -54,7 +54,8 @@ void assembly(benchmark::State& state)
 {
     const OneCore one(kParallelism, 1);
     const Proxy proxy = makeProxy(test::viewOf(scene().rock));
-    const std::vector<SampleRef> samples = samplesOnProxy(proxy, test::viewOf(scene().rock), scene().samples);
+    const std::vector<SurfaceSample> samples =
+        samplesOnProxy(proxy, test::viewOf(scene().rock), scene().samples);
     for (auto _ : state)
         benchmark::DoNotOptimize(assemble(proxy, samples, scene().values, {}));
 }
@@ -65,7 +66,8 @@ void solution(benchmark::State& state)
 {
     const OneCore one(kParallelism, 1);
     const Proxy proxy = makeProxy(test::viewOf(scene().rock));
-    const std::vector<SampleRef> samples = samplesOnProxy(proxy, test::viewOf(scene().rock), scene().samples);
+    const std::vector<SurfaceSample> samples =
+        samplesOnProxy(proxy, test::viewOf(scene().rock), scene().samples);
     const NormalEquations system = assemble(proxy, samples, scene().values, {});
     SolveStatistics statistics;
     for (auto _ : state)

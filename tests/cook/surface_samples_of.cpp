@@ -7,14 +7,14 @@ namespace hearth::test
 {
 
 using visibility::MeshView;
-using visibility::SampleRef;
+using visibility::SurfaceSample;
 
-std::vector<SampleRef> samplesOf(const MeshView& mesh, uint32_t per_triangle, uint32_t seed)
+std::vector<SurfaceSample> samplesOf(const MeshView& mesh, uint32_t per_triangle, uint32_t seed)
 {
     std::mt19937 random(seed);
     // not std::uniform_real_distribution, whose numbers are each library's own
     const auto unit = [&] { return static_cast<float>(random() >> 8) * 0x1p-24f; };
-    std::vector<SampleRef> samples;
+    std::vector<SurfaceSample> samples;
     for (uint32_t t = 0; t < mesh.triangleCount(); ++t)
     {
         const Float3 a = mesh.positions[mesh.indices[t * 3]];
@@ -30,7 +30,7 @@ std::vector<SampleRef> samplesOf(const MeshView& mesh, uint32_t per_triangle, ui
     return samples;
 }
 
-Float3 pointOf(const MeshView& mesh, const SampleRef& sample)
+Float3 pointOf(const MeshView& mesh, const SurfaceSample& sample)
 {
     const uint32_t* corners = mesh.indices.data() + size_t{sample.triangle} * 3;
     const Float3 a = mesh.positions[corners[0]];

@@ -17,10 +17,10 @@ inline visibility::MeshView viewOf(const mesh::SourceMesh& mesh)
 }
 
 /// `per_triangle` samples on each triangle, uniform at random, each for its share of the area.
-std::vector<visibility::SampleRef> samplesOf(const visibility::MeshView& mesh, uint32_t per_triangle,
-                                             uint32_t seed = 1);
+std::vector<visibility::SurfaceSample> samplesOf(const visibility::MeshView& mesh, uint32_t per_triangle,
+                                                 uint32_t seed = 1);
 
 /// Where a sample is.
-Float3 pointOf(const visibility::MeshView& mesh, const visibility::SampleRef& sample);
+Float3 pointOf(const visibility::MeshView& mesh, const visibility::SurfaceSample& sample);
 
 } // namespace hearth::test

@@ -43,10 +43,10 @@ Moments fieldAt(Float3 p)
             {0.3f * std::cos(3 * p.y), 0.2f * p.z, 0.5f + 0.2f * std::sin(p.x + p.z)}};
 }
 
-std::vector<Moments> fieldOf(const Proxy& proxy, const std::vector<SampleRef>& samples)
+std::vector<Moments> fieldOf(const Proxy& proxy, const std::vector<SurfaceSample>& samples)
 {
     std::vector<Moments> values;
-    for (const SampleRef& sample : samples)
+    for (const SurfaceSample& sample : samples)
         values.push_back(fieldAt(pointOf(proxy.view(), sample)));
     return values;
 }
@@ -116,7 +116,8 @@ struct Dense
     Matrix all(double alpha) const { return mass + alpha * jumps; }
 };
 
-Dense denseOf(const Proxy& proxy, const std::vector<SampleRef>& samples, const std::vector<Moments>& values)
+Dense denseOf(const Proxy& proxy, const std::vector<SurfaceSample>& samples,
+              const std::vector<Moments>& values)
 {
     const auto n = static_cast<Eigen::Index>(proxy.positions.size());
     Dense dense{Matrix::Zero(n, n), Matrix::Zero(n, n), Matrix::Zero(n, 4)};
@@ -159,7 +160,7 @@ constexpr double kAlpha = 0.1;
 struct CeresResiduals
 {
     const Proxy& proxy;
-    const std::vector<SampleRef>& samples;
+    const std::vector<SurfaceSample>& samples;
     const std::vector<Moments>& values;
 
     template <typename T>
@@ -168,7 +169,7 @@ struct CeresResiduals
         const T* u = parameters[0];
         for (size_t i = 0; i < samples.size(); ++i)
         {
-            const SampleRef& s = samples[i];
+            const SurfaceSample& s = samples[i];
             const uint32_t* c = &proxy.indices[size_t{s.triangle} * 3];
             const T interpolated =
                 u[c[0]] * double(1 - s.u - s.v) + u[c[1]] * double(s.u) + u[c[2]] * double(s.v);
@@ -242,7 +243,7 @@ TEST(FitVertices, isTheSolutionOfTheDenseSystem)
     for (const double alpha : {0.0, 0.1, 1.0})
     {
         const Proxy proxy = proxyOf(shapes::rock(4, 0.4f));
-        const std::vector<SampleRef> samples = samplesOf(proxy.view(), 5);
+        const std::vector<SurfaceSample> samples = samplesOf(proxy.view(), 5);
         const std::vector<Moments> values = fieldOf(proxy, samples);
         FitSettings settings = asPublished();
         settings.alpha = alpha;
@@ -265,7 +266,7 @@ TEST(FitVertices, isTheSolutionOfTheDenseSystem)
 TEST(FitVertices, isWhatCeresFinds)
 {
     const Proxy proxy = proxyOf(shapes::rock(2, 0.4f));
-    const std::vector<SampleRef> samples = samplesOf(proxy.view(), 4);
+    const std::vector<SurfaceSample> samples = samplesOf(proxy.view(), 4);
     const std::vector<Moments> values = fieldOf(proxy, samples);
     auto* cost =
         new ceres::DynamicAutoDiffCostFunction<CeresResiduals, 8>(new CeresResiduals{proxy, samples, values});
@@ -298,10 +299,10 @@ TEST(FitVertices, bringsConstantsBackOnAnyMesh)
     {
         mesh.normals.resize(mesh.vertexCount(), {0, 0, 1});
         const Proxy proxy = proxyOf(mesh);
-        std::vector<SampleRef> samples = samplesOf(proxy.view(), 2);
+        std::vector<SurfaceSample> samples = samplesOf(proxy.view(), 2);
         std::mt19937 random(9);
         // some triangles have no sample; of the soup's, whole pieces have none
-        std::erase_if(samples, [&](const SampleRef&) { return random() % 3 == 0; });
+        std::erase_if(samples, [&](const SurfaceSample&) { return random() % 3 == 0; });
         const std::vector<Moments> values(samples.size(), constant);
         const FitResult fit = fitVertices(proxy, samples, values);
         const Moments open{6.2831853f, {}};
@@ -323,12 +324,12 @@ TEST(FitVertices, bringsConstantsBackOnAnyMesh)
 TEST(FitVertices, bringsLinearFunctionsBackInAPlane)
 {
     const Proxy proxy = proxyOf(unevenGrid(10));
-    const std::vector<SampleRef> samples = samplesOf(proxy.view(), 40);
+    const std::vector<SurfaceSample> samples = samplesOf(proxy.view(), 40);
     std::vector<Moments> values;
     const auto linear = [](Float3 p) {
         return Moments{3 + p.x - 2 * p.y, {0.1f * p.x, 0.1f * p.z, 0.2f * p.y}};
     };
-    for (const SampleRef& sample : samples)
+    for (const SurfaceSample& sample : samples)
         values.push_back(linear(pointOf(proxy.view(), sample)));
     FitSettings settings;
     settings.alpha = 1;
@@ -353,7 +354,7 @@ TEST(FitVertices, needsFewIterationsWhereSmallTrianglesMeetLargeOnes)
             }
     mesh.normals.assign(mesh.vertexCount(), {0, 0, 1});
     const Proxy proxy = proxyOf(mesh);
-    const std::vector<SampleRef> samples = samplesOf(proxy.view(), 4);
+    const std::vector<SurfaceSample> samples = samplesOf(proxy.view(), 4);
     const std::vector<Moments> values = fieldOf(proxy, samples);
     const SolveStatistics published = fitVertices(proxy, samples, values, asPublished()).statistics.solve;
     const FitResult fit = fitVertices(proxy, samples, values);
@@ -372,7 +373,7 @@ TEST(FitVertices, makesTheBestOfTrianglesAlone)
     const Proxy proxy = proxyOf(soup);
     for (const uint32_t per_triangle : {1u, 2u, 3u, 4u})
     {
-        const std::vector<SampleRef> samples = samplesOf(proxy.view(), per_triangle);
+        const std::vector<SurfaceSample> samples = samplesOf(proxy.view(), per_triangle);
         Normal normal(per_triangle);
         std::vector<Moments> values;
         for (size_t i = 0; i < samples.size(); ++i)
@@ -390,7 +391,7 @@ TEST(FitVertices, doesNotKnowTheUnitOfLength)
 {
     mesh::SourceMesh mesh = shapes::rock(6, 0.4f);
     const Proxy small = proxyOf(mesh);
-    const std::vector<SampleRef> samples = samplesOf(small.view(), 3);
+    const std::vector<SurfaceSample> samples = samplesOf(small.view(), 3);
     const std::vector<Moments> values = fieldOf(small, samples);
     for (const float factor : {100.0f, 1e-3f})
     {
@@ -398,8 +399,8 @@ TEST(FitVertices, doesNotKnowTheUnitOfLength)
         for (Float3& p : scaled.positions)
             p = p * factor;
         const Proxy large = proxyOf(scaled);
-        std::vector<SampleRef> moved = samples;
-        for (SampleRef& sample : moved)
+        std::vector<SurfaceSample> moved = samples;
+        for (SurfaceSample& sample : moved)
             sample.area *= factor * factor;
         const FitResult one = fitVertices(small, samples, values), other = fitVertices(large, moved, values);
         ASSERT_EQ(one.moments.size(), other.moments.size());
@@ -411,7 +412,7 @@ TEST(FitVertices, doesNotKnowTheUnitOfLength)
 TEST(FitVertices, solvesAroundVerticesThatAreHeld)
 {
     const Proxy proxy = proxyOf(shapes::rock(4, 0.4f));
-    const std::vector<SampleRef> samples = samplesOf(proxy.view(), 4);
+    const std::vector<SurfaceSample> samples = samplesOf(proxy.view(), 4);
     const std::vector<Moments> values = fieldOf(proxy, samples);
     const size_t count = proxy.positions.size();
     std::vector<uint8_t> is_held(count, 0);
@@ -438,7 +439,7 @@ TEST(FitVertices, solvesAroundVerticesThatAreHeld)
 TEST(FitVertices, carriesOnWhereNoSamplesAre)
 {
     const Proxy proxy = proxyOf(shapes::grid(20));
-    std::vector<SampleRef> samples = samplesOf(proxy.view(), 4);
+    std::vector<SurfaceSample> samples = samplesOf(proxy.view(), 4);
     // a hole in the samples as wide as a quarter of the square
     const Box3 box = [&]
     {
@@ -449,10 +450,10 @@ TEST(FitVertices, carriesOnWhereNoSamplesAre)
     }();
     const Float3 center = box.center();
     std::erase_if(samples,
-                  [&](const SampleRef& s) { return length(pointOf(proxy.view(), s) - center) < 0.2f; });
+                  [&](const SurfaceSample& s) { return length(pointOf(proxy.view(), s) - center) < 0.2f; });
     std::vector<Moments> values;
     const auto linear = [&](Float3 p) { return Moments{3 + dot(p - center, Float3{1, 1, 1}), {}}; };
-    for (const SampleRef& sample : samples)
+    for (const SurfaceSample& sample : samples)
         values.push_back(linear(pointOf(proxy.view(), sample)));
     const FitResult fit = fitVertices(proxy, samples, values);
     for (size_t v = 0; v < proxy.positions.size(); ++v)
@@ -478,7 +479,7 @@ TEST(FitVertices, needsFewIterationsOnlyWithoutSlivers)
     const Proxy with = proxyOf(mesh, raw), without = proxyOf(mesh);
     const auto fitOf = [](const Proxy& proxy)
     {
-        const std::vector<SampleRef> samples = samplesOf(proxy.view(), 4);
+        const std::vector<SurfaceSample> samples = samplesOf(proxy.view(), 4);
         return fitVertices(proxy, samples, fieldOf(proxy, samples), asPublished()).statistics.solve;
     };
     const SolveStatistics slivers = fitOf(with), clean = fitOf(without);
@@ -497,7 +498,7 @@ TEST(FitVertices, needsFewIterationsForAnySize)
         for (const uint32_t n : {8u, 16u, 32u})
         {
             const Proxy proxy = proxyOf(shapes::rock(n, 0.5f));
-            const std::vector<SampleRef> samples = samplesOf(proxy.view(), per_triangle);
+            const std::vector<SurfaceSample> samples = samplesOf(proxy.view(), per_triangle);
             const FitStatistics s = fitVertices(proxy, samples, fieldOf(proxy, samples)).statistics;
             EXPECT_LE(s.solve.iterations, 40u);
             std::printf("%5zu vertices, %u samples a triangle: condition %.3g, %u iterations\n",
@@ -508,7 +509,7 @@ TEST(FitVertices, needsFewIterationsForAnySize)
 TEST(FitVertices, takesNoiseAway)
 {
     const Proxy proxy = proxyOf(shapes::grid(40));
-    const std::vector<SampleRef> samples = samplesOf(proxy.view(), 8);
+    const std::vector<SurfaceSample> samples = samplesOf(proxy.view(), 8);
     const double per_vertex =
         static_cast<double>(samples.size()) / static_cast<double>(proxy.positions.size());
     struct Expected
@@ -559,7 +560,7 @@ TEST(FitVertices, hasTheSameBitsForAnyNumberOfThreads)
     {
         const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
         const Proxy proxy = proxyOf(rock);
-        const std::vector<SampleRef> samples = samplesOf(proxy.view(), 2);
+        const std::vector<SurfaceSample> samples = samplesOf(proxy.view(), 2);
         results.push_back(fitVertices(proxy, samples, fieldOf(proxy, samples)).moments);
     }
     for (const std::vector<Moments>& other : results)

@@ -35,7 +35,7 @@ struct Levels
 {
     std::vector<mesh::SourceMesh> meshes;
     std::vector<std::vector<uint32_t>> finer_vertex;
-    std::vector<SampleRef> samples;
+    std::vector<SurfaceSample> samples;
     std::vector<Moments> values;
     std::vector<LevelMesh> views;
 };
@@ -60,7 +60,7 @@ Levels makeLevels(float frequency = 7)
     for (const uint32_t n : {32u, 16u, 8u})
         levels.meshes.push_back(shapes::rock(n, 0));
     levels.samples = samplesOf(viewOf(levels.meshes[0]), 4);
-    for (const SampleRef& sample : levels.samples)
+    for (const SurfaceSample& sample : levels.samples)
         levels.values.push_back(fieldAt(pointOf(viewOf(levels.meshes[0]), sample), frequency));
     for (size_t i = 0; i < levels.meshes.size(); ++i)
     {
@@ -77,7 +77,7 @@ double rmsError(const MeshView& level, const std::vector<Moments>& moments, cons
 {
     const ClosestPoint surface(level, level.triangleCount());
     double sum = 0, area = 0;
-    for (const SampleRef& sample : samplesOf(finest, 3, 77))
+    for (const SurfaceSample& sample : samplesOf(finest, 3, 77))
     {
         const Float3 p = pointOf(finest, sample);
         const ClosestPoint::Found found = surface.find(p, p, 100, kNowhere);
@@ -227,9 +227,9 @@ TEST(FitLevels, doNotTakeSamplesOfTheOtherSide)
     }
     const std::array<LevelMesh, 2> views{LevelMesh{viewOf(fine), {}, 0},
                                          LevelMesh{viewOf(coarse), {}, 0.05f}};
-    const std::vector<SampleRef> samples = samplesOf(views[0].mesh, 4);
+    const std::vector<SurfaceSample> samples = samplesOf(views[0].mesh, 4);
     std::vector<Moments> values;
-    for (const SampleRef& sample : samples)
+    for (const SurfaceSample& sample : samples)
         values.push_back({sample.triangle < fine.triangleCount() / 2 ? 1.0f : 5.0f, {}});
     const std::vector<LevelFit> fits = fitLevels(views, samples, values);
     for (size_t v = 0; v < coarse.vertexCount(); ++v)
@@ -244,7 +244,7 @@ TEST(FitLevels, doNotTakeSamplesOfTheOtherSide)
 
 TEST(ChooseSamples, takesEqualAreas)
 {
-    std::vector<SampleRef> samples;
+    std::vector<SurfaceSample> samples;
     for (uint32_t i = 0; i < 1000; ++i)
         samples.push_back({i, 0, 0, i < 500 ? 1.0f : 3.0f});
     const SampleChoice choice = chooseSamples(samples, 100);

@@ -58,7 +58,7 @@ double lowestTriangle(const Proxy& proxy)
 double areaOf(const MeshView& mesh)
 {
     double area = 0;
-    for (const SampleRef& sample : samplesOf(mesh, 1))
+    for (const SurfaceSample& sample : samplesOf(mesh, 1))
         area += sample.area;
     return area;
 }
@@ -168,8 +168,8 @@ TEST(MakeProxy, dropsFacesThatAreThereTwice)
     EXPECT_EQ(proxy.positions.size(), 16u);
     EXPECT_EQ(proxy.statistics.thin.duplicate, once / 3 + 2);
     EXPECT_EQ(proxy.statistics.thin.degenerate, 1u);
-    const std::vector<SampleRef> samples = samplesOf(view, 2);
-    const std::vector<SampleRef> moved = samplesOnProxy(proxy, view, samples);
+    const std::vector<SurfaceSample> samples = samplesOf(view, 2);
+    const std::vector<SurfaceSample> moved = samplesOnProxy(proxy, view, samples);
     for (size_t i = 0; i < samples.size(); ++i)
         EXPECT_LT(length(pointOf(view, samples[i]) - pointOf(proxy.view(), moved[i])), 1e-6f);
 }
@@ -206,7 +206,8 @@ TEST(MakeProxy, collapsesNeedlesAndFlipsCaps)
     EXPECT_EQ(proxy.statistics.thin.dropped, 0u);
     EXPECT_GE(lowestTriangle(proxy), 1e-3);
     EXPECT_NEAR(areaOf(proxy.view()), area, 1e-4) << "a hole was left";
-    const std::vector<SampleRef> samples = samplesOf(view, 3), moved = samplesOnProxy(proxy, view, samples);
+    const std::vector<SurfaceSample> samples = samplesOf(view, 3),
+                                     moved = samplesOnProxy(proxy, view, samples);
     for (size_t i = 0; i < samples.size(); ++i)
     {
         ASSERT_NE(moved[i].triangle, kNowhere);
@@ -245,9 +246,9 @@ TEST(MakeProxy, keepsABladeThatIsAllSlivers)
     const Proxy proxy = makeProxy(view);
     EXPECT_EQ(proxy.smooth_count, 8u);
     EXPECT_EQ(proxy.statistics.loose, 2u);
-    const std::vector<SampleRef> samples = samplesOf(view, 4);
+    const std::vector<SurfaceSample> samples = samplesOf(view, 4);
     std::vector<Moments> values;
-    for (const SampleRef& sample : samples)
+    for (const SurfaceSample& sample : samples)
         values.push_back({sample.triangle < 8 ? 1.0f : 4.0f + pointOf(view, sample).z, {}});
     const FitResult fit = fitVertices(proxy, samplesOnProxy(proxy, view, samples), values);
     const std::vector<Moments> source = valuesOfSource(proxy, fit.moments, view.normals);
@@ -319,7 +320,7 @@ TEST(MakeProxy, takesAnyTriangles)
     {
         mesh->normals.resize(mesh->vertexCount(), kUp);
         const Proxy proxy = makeProxy(viewOf(*mesh));
-        const std::vector<SampleRef> samples =
+        const std::vector<SurfaceSample> samples =
             samplesOnProxy(proxy, viewOf(*mesh), samplesOf(viewOf(*mesh), 1));
         std::vector<Moments> values(samples.size(), Moments{3, {}});
         for (const Moments& m : fitVertices(proxy, samples, values).moments)
