@@ -46,6 +46,8 @@ struct Arguments
     std::string statistics;
     std::string quality = "default";
     std::string occluders = "scene";
+    double samples_per_vertex = 0; ///< 0, here and below: as the quality has it
+    uint32_t rays_per_sample = 0;
     float distance = 0;
     float power = 0;
     size_t jobs = 0;
@@ -53,8 +55,9 @@ struct Arguments
     BakeSettings settings() const
     {
         BakeSettings settings;
-        settings.samples_per_vertex = kQualities.at(quality).samples_per_vertex;
-        settings.rays.rays_per_sample = kQualities.at(quality).rays_per_sample;
+        const Quality& preset = kQualities.at(quality);
+        settings.samples_per_vertex = samples_per_vertex > 0 ? samples_per_vertex : preset.samples_per_vertex;
+        settings.rays.rays_per_sample = rays_per_sample > 0 ? rays_per_sample : preset.rays_per_sample;
         if (distance > 0)
             settings.rays.distance = distance;
         settings.rays.power = power;
@@ -168,6 +171,11 @@ int program(int argc, char** argv)
                    "samples a vertex x rays a sample: draft 1 x 32, default 8 x 64, high 16 x 256")
         ->check(CLI::IsMember({"draft", "default", "high"}).description(""))
         ->type_name("NAME");
+    app.add_option("--samples-per-vertex", arguments.samples_per_vertex, "instead of the quality's")
+        ->check(CLI::Range(0.01, 65536.0).description(""));
+    app.add_option("--rays-per-sample", arguments.rays_per_sample,
+                   "instead of the quality's; a power of two is best")
+        ->check(CLI::Range(1, 65536).description(""));
     app.add_option("--occluders", arguments.occluders,
                    "what is in the way: scene (all instances, the default) or asset (each mesh alone)")
         ->check(CLI::IsMember({"scene", "asset"}).description(""))
