@@ -1,6 +1,11 @@
 // How much of a constant sky lights a surface through a visibility cone: the horizon-clipped form in closed form, two cheap
 // ones, and what becomes of it where a normal map bends the normal. Written once for C++ and GLSL.
-//
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#ifndef HEARTH_SHARED_AMBIENT_OCCLUSION_H
+#define HEARTH_SHARED_AMBIENT_OCCLUSION_H
+
+#include "formats/shared/language.h"
+
 // A cone of the moments of visibility (visibility_cone.h) has the surface's own horizon in it already: at the normal that it was
 // baked for, the occlusion is the plain product cos(theta) sin^2(aperture) scale = dot(n, m1) / pi, exactly, and clipping the
 // cone at that horizon once more would make creases too bright (0.517 for 0.5). Only what a bent normal changes comes from
@@ -8,11 +13,6 @@
 // for bent normals follows "Practical mobile rendering" (GDC 2023), whose weight `a` is a^3 here, and only where the normal
 // leaves the axis: rms error 0.017 in place of 0.045, over random skies and bends of up to 45 degrees
 // (tests/formats/ambient_occlusion_test.cpp).
-// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#ifndef HEARTH_SHARED_AMBIENT_OCCLUSION_H
-#define HEARTH_SHARED_AMBIENT_OCCLUSION_H
-
-#include "formats/shared/language.h"
 
 HEARTH_SHARED_BEGIN
 

@@ -57,7 +57,7 @@ enum OcclusionBinding : uint32_t
     kOcclusionDepth = 2,
 };
 
-/// Push constants of all drawing pipelines; the visibility pass reads only the bin, and so do casters but for the last two.
+/// Push constants of all drawing pipelines; the visibility pass reads only the bin, casters that and two more.
 struct DrawPush
 {
     union
@@ -67,12 +67,9 @@ struct DrawPush
     };
     uint32_t shown_view = 0;
     float depth_scale = 1;
-    union
-    {
-        uint32_t sky_occlusion = 0; ///< picture: shared::skyOcclusionBits
-        uint32_t light_row;         ///< casters: of the ShadowBlock
-    };
+    uint32_t light_row = 0; ///< casters: of the ShadowBlock
     uint32_t map_index = 0;
+    uint32_t sky_occlusion = 0; ///< picture: shared::skyOcclusionBits
 };
 
 /// Specialization constant 4 of the drawing pipelines: where the vertices of deformed meshes come from

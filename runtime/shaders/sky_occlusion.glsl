@@ -12,7 +12,7 @@ layout(push_constant) uniform Push
     float depth;
     uint shown_view;
     float depth_scale; // metres that the depth view shows as half
-    uint sky_occlusion; // skyOcclusionBits
+    layout(offset = 20) uint sky_occlusion; // skyOcclusionBits
 };
 
 // The cone of a point, and how it lies to the normal.

@@ -1,17 +1,17 @@
 // The truth about occlusion: how much of the sky's light reaches a point, by rays against the real geometry.
-//
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "tests/reference/shaded_scene.h"
+
 // What is compared with the runtime. Its sky is not one radiance but three prefiltered forms of one gradient (background,
 // mirror image by roughness, irradiance), and its specular albedo is a fit. A tracer that integrated one of them would differ
 // from the runtime by these approximations where nothing is occluded at all, and so measure them as well. Here rays therefore
 // measure what visibility takes away, channel by channel and for both lobes by the material's own distribution,
 //     diffuse    irradiance(n)         * int V L cos / int L cos
 //     specular   albedo(r) sky(R, r)   * int V L D G2 / int L D G2,
-// with L the gradient whose integral is the runtime's irradiance (to 0.3 %). In the open both are the runtime's to the last
+// with L the gradient whose integral is the runtime's irradiance (to 0.3 %, from straight below 2 %). In the open both are the runtime's to the last
 // bit: all that differs between the two pictures is occlusion. `integrate` gives the plain integrals for who wants those.
-// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#pragma once
-
-#include "tests/reference/shaded_scene.h"
 
 namespace hearth::reference
 {
