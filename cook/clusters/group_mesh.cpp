@@ -49,6 +49,16 @@ private:
     size_t mask_;
 };
 
+/// What placePositions and gatherAttributes will read of it: on large meshes it is far away.
+void prefetchVertex(const mesh::SourceMesh& vertices, uint32_t vertex)
+{
+    __builtin_prefetch(&vertices.positions[vertex]);
+    if (!vertices.normals.empty())
+        __builtin_prefetch(&vertices.normals[vertex]);
+    if (!vertices.uvs[0].empty())
+        __builtin_prefetch(&vertices.uvs[0][vertex]);
+}
+
 /// Returns the material of each wedge.
 std::vector<uint32_t> gatherTriangles(GroupMesh& group, const PreparedMesh& mesh, const ClusterStore& store,
                                       std::span<const uint32_t> members, std::span<const uint8_t> locked)
@@ -77,6 +87,7 @@ std::vector<uint32_t> gatherTriangles(GroupMesh& group, const PreparedMesh& mesh
             wedge_of_local.push_back(wedge);
             if (wedge != next_wedge)
                 continue;
+            prefetchVertex(mesh.vertices, vertex);
             const uint32_t global = mesh.position_of_vertex[vertex];
             const auto next_position = static_cast<uint32_t>(group.global_position.size());
             const uint32_t position = positions.numberOf(global, next_position);

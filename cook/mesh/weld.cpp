@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/mesh/weld.h"
 
+#include <algorithm>
+#include <array>
 #include <bit>
 #include <cstring>
 
@@ -40,9 +42,32 @@ public:
         }
     }
 
+    /// Have the slot at hand that findOrInsert will look at first.
+    void prefetch(uint64_t hash) const { __builtin_prefetch(&slots_[hash & (slots_.size() - 1)], 1); }
+
 private:
     std::vector<uint32_t> slots_;
 };
+
+/// Calls visit(index, hash) for all indices in order, with the slots of the next ones on their way: the set is larger
+/// than any cache, and its slots are everywhere.
+template <typename HashOf, typename Visit>
+void forEachHashed(const IndexSet& set, size_t count, HashOf hashOf, Visit visit)
+{
+    constexpr size_t kAhead = 32;
+    std::array<uint64_t, kAhead> hashes;
+    for (size_t first = 0; first < count; first += kAhead)
+    {
+        const size_t size = std::min(kAhead, count - first);
+        for (size_t i = 0; i < size; ++i)
+        {
+            hashes[i] = hashOf(static_cast<uint32_t>(first + i));
+            set.prefetch(hashes[i]);
+        }
+        for (size_t i = 0; i < size; ++i)
+            visit(static_cast<uint32_t>(first + i), hashes[i]);
+    }
+}
 
 /// One array of a mesh as rows of bytes.
 struct Rows
@@ -103,14 +128,19 @@ Weld weldPositions(std::span<const Float3> positions)
     weld.position_of_vertex.resize(positions.size());
     IndexSet set(positions.size());
     const auto equal = [&](uint32_t a, uint32_t b) { return positions[a] == positions[b]; };
-    for (uint32_t vertex = 0; vertex < positions.size(); ++vertex)
+    const auto hashOf = [&](uint32_t vertex)
     {
         const Float3 p = positions[vertex] + Float3{}; // -0 + 0 = +0
         const uint64_t xy = std::bit_cast<uint32_t>(p.x) | uint64_t{std::bit_cast<uint32_t>(p.y)} << 32;
-        const uint32_t first = set.findOrInsert(vertex, mix(mix(xy) + std::bit_cast<uint32_t>(p.z)), equal);
-        weld.position_of_vertex[vertex] =
-            first == vertex ? weld.position_count++ : weld.position_of_vertex[first];
-    }
+        return mix(mix(xy) + std::bit_cast<uint32_t>(p.z));
+    };
+    forEachHashed(set, positions.size(), hashOf,
+                  [&](uint32_t vertex, uint64_t hash)
+                  {
+                      const uint32_t first = set.findOrInsert(vertex, hash, equal);
+                      weld.position_of_vertex[vertex] =
+                          first == vertex ? weld.position_count++ : weld.position_of_vertex[first];
+                  });
     return weld;
 }
 
@@ -126,13 +156,16 @@ std::vector<uint32_t> firstEqualVertices(const SourceMesh& mesh)
                 return false;
         return true;
     };
-    for (uint32_t vertex = 0; vertex < first.size(); ++vertex)
+    const auto hashOf = [&](uint32_t vertex)
     {
         uint64_t hash = 0;
         for (const Rows& array : rows)
             hash = hashRow(array[vertex], array.size, hash);
-        first[vertex] = set.findOrInsert(vertex, mix(hash), equal);
-    }
+        return mix(hash);
+    };
+    forEachHashed(set, first.size(), hashOf,
+                  [&](uint32_t vertex, uint64_t hash)
+                  { first[vertex] = set.findOrInsert(vertex, hash, equal); });
     return first;
 }
 
