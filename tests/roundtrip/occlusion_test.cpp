@@ -148,7 +148,7 @@ const std::vector<std::string> kAtHigh{"--visibility-quality", "high"};
 double hiddenByWall(double distance, double height, double side)
 {
     if (distance <= 0)
-        return 0.25;
+        return side > 0 ? 0.25 : 0;
     const double far = std::hypot(distance, height);
     return (std::atan(side / distance) - distance / far * std::atan(side / far)) / (2 * kPi);
 }
@@ -160,7 +160,7 @@ Shape bowl(uint32_t n)
     const double first = 0.02, last = 2 * kPi / 3;
     const auto place = [&](double s, double t)
     {
-        const double angle = first + (last - first) * s, turn = 2 * kPi * t;
+        const double angle = first + (last - first) * s, turn = -2 * kPi * t;
         return Float3{static_cast<float>(std::sin(angle) * std::cos(turn)),
                       static_cast<float>(-std::cos(angle)),
                       static_cast<float>(std::sin(angle) * std::sin(turn))};
@@ -295,7 +295,7 @@ TEST_F(Occlusion, atTheBottomOfAPit)
         bake(pit, {});
         const auto middle = [&](const Seen& v) -> std::optional<double>
         {
-            if (v.position.y > 1e-4 || std::hypot(v.position.x, v.position.z) > 0.1)
+            if (v.position.y > 1e-4 || std::hypot(v.position.x, v.position.z) > 0.03)
                 return std::nullopt;
             return 1 / (1 + depth * depth);
         };
