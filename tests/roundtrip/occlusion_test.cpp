@@ -147,8 +147,8 @@ const std::vector<std::string> kAtHigh{"--visibility-quality", "high"};
 /// What a wall hides of a floor: its foot is `distance` away, it is `height` high and reaches `side` to one side.
 double hiddenByWall(double distance, double height, double side)
 {
-    if (distance <= 0)
-        return side > 0 ? 0.25 : 0;
+    if (distance < 1e-4)
+        return side > 1e-4 ? 0.25 : 0; // the grid moves what is 0 a little
     const double far = std::hypot(distance, height);
     return (std::atan(side / distance) - distance / far * std::atan(side / far)) / (2 * kPi);
 }
