@@ -37,6 +37,8 @@ CodedCluster codedOf(std::span<const std::byte> page, const ClusterRecord& clust
     const std::byte* at = page.data() + size_t{cluster.page_word} * 4;
     const auto take = [&](auto& values, size_t count)
     {
+        if (count == 0)
+            return; // an empty vector has no place to copy to
         values.resize(count);
         std::memcpy(values.data(), at, count * sizeof(values[0]));
         at += count * sizeof(values[0]);
