@@ -24,18 +24,6 @@ namespace
 // Of a mesh that stands in a scene often, so many instances tell what is around it.
 constexpr size_t kMostInstances = 8;
 
-// What sees less than so much of its hemisphere is all but buried, ...
-constexpr float kBuried = 0.02f;
-// ... and counts as little as this; not 0, so that a mesh that is buried everywhere has a fit.
-constexpr float kLeastWeight = 1e-3f;
-
-/// Nobody sees the floor below a rug: where a triangle goes on below it, its vertices shall be right for what is beside.
-float weightOf(const Moments& moments)
-{
-    const float share = moments.m0 / (2 * std::numbers::pi_v<float>);
-    return std::clamp(share / kBuried, kLeastWeight, 1.0f);
-}
-
 double secondsSince(std::chrono::steady_clock::time_point start)
 {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -158,15 +146,13 @@ private:
             itself.finish();
         }
         const auto start = std::chrono::steady_clock::now();
-        std::vector<SurfaceSample> samples = samplesOf(finest);
+        const std::vector<SurfaceSample> samples = samplesOf(finest);
         const std::optional<std::vector<Moments>> moments =
             alone ? trace(itself, finest, samples, {{}}, statistics)
                   : trace(world, finest, samples, chosen(transforms_[mesh], statistics), statistics);
         if (!moments)
             return std::optional<MeshStatistics>();
         statistics.ray_seconds = secondsSince(start);
-        for (size_t s = 0; s < samples.size(); ++s)
-            samples[s].area *= weightOf((*moments)[s]);
         fit(levels, samples, *moments, statistics);
         return std::optional(std::move(statistics));
     }
