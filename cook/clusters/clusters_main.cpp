@@ -107,14 +107,7 @@ Status checkArguments(const Arguments& arguments, const formats::ContainerReader
 Status writeStatistics(const Arguments& arguments, std::span<const clusters::MeshStatistics> meshes)
 {
     const std::string source = arguments.input.substr(arguments.input.rfind('/') + 1); // npos + 1 is 0
-    const std::string json = clusters::statisticsJson(source, meshes);
-    if (arguments.statistics == "-")
-        return std::fwrite(json.data(), 1, json.size(), stdout) == json.size() && std::fflush(stdout) == 0
-                   ? success()
-                   : Error{Issue::read_failed, "stdout", "", "cannot be written"};
-    HEARTH_ASSIGN_OR_RETURN(tools::WholeFile file, tools::WholeFile::create(arguments.statistics));
-    file.write(json);
-    return file.finish();
+    return tools::writeText(arguments.statistics, clusters::statisticsJson(source, meshes));
 }
 
 Status cook(const Arguments& arguments, const clusters::Profile& profile,

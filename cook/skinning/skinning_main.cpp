@@ -1,6 +1,7 @@
 // hearth-skinning: reads an import part and its clusters part, and writes the skinning part.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/skinning/skinning_part.h"
+#include "cook/tools/open_part.h"
 #include "cook/tools/whole_file.h"
 #include "formats/program.h"
 
@@ -25,33 +26,17 @@ struct Arguments
     size_t jobs = 0;
 };
 
-Result<formats::PackView> open(const std::string& path)
-{
-    HEARTH_ASSIGN_OR_RETURN(formats::ContainerReader reader,
-                            formats::ContainerReader::open(path, formats::Check::structure));
-    if (reader.kind() != formats::ContainerKind::part)
-        return Error{Issue::container_kind, path, "", "this is a pack, not a part"};
-    return formats::PackView::read(std::move(reader));
-}
-
 Status writeStatistics(const Arguments& arguments, const std::vector<skinning::MeshStatistics>& meshes)
 {
     const std::string source =
         arguments.import_part.substr(arguments.import_part.rfind('/') + 1); // npos + 1 is 0
-    const std::string json = skinning::statisticsJson(source, meshes);
-    if (arguments.statistics == "-")
-        return std::fwrite(json.data(), 1, json.size(), stdout) == json.size() && std::fflush(stdout) == 0
-                   ? success()
-                   : Error{Issue::read_failed, "stdout", "", "cannot be written"};
-    HEARTH_ASSIGN_OR_RETURN(tools::WholeFile file, tools::WholeFile::create(arguments.statistics));
-    file.write(json);
-    return file.finish();
+    return tools::writeText(arguments.statistics, skinning::statisticsJson(source, meshes));
 }
 
 Status cook(const Arguments& arguments)
 {
-    HEARTH_ASSIGN_OR_RETURN(const formats::PackView import_part, open(arguments.import_part));
-    HEARTH_ASSIGN_OR_RETURN(const formats::PackView clusters_part, open(arguments.clusters_part));
+    HEARTH_ASSIGN_OR_RETURN(const formats::PackView import_part, tools::openPart(arguments.import_part));
+    HEARTH_ASSIGN_OR_RETURN(const formats::PackView clusters_part, tools::openPart(arguments.clusters_part));
     HEARTH_ASSIGN_OR_RETURN(const std::vector<skinning::MeshStatistics> meshes,
                             skinning::writeSkinningPart(import_part, clusters_part, arguments.output));
     return arguments.statistics.empty() ? success() : writeStatistics(arguments, meshes);

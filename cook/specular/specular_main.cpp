@@ -35,17 +35,6 @@ struct Arguments
     size_t jobs = 0;
 };
 
-Status writeText(const std::string& path, std::string_view text)
-{
-    if (path == "-")
-        return std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0
-                   ? success()
-                   : Error{Issue::read_failed, "stdout", "", "cannot be written"};
-    HEARTH_ASSIGN_OR_RETURN(tools::WholeFile file, tools::WholeFile::create(path));
-    file.write(text);
-    return file.finish();
-}
-
 Result<std::string> readText(const std::string& path)
 {
     std::ifstream file(path, std::ios::binary);
@@ -61,7 +50,8 @@ Status evaluate(const Arguments& arguments)
     HEARTH_ASSIGN_OR_RETURN(const std::vector<Configuration> configurations, readRows(text, arguments.rows));
     // as a pack has it: rounded
     const TableValues values = unpackTable(packTable(cookTable(arguments.settings), arguments.settings));
-    return writeText(arguments.output, evaluateRows(configurations, values, arguments.settings.spacing));
+    return tools::writeText(arguments.output,
+                            evaluateRows(configurations, values, arguments.settings.spacing));
 }
 
 Status printFit(const Arguments& arguments)
@@ -93,9 +83,9 @@ Status cook(const Arguments& arguments)
         return success();
     const Comparison comparison = compare(arguments.settings, arguments.configurations, arguments.seed);
     if (arguments.report != "-")
-        HEARTH_TRY(writeText("-", comparisonText(comparison) + "table cooked in " + std::to_string(seconds) +
-                                      " s\n"));
-    return writeText(arguments.report, comparisonJson(comparison, seconds));
+        HEARTH_TRY(tools::writeText("-", comparisonText(comparison) + "table cooked in " +
+                                             std::to_string(seconds) + " s\n"));
+    return tools::writeText(arguments.report, comparisonJson(comparison, seconds));
 }
 
 int run(const Arguments& arguments)

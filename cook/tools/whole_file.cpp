@@ -58,4 +58,15 @@ Status WholeFile::finish()
     return success();
 }
 
+Status writeText(const std::string& path, std::string_view text)
+{
+    if (path == "-")
+        return std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0
+                   ? success()
+                   : Error{Issue::read_failed, "stdout", "", "cannot be written"};
+    HEARTH_ASSIGN_OR_RETURN(WholeFile file, WholeFile::create(path));
+    file.write(text);
+    return file.finish();
+}
+
 } // namespace hearth::tools

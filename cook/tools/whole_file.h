@@ -43,4 +43,7 @@ private:
     bool failed_ = false;
 };
 
+/// Write a file whole, or to standard output where `path` is "-". errors: cannot_write; read_failed for standard output
+Status writeText(const std::string& path, std::string_view text);
+
 } // namespace hearth::tools

@@ -1,5 +1,6 @@
 // hearth-visibility: reads an import part and its clusters part, and writes the clusters part with what its vertices see.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/tools/open_part.h"
 #include "cook/tools/whole_file.h"
 #include "cook/visibility/visibility_part.h"
 #include "formats/program.h"
@@ -99,34 +100,19 @@ private:
     bool shown_ = false;
 };
 
-Result<formats::PackView> open(const std::string& path)
-{
-    HEARTH_ASSIGN_OR_RETURN(formats::ContainerReader reader,
-                            formats::ContainerReader::open(path, formats::Check::structure));
-    if (reader.kind() != formats::ContainerKind::part)
-        return Error{Issue::container_kind, path, "", "this is a pack, not a part"};
-    return formats::PackView::read(std::move(reader));
-}
-
 Status writeStatistics(const Arguments& arguments, const std::vector<visibility::MeshStatistics>& meshes)
 {
     const std::string source =
         arguments.import_part.substr(arguments.import_part.rfind('/') + 1); // npos + 1 is 0
-    const std::string json = visibility::statisticsJson(source, arguments.settings(), meshes);
-    if (arguments.statistics == "-")
-        return std::fwrite(json.data(), 1, json.size(), stdout) == json.size() && std::fflush(stdout) == 0
-                   ? success()
-                   : Error{Issue::read_failed, "stdout", "", "cannot be written"};
-    HEARTH_ASSIGN_OR_RETURN(tools::WholeFile file, tools::WholeFile::create(arguments.statistics));
-    file.write(json);
-    return file.finish();
+    return tools::writeText(arguments.statistics,
+                            visibility::statisticsJson(source, arguments.settings(), meshes));
 }
 
 /// The exit code.
 Result<int> cook(const Arguments& arguments)
 {
-    HEARTH_ASSIGN_OR_RETURN(const formats::PackView import_part, open(arguments.import_part));
-    HEARTH_ASSIGN_OR_RETURN(const formats::PackView clusters_part, open(arguments.clusters_part));
+    HEARTH_ASSIGN_OR_RETURN(const formats::PackView import_part, tools::openPart(arguments.import_part));
+    HEARTH_ASSIGN_OR_RETURN(const formats::PackView clusters_part, tools::openPart(arguments.clusters_part));
     ProgressLine line;
     const auto observe = [&](const BakeProgress& progress)
     {

@@ -261,7 +261,8 @@ private:
         }
     }
 
-    /// Fits to each other sample alone differ by twice the noise of both together.
+    /// Fits to each other sample alone differ by twice the noise of both together: that of their rays, and of where they
+    /// happen to lie.
     double noiseOf(const LevelArrays& finest, std::span<const SurfaceSample> samples,
                    std::span<const Moments> moments) const
     {
@@ -273,6 +274,7 @@ private:
             for (size_t s = half; s < samples.size(); s += 2)
             {
                 some.push_back(samples[s]);
+                some.back().area *= 2; // they stand for the whole surface
                 values.push_back(moments[s]);
             }
             const LevelMesh mesh = finest.mesh();

@@ -44,7 +44,7 @@ struct MeshStatistics
     uint64_t clamped = 0;  ///< of them, whose fit was not the visibility of anything
     uint64_t unseen = 0;   ///< of them, on pieces without a sample
     std::optional<double>
-        ao_error; ///< rms of ambient occlusion at the finest level's vertices, through noise
+        ao_error; ///< rms of ambient occlusion at the finest level's vertices, by the choice of samples and rays
 };
 
 struct BakeProgress

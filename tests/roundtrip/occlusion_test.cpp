@@ -295,18 +295,23 @@ TEST_F(Occlusion, atTheBottomOfAPit)
         pit.addSheet(30, 96, [&](double r, double t) { return ring(0.02 + 0.98 * r, -t, 0); });
         pit.addSheet(40, 96, [&](double h, double t) { return ring(1, -t, h * depth); });
         bake(pit, {});
-        const auto middle = [&](const Seen& v) -> std::optional<double>
+        // of an opening of radius 1, as a disc that faces an element parallel to it
+        const auto bottom = [&](const Seen& v) -> std::optional<double>
         {
-            if (v.position.y > 1e-4 || std::hypot(v.position.x, v.position.z) > 0.03)
+            if (v.position.y > 1e-4)
                 return std::nullopt;
-            return 1 / (1 + depth * depth);
+            const double out2 = v.position.x * v.position.x + v.position.z * v.position.z;
+            const double sum = out2 + depth * depth + 1;
+            return 0.5 * (1 - (sum - 2) / std::sqrt(sum * sum - 4 * out2));
         };
-        EXPECT_LT(rms(middle), 0.01) << depth;
-        EXPECT_LT(axisError(
-                      [&](const Seen& v) -> std::optional<Float3> {
-                          return middle(v) ? std::optional(Float3{0, 1, 0}) : std::nullopt;
-                      }),
-                  2);
+        // rings of 96 slivers at the middle and a wall at the rim: noisier and coarser there than what kDefault is for
+        EXPECT_LT(rms(bottom), 0.02) << depth;
+        const auto up = [&](const Seen& v) -> std::optional<Float3>
+        {
+            const bool middle = v.position.y < 1e-4 && std::hypot(v.position.x, v.position.z) < 0.03;
+            return middle ? std::optional(Float3{0, 1, 0}) : std::nullopt;
+        };
+        EXPECT_LT(axisError(up), 2);
     }
 }
 
@@ -452,11 +457,11 @@ TEST_F(Occlusion, isNotWrittenWhenItIsInterrupted)
     const size_t files = sandbox_.list().size();
     const pid_t process = sandbox_.start({kBin + "/hearth-visibility", "import.part", "clusters.part", "-o",
                                           "visibility.part", "--quality", "high"});
-    // it may not even have begun
-    ::usleep(300000);
+    // its rays take many seconds
+    ::usleep(1000000);
     ::kill(process, SIGINT);
     const ProgramEnd end = sandbox_.finish(process);
-    EXPECT_TRUE(end.exit_code == 130 || end.exit_code == -1) << end.exit_code;
+    EXPECT_EQ(end.exit_code, 130) << end.err;
     EXPECT_EQ(sandbox_.list().size(), files);
 }
 

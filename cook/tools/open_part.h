@@ -1,0 +1,15 @@
+// How cookers open what an earlier one made.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "formats/pack_view.h"
+
+#include <string>
+
+namespace hearth::tools
+{
+
+/// errors: container_kind for a pack; those of ContainerReader::open and PackView::read
+Result<formats::PackView> openPart(const std::string& path);
+
+} // namespace hearth::tools
