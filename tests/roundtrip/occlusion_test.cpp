@@ -301,11 +301,13 @@ TEST_F(Occlusion, atTheBottomOfAPit)
             if (v.position.y > 1e-4)
                 return std::nullopt;
             const double out2 = v.position.x * v.position.x + v.position.z * v.position.z;
+            if (out2 >
+                0.97 * 0.97) // at the foot of the wall its slope has no end, and triangles cannot follow
+                return std::nullopt;
             const double sum = out2 + depth * depth + 1;
             return 0.5 * (1 - (sum - 2) / std::sqrt(sum * sum - 4 * out2));
         };
-        // rings of 96 slivers at the middle and a wall at the rim: noisier and coarser there than what kDefault is for
-        EXPECT_LT(rms(bottom), 0.02) << depth;
+        EXPECT_LT(rms(bottom), kDefault) << depth;
         const auto up = [&](const Seen& v) -> std::optional<Float3>
         {
             const bool middle = v.position.y < 1e-4 && std::hypot(v.position.x, v.position.z) < 0.03;
