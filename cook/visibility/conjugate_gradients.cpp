@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/visibility/conjugate_gradients.h"
 
+#include "cook/visibility/incomplete_cholesky.h"
 #include "formats/assert.h"
 
 #include <algorithm>
@@ -19,7 +20,7 @@ namespace
 // Rows whose sums are made one after another. Sums of blocks are added in their order.
 constexpr size_t kBlock = 2048;
 
-/// The sum over all rows of what `term(row, sum)` adds. `term` may also change what belongs to its row.
+/// The sum over all rows of what `term(row, sum)` adds.
 template <typename Term>
 Block4 sumOver(size_t rows, const Term& term)
 {
@@ -48,17 +49,7 @@ Block4 rowTimes(const SparseMatrix& matrix, size_t row, const std::vector<Block4
     return sum;
 }
 
-std::vector<double> inverseDiagonal(const SparseMatrix& matrix)
-{
-    std::vector<double> inverse(matrix.rowCount(), 0);
-    for (size_t row = 0; row < inverse.size(); ++row)
-        for (uint32_t i = matrix.row_start[row]; i < matrix.row_start[row + 1]; ++i)
-            if (matrix.columns[i] == row)
-                inverse[row] = 1 / matrix.values[i];
-    return inverse;
-}
-
-/// The tridiagonal matrix that conjugate gradients have found: its eigenvalues lie among those of the scaled matrix,
+/// The tridiagonal matrix that conjugate gradients have found: its eigenvalues lie among those of the preconditioned matrix,
 /// the extreme ones soon near its extreme ones.
 class Lanczos
 {
@@ -127,23 +118,21 @@ SolveStatistics solve(const SparseMatrix& matrix, const std::vector<Block4>& b, 
 {
     const size_t rows = matrix.rowCount();
     HEARTH_ASSERT(b.size() == rows && x.size() == rows);
-    const std::vector<double> scale = inverseDiagonal(matrix);
-    std::vector<Block4> r(rows), p(rows), q(rows);
-    const Block4 norms = sumOver(rows, [&](size_t i, Block4& sum) { sum.addProduct(b[i], b[i], scale[i]); });
+    const IncompleteCholesky preconditioner(matrix);
+    std::vector<Block4> r(rows), z(rows), q(rows);
     double reference = 0;
-    for (const double norm : norms.v)
+    for (const double norm : preconditioner.apply(b, z).v)
         reference += norm;
     const double enough = tolerance * tolerance * reference;
 
-    Block4 rz = sumOver(rows,
-                        [&](size_t i, Block4& sum)
-                        {
-                            r[i] = b[i];
-                            r[i].addScaled(rowTimes(matrix, i, x), -1);
-                            p[i] = {};
-                            p[i].addScaled(r[i], scale[i]);
-                            sum.addProduct(r[i], r[i], scale[i]);
-                        });
+    tbb::parallel_for(size_t{0}, rows,
+                      [&](size_t i)
+                      {
+                          r[i] = b[i];
+                          r[i].addScaled(rowTimes(matrix, i, x), -1);
+                      });
+    Block4 rz = preconditioner.apply(r, z);
+    std::vector<Block4> p = z;
     SolveStatistics statistics;
     std::array<Lanczos, 4> lanczos;
     std::array<bool, 4> active;
@@ -164,13 +153,13 @@ SolveStatistics solve(const SparseMatrix& matrix, const std::vector<Block4>& b, 
             active[k] = active[k] && pq.v[k] > 0; // what is left over is rounding: nothing to gain
             step.v[k] = active[k] ? rz.v[k] / pq.v[k] : 0;
         }
-        const Block4 next = sumOver(rows,
-                                    [&](size_t i, Block4& sum)
-                                    {
-                                        x[i].addProduct(p[i], step, 1);
-                                        r[i].addProduct(q[i], step, -1);
-                                        sum.addProduct(r[i], r[i], scale[i]);
-                                    });
+        tbb::parallel_for(size_t{0}, rows,
+                          [&](size_t i)
+                          {
+                              x[i].addProduct(p[i], step, 1);
+                              r[i].addProduct(q[i], step, -1);
+                          });
+        const Block4 next = preconditioner.apply(r, z);
         Block4 beta;
         for (size_t k = 0; k < 4; ++k)
         {
@@ -181,12 +170,12 @@ SolveStatistics solve(const SparseMatrix& matrix, const std::vector<Block4>& b, 
             rz.v[k] = next.v[k];
             active[k] = rz.v[k] > enough;
         }
-        sumOver(rows,
-                [&](size_t i, Block4&)
-                {
-                    for (size_t k = 0; k < 4; ++k)
-                        p[i].v[k] = r[i].v[k] * scale[i] + beta.v[k] * p[i].v[k];
-                });
+        tbb::parallel_for(size_t{0}, rows,
+                          [&](size_t i)
+                          {
+                              for (size_t k = 0; k < 4; ++k)
+                                  p[i].v[k] = z[i].v[k] + beta.v[k] * p[i].v[k];
+                          });
     }
     for (size_t k = 0; k < 4; ++k)
     {

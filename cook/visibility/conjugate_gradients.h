@@ -1,8 +1,9 @@
-// Solves a sparse system for four right-hand sides at once: conjugate gradients, scaled by the diagonal.
+// Solves a sparse system for four right-hand sides at once: conjugate gradients, preconditioned by an incomplete
+// Cholesky factorization.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include "cook/visibility/block4.h"
+#include "cook/visibility/sparse_matrix.h"
 
 #include <cstdint>
 #include <vector>
@@ -10,28 +11,17 @@
 namespace hearth::visibility
 {
 
-/// Symmetric, positive semidefinite, in compressed rows: columns ascend in each row, the diagonal is there and
-/// positive.
-struct SparseMatrix
-{
-    std::vector<uint32_t> row_start; ///< of each row, and the end
-    std::vector<uint32_t> columns;
-    std::vector<double> values;
-
-    size_t rowCount() const { return row_start.size() - 1; }
-};
-
 struct SolveStatistics
 {
     uint32_t iterations = 0;
     double condition =
-        1; ///< of the scaled matrix as far as the right-hand sides have shown it: Lanczos' extreme eigenvalues
+        1; ///< of M^-1 A as far as the right-hand sides have shown it: Lanczos' extreme eigenvalues
     double residual = 0; ///< the largest that is left, relative to the right-hand sides
     bool converged = true;
 };
 
 /// Solve A x = b, from what x is at first. Ends when the residual r of every right-hand side has
-/// sqrt(r^T D^-1 r) <= tolerance sqrt(b^T D^-1 b), D the diagonal and b all right-hand sides together: they have one
+/// sqrt(r^T M^-1 r) <= tolerance sqrt(b^T M^-1 b), M the preconditioner and b all right-hand sides together: they have one
 /// unit, and one that is about 0 need not be solved to its own last bits. Where the matrix is singular but the system
 /// is not contradictory, x keeps what the start has of the null space.
 /// Sums have a fixed order: the same bits for any number of threads. Time O(iterations * entries).

@@ -1,5 +1,6 @@
 // Least squares vertex baking against dense systems that are put together in another way, and against Ceres.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/visibility/incomplete_cholesky.h"
 #include "cook/visibility/normal_equations.h"
 #include "cook/visibility/vertex_fit.h"
 #include "formats/double3.h"
@@ -105,6 +106,24 @@ Eigen::Matrix4d jumpOf(const Proxy& proxy, const InteriorEdge& edge)
     jump << gk.col(0) - gl.col(0), gk.col(1) - gl.col(1), gk.col(2), -gl.col(2);
     const double area = size * (k.y() - l.y()) / 2;
     return area * area * jump.transpose() * jump;
+}
+
+/// What the preconditioner multiplies with.
+Matrix inverseOf(const SparseMatrix& matrix)
+{
+    const size_t rows = matrix.rowCount();
+    const IncompleteCholesky preconditioner(matrix);
+    Matrix inverse(static_cast<Eigen::Index>(rows), static_cast<Eigen::Index>(rows));
+    std::vector<Block4> unit(rows), z(rows);
+    for (size_t column = 0; column < rows; ++column)
+    {
+        unit[column].v[0] = 1;
+        preconditioner.apply(unit, z);
+        unit[column].v[0] = 0;
+        for (size_t row = 0; row < rows; ++row)
+            inverse(static_cast<Eigen::Index>(row), static_cast<Eigen::Index>(column)) = z[row].v[0];
+    }
+    return (inverse + inverse.transpose()) / 2;
 }
 
 struct Dense
@@ -254,9 +273,8 @@ TEST(FitVertices, isTheSolutionOfTheDenseSystem)
         EXPECT_TRUE(fit.statistics.solve.converged);
         EXPECT_EQ(fit.statistics.clamped, 0u);
 
-        const Vector scale = dense.all(alpha).diagonal().cwiseSqrt().cwiseInverse();
-        const Eigen::SelfAdjointEigenSolver<Matrix> eigen(scale.asDiagonal() * dense.all(alpha) *
-                                                          scale.asDiagonal());
+        const Matrix inverse = inverseOf(assemble(proxy, samples, values, settings).matrix);
+        const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix> eigen(dense.all(alpha), inverse.inverse());
         const double condition = eigen.eigenvalues().maxCoeff() / eigen.eigenvalues().minCoeff();
         EXPECT_LE(fit.statistics.solve.condition, condition * 1.01);
         EXPECT_GE(fit.statistics.solve.condition, condition * 0.7);
