@@ -49,8 +49,7 @@ struct Welded
 Welded weld(const MeshView& source, const ProxySettings& settings)
 {
     Welded welded;
-    const double tolerance = sizeOf(source.positions) * settings.position_tolerance;
-    welded.first = weldVertices(source.positions, source.normals, tolerance, settings.normal_tolerance);
+    welded.first = proxyVertices(source, settings);
     welded.indices.reserve(source.indices.size());
     for (const uint32_t vertex : source.indices)
         welded.indices.push_back(welded.first[vertex]);
@@ -241,6 +240,12 @@ private:
 };
 
 } // namespace
+
+std::vector<uint32_t> proxyVertices(const MeshView& source, const ProxySettings& settings)
+{
+    const double tolerance = sizeOf(source.positions) * settings.position_tolerance;
+    return weldVertices(source.positions, source.normals, tolerance, settings.normal_tolerance);
+}
 
 Proxy makeProxy(const MeshView& source, const ProxySettings& settings)
 {

@@ -61,6 +61,9 @@ struct Proxy
     MeshView view() const { return {positions, normals, indices}; }
 };
 
+/// For each vertex the first that is one with it on the proxy, by place and normal alone: itself if there is none.
+std::vector<uint32_t> proxyVertices(const MeshView& source, const ProxySettings& settings = {});
+
 /// Deterministic. Time O(n log n).
 Proxy makeProxy(const MeshView& source, const ProxySettings& settings = {});
 

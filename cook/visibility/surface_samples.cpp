@@ -18,6 +18,9 @@ namespace hearth::visibility
 namespace
 {
 
+// Of all samples, what least numbers of vertices may take; the rest goes by area.
+constexpr double kMostForVertices = 0.9;
+
 using Corners = std::array<Float3, 3>;
 
 Corners cornersOf(std::span<const Float3> positions, std::span<const uint32_t> corners, size_t triangle)
@@ -77,34 +80,68 @@ struct OnCurve
     friend auto operator<=>(const OnCurve&, const OnCurve&) = default;
 };
 
-/// Samples for a square metre, so that triangles with the least number at least come to `total` in all.
-double densityFor(std::span<const double> areas, double total, double least)
+/// What each triangle with area gets at least. `total`: of all samples.
+std::vector<double> leastCounts(std::span<const uint32_t> corners, std::span<const double> areas,
+                                const SurfaceSampleSettings& settings, size_t vertex_count, double total)
 {
-    std::vector<double> sorted;
-    double area_left = 0;
-    for (const double area : areas)
-        if (area > 0)
-            sorted.push_back(area);
-    std::sort(sorted.begin(), sorted.end());
-    for (const double area : sorted)
-        area_left += area;
-    double samples_left = total;
-    for (const double area : sorted)
+    std::vector<uint32_t> degrees(vertex_count, 0);
+    for (size_t i = 0; i < corners.size(); ++i)
+        degrees[corners[i]] += areas[i / 3] > 0;
+    std::vector<double> least(areas.size(), 0);
+    double floor = 0, more = 0;
+    for (size_t t = 0; t < areas.size(); ++t)
     {
-        // the smallest of those that are left gets its share, or else the least number and is out
-        if (samples_left <= 0 || area * samples_left >= least * area_left)
+        if (!(areas[t] > 0))
+            continue;
+        const uint32_t degree =
+            std::min({degrees[corners[t * 3]], degrees[corners[t * 3 + 1]], degrees[corners[t * 3 + 2]]});
+        least[t] = std::max<double>(settings.least_per_triangle, settings.least_per_vertex / degree);
+        floor += settings.least_per_triangle;
+        more += least[t] - settings.least_per_triangle;
+    }
+    const double share = more > 0 ? std::clamp((kMostForVertices * total - floor) / more, 0.0, 1.0) : 0;
+    for (double& count : least)
+        if (count > 0)
+            count = settings.least_per_triangle + share * (count - settings.least_per_triangle);
+    return least;
+}
+
+/// Samples for a square metre, so that triangles with their least number at least come to `total` in all.
+double densityFor(std::span<const double> areas, std::span<const double> least, double total)
+{
+    struct Triangle
+    {
+        double density; ///< from which on area counts
+        size_t index;
+    };
+    std::vector<Triangle> sorted;
+    double area_left = 0;
+    for (size_t t = 0; t < areas.size(); ++t)
+        if (areas[t] > 0)
+        {
+            sorted.push_back({least[t] / areas[t], t});
+            area_left += areas[t];
+        }
+    std::sort(sorted.begin(), sorted.end(),
+              [](const Triangle& a, const Triangle& b)
+              { return std::tie(b.density, a.index) < std::tie(a.density, b.index); });
+    double samples_left = total;
+    for (const Triangle& triangle : sorted)
+    {
+        // that with the greatest need for its area gets its share, or else its least number and is out
+        if (samples_left <= 0 || samples_left >= triangle.density * area_left)
             break;
-        samples_left -= least;
-        area_left -= area;
+        samples_left -= least[triangle.index];
+        area_left -= areas[triangle.index];
     }
     return samples_left > 0 && area_left > 0 ? samples_left / area_left : 0;
 }
 
 /// Along the curve, so that what one triangle is given too much its neighbour gets less.
-std::vector<uint32_t> countSamples(std::span<const double> areas, std::span<const OnCurve> order,
-                                   double total, uint32_t least)
+std::vector<uint32_t> countSamples(std::span<const double> areas, std::span<const double> least,
+                                   std::span<const OnCurve> order, double total)
 {
-    const double density = densityFor(areas, total, least);
+    const double density = densityFor(areas, least, total);
     std::vector<uint32_t> counts(areas.size());
     double owed = 0.5;
     for (const OnCurve& place : order)
@@ -112,7 +149,7 @@ std::vector<uint32_t> countSamples(std::span<const double> areas, std::span<cons
         const double area = areas[place.item];
         if (!(area > 0))
             continue;
-        owed += std::max(density * area, static_cast<double>(least));
+        owed += std::max(density * area, least[place.item]);
         const double count = std::floor(owed);
         counts[place.item] = static_cast<uint32_t>(count);
         owed -= count;
@@ -144,9 +181,9 @@ std::vector<SurfaceSample> surfaceSamples(std::span<const Float3> positions,
                           order[t] = {curve.code((widen(c[0]) + widen(c[1]) + widen(c[2])) * (1.0 / 3)), t};
                       });
     tbb::parallel_sort(order);
-    const std::vector<uint32_t> counts =
-        countSamples(areas, order, settings.samples_per_vertex * static_cast<double>(positions.size()),
-                     settings.least_per_triangle);
+    const double total = settings.samples_per_vertex * static_cast<double>(positions.size());
+    const std::vector<double> least = leastCounts(corners, areas, settings, positions.size(), total);
+    const std::vector<uint32_t> counts = countSamples(areas, least, order, total);
 
     // Each triangle's own net of points.
     std::vector<size_t> first(triangle_count + 1);

@@ -116,6 +116,29 @@ TEST(SurfaceSamples, giveEachTriangleTheLeastNumberAndTheRestByArea)
         EXPECT_EQ(count, 1u);
 }
 
+TEST(SurfaceSamples, giveEachVertexTheLeastNumberInItsTriangles)
+{
+    // a vertex whose only triangle is a hundredth of its neighbours: by area it would have no more than one sample
+    Mesh mesh = meshOf(shapes::grid(20));
+    const Float3 a = mesh.positions[0], b = mesh.positions[1];
+    const auto corner = static_cast<uint32_t>(mesh.positions.size());
+    mesh.positions.insert(mesh.positions.end(), {a + (b - a) * 0.1f, a + Float3{0, 0, 0.005f}});
+    mesh.corners.insert(mesh.corners.end(), {0, corner, corner + 1});
+    SurfaceSampleSettings settings;
+    const uint32_t by_area = countsOf(mesh, surfaceSamples(mesh.positions, mesh.corners, settings)).back();
+    EXPECT_EQ(by_area, 1u);
+    settings.least_per_vertex = 18;
+    const std::vector<SurfaceSample> samples = surfaceSamples(mesh.positions, mesh.corners, settings);
+    const std::vector<uint32_t> counts = countsOf(mesh, samples);
+    EXPECT_GE(counts.back(), 18u);
+    EXPECT_NEAR(static_cast<double>(samples.size()), 8.0 * static_cast<double>(mesh.positions.size()), 1);
+    EXPECT_EQ(*std::min_element(counts.begin(), counts.end()), 3u) << "six triangles around a vertex";
+    // as many as there are, where all ask for more
+    settings.least_per_vertex = 1000;
+    const size_t count = surfaceSamples(mesh.positions, mesh.corners, settings).size();
+    EXPECT_NEAR(static_cast<double>(count), 8.0 * static_cast<double>(mesh.positions.size()), 1);
+}
+
 TEST(SurfaceSamples, areStratifiedWithinLargeTriangles)
 {
     // 4096 points of a triangle in the 256 pieces of its fourfold subdivision: random ones would deviate by 4

@@ -307,8 +307,7 @@ TEST_F(Occlusion, atTheBottomOfAPit)
             const double sum = out2 + depth * depth + 1;
             return 0.5 * (1 - (sum - 2) / std::sqrt(sum * sum - 4 * out2));
         };
-        // twice as deep as it is wide, the small bright opening is noisier than what other shapes see
-        EXPECT_LT(rms(bottom), depth < 1 ? kDefault : 0.008) << depth;
+        EXPECT_LT(rms(bottom), kDefault) << depth;
         const auto up = [&](const Seen& v) -> std::optional<Float3>
         {
             const bool middle = v.position.y < 1e-4 && std::hypot(v.position.x, v.position.z) < 0.03;

@@ -1,0 +1,86 @@
+// How far the ambient occlusion of one bake is from that of another, at the vertices of the finest level: what noise costs,
+// where the other one has many times the rays or samples. `./dev bench visibility` runs it.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/tools/open_part.h"
+#include "cook/visibility/level_meshes.h"
+#include "formats/issues.h"
+#include "formats/program.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace
+{
+
+using namespace hearth;
+
+/// Ambient occlusion of each vertex of a mesh's finest level, cluster by cluster.
+std::vector<float> occlusionOf(const visibility::MeshPages& pages)
+{
+    std::vector<float> occlusion;
+    for (const auto& part : visibility::finestOf(pages).parts)
+    {
+        const formats::ClusterGeometry geometry = pages.cluster(part.cluster);
+        for (uint32_t v = 0; v < geometry.vertexCount(); ++v)
+            occlusion.push_back(dot(geometry.normal(v), geometry.visibility(v).m1) / shared::kVisibilityPi);
+    }
+    return occlusion;
+}
+
+void print(const char* name, const std::vector<float>& baked, const std::vector<float>& reference)
+{
+    std::vector<double> squares;
+    double sum = 0;
+    for (size_t v = 0; v < std::min(baked.size(), reference.size()); ++v)
+    {
+        const double difference = double{baked[v]} - double{reference[v]};
+        squares.push_back(difference * difference);
+        sum += squares.back();
+    }
+    std::sort(squares.begin(), squares.end());
+    const auto at = [&](double share)
+    { return std::sqrt(squares[static_cast<size_t>(share * static_cast<double>(squares.size() - 1))]); };
+    std::printf("%-32s %8zu vertices  rms %.4f  median %.4f  95 %% %.4f  largest %.4f\n", name,
+                squares.size(), std::sqrt(sum / static_cast<double>(squares.size())), at(0.5), at(0.95),
+                at(1));
+}
+
+Status compare(const std::string& baked_path, const std::string& reference_path)
+{
+    HEARTH_ASSIGN_OR_RETURN(const formats::PackView baked, tools::openPart(baked_path));
+    HEARTH_ASSIGN_OR_RETURN(const formats::PackView reference, tools::openPart(reference_path));
+    for (uint32_t mesh = 0; mesh < std::min(baked.meshes().size(), reference.meshes().size()); ++mesh)
+    {
+        const formats::MeshRecord& record = baked.meshes()[mesh];
+        if (record.clusters.count == 0 || (record.attributes & formats::kVertexVisibility) == 0)
+            continue;
+        HEARTH_ASSIGN_OR_RETURN(const auto pages, visibility::MeshPages::read(baked, mesh));
+        HEARTH_ASSIGN_OR_RETURN(const auto reference_pages, visibility::MeshPages::read(reference, mesh));
+        print(std::string(baked.text(record.name)).c_str(), occlusionOf(pages), occlusionOf(reference_pages));
+    }
+    return success();
+}
+
+int program(int argc, char** argv)
+{
+    CLI::App app("Compares the ambient occlusion of two clusters parts of one source.");
+    std::string baked, reference;
+    app.add_option("baked", baked, "clusters part with visibility")->required();
+    app.add_option("reference", reference, "the same, baked better")->required();
+    CLI11_PARSE(app, argc, argv);
+    if (const Status status = compare(baked, reference); !status.ok())
+    {
+        std::fprintf(stderr, "%s\n", formatMessage(status.error()).c_str());
+        return exitCode(status.error());
+    }
+    return 0;
+}
+
+} // namespace
+
+int main(int argc, char** argv)
+{
+    return hearth::runProgram("hearth_compare_occlusion", [&] { return program(argc, argv); });
+}
