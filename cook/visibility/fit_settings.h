@@ -23,6 +23,7 @@ struct FitSettings
     /// of loose triangles take hundreds of iterations. It goes to 0 as samples become many: about five well-spread
     /// ones. 0: the sum as published.
     double membrane = 0.01;
+    bool clamp = true;             ///< values are moments, and so are results; else any four numbers
     double tolerance = 1e-8;       ///< of the solver; what is stored has eight bits a value or so
     uint32_t max_iterations = 500; ///< a mesh that needs 40 is already a bad one
 };

@@ -128,7 +128,8 @@ FitResult fitVertices(const Proxy& proxy, std::span<const SurfaceSample> samples
             continue;
         }
         result.moments[v] = momentsOf(start.fixed[v] != 0 ? start.values[v] : x[v]);
-        statistics.clamped += clampMoments(result.moments[v], proxy.normals[v]);
+        if (settings.clamp)
+            statistics.clamped += clampMoments(result.moments[v], proxy.normals[v]);
     }
     return result;
 }

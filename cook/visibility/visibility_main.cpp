@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/tools/open_part.h"
 #include "cook/tools/whole_file.h"
+#include "cook/visibility/occlusion_picture.h"
 #include "cook/visibility/visibility_part.h"
 #include "formats/program.h"
 
@@ -25,6 +26,9 @@ using visibility::BakeSettings;
 
 constexpr int kInterrupted = 130;
 
+// Of the picture: small enough for a report that has it inside.
+constexpr uint32_t kWidth = 640, kHeight = 480;
+
 volatile std::sig_atomic_t interrupted = 0;
 
 struct Quality
@@ -45,12 +49,14 @@ struct Arguments
     std::string clusters_part;
     std::string output;
     std::string statistics;
+    std::string picture;
     std::string quality = "default";
     std::string occluders = "scene";
     double samples_per_vertex = 0; ///< 0, here and below: as the quality has it
     uint32_t rays_per_sample = 0;
     float distance = 0;
     float power = 0;
+    bool refine_cones = false;
     size_t jobs = 0;
 
     BakeSettings settings() const
@@ -63,6 +69,7 @@ struct Arguments
             settings.rays.distance = distance;
         settings.rays.power = power;
         settings.alone = occluders == "asset";
+        settings.refine_cones = refine_cones;
         settings.estimate_error = !statistics.empty();
         return settings;
     }
@@ -108,6 +115,17 @@ Status writeStatistics(const Arguments& arguments, const std::vector<visibility:
                             visibility::statisticsJson(source, arguments.settings(), meshes));
 }
 
+/// Of the part that was written.
+Status writePicture(const Arguments& arguments, const formats::PackView& import_part)
+{
+    HEARTH_ASSIGN_OR_RETURN(const formats::PackView baked, tools::openPart(arguments.output));
+    HEARTH_ASSIGN_OR_RETURN(const visibility::GreyPicture picture,
+                            visibility::occlusionPicture(import_part, baked, kWidth, kHeight));
+    HEARTH_ASSIGN_OR_RETURN(tools::WholeFile file, tools::WholeFile::create(arguments.picture));
+    file.write(visibility::encodePng(picture));
+    return file.finish();
+}
+
 /// The exit code.
 Result<int> cook(const Arguments& arguments)
 {
@@ -126,6 +144,8 @@ Result<int> cook(const Arguments& arguments)
         return kInterrupted;
     if (!arguments.statistics.empty())
         HEARTH_TRY(writeStatistics(arguments, *meshes));
+    if (!arguments.picture.empty())
+        HEARTH_TRY(writePicture(arguments, import_part));
     return 0;
 }
 
@@ -173,9 +193,13 @@ int program(int argc, char** argv)
                    "visibility of what is t metres away is (t / distance)^power; 0, the default: nothing")
         ->check(CLI::Range(0.0, 16.0).description(""))
         ->needs(distance);
+    app.add_flag("--refine-cones", arguments.refine_cones,
+                 "fit cones to nine harmonics instead of four moments; --stats says what that gained");
     app.add_option("-j,--jobs", arguments.jobs, "threads to use; the result does not depend on it");
     app.add_option("--stats", arguments.statistics,
                    "write what became of each mesh as JSON, its noise estimated; - is standard output");
+    app.add_option("--picture", arguments.picture,
+                   "draw the scene's ambient occlusion into a PNG file of 640 x 480");
     app.footer(
         "Example: hearth-visibility room.import.part room.clusters.part -o room.visibility.part --stats -\n"
         "Exit codes: 0 done, 2 usage, 65 malformed input, 66 input missing, 70 internal, 73 cannot write, "

@@ -3,6 +3,7 @@
 
 #include "cook/mesh/weld.h"
 #include "cook/pages/rewrite.h"
+#include "cook/visibility/sampled_moments.h"
 #include "cook/visibility/scene_occluders.h"
 #include "formats/affine3d.h"
 #include "formats/pack_check.h"
@@ -59,17 +60,6 @@ Result<std::vector<std::vector<Affine3>>> transformsOf(const PackView& scene, co
             transforms[instance.mesh].push_back(instance.world_from_object);
     }
     return transforms;
-}
-
-/// A direction of the world in the space of a mesh, as normals go the other way; its length stays.
-Float3 objectMoment(const Affine3& world_from_mesh, Float3 m1)
-{
-    const auto& m = world_from_mesh.m;
-    const Float3 turned{m[0][0] * m1.x + m[1][0] * m1.y + m[2][0] * m1.z,
-                        m[0][1] * m1.x + m[1][1] * m1.y + m[2][1] * m1.z,
-                        m[0][2] * m1.x + m[1][2] * m1.y + m[2][2] * m1.z};
-    const float size = length(turned);
-    return size > 0 ? turned * (length(m1) / size) : Float3{};
 }
 
 class Bake
@@ -151,13 +141,13 @@ private:
         }
         const auto start = std::chrono::steady_clock::now();
         const std::vector<SurfaceSample> samples = samplesOf(finest);
-        const std::optional<std::vector<Moments>> moments =
-            alone ? trace(itself, finest, samples, {{}}, statistics)
-                  : trace(world, finest, samples, chosen(transforms_[mesh], statistics), statistics);
-        if (!moments)
+        const std::vector<Place> places =
+            alone ? std::vector<Place>{{&itself, {}, {}}} : chosen(world, transforms_[mesh], statistics);
+        const std::optional<SampledMoments> seen = trace(finest, samples, places, statistics);
+        if (!seen)
             return std::optional<MeshStatistics>();
         statistics.ray_seconds = secondsSince(start);
-        fit(levels, samples, *moments, statistics);
+        fit(levels, samples, *seen, statistics);
         return std::optional(std::move(statistics));
     }
 
@@ -178,67 +168,56 @@ private:
     }
 
     /// A power of two of them, so that they can share a sample's rays evenly.
-    std::vector<Affine3> chosen(const std::vector<Affine3>& transforms, MeshStatistics& statistics) const
+    std::vector<Place> chosen(const Occluders& world, const std::vector<Affine3>& transforms,
+                              MeshStatistics& statistics) const
     {
         const size_t most = std::min(kMostInstances, size_t{settings_.rays.rays_per_sample});
         const size_t count = std::min(std::bit_ceil(transforms.size()), std::bit_floor(most));
-        std::vector<Affine3> some;
+        std::vector<Place> some;
         for (size_t i = 0; i < count; ++i)
-            some.push_back(transforms[i * transforms.size() / count]);
+            some.push_back({&world, transforms[i * transforms.size() / count], {}});
         statistics.instances = static_cast<uint32_t>(std::min(count, transforms.size()));
         return some;
     }
 
-    /// Each instance takes its share of every sample's rays.
-    std::optional<std::vector<Moments>> trace(const Occluders& occluders, const LevelArrays& finest,
-                                              std::span<const SurfaceSample> samples,
-                                              const std::vector<Affine3>& transforms,
-                                              MeshStatistics& statistics)
+    /// Instances take their share of every sample's rays.
+    std::optional<SampledMoments> trace(const LevelArrays& finest, std::span<const SurfaceSample> samples,
+                                        std::span<const Place> places, MeshStatistics& statistics)
     {
-        const auto count = static_cast<uint32_t>(transforms.size());
-        std::vector<Moments> sum(samples.size());
         RaySettings rays = settings_.rays;
-        rays.rays_per_sample = settings_.rays.rays_per_sample / count;
+        rays.rays_per_sample /=
+            std::max(statistics.instances > 0 ? static_cast<uint32_t>(places.size()) : 1u, 1u);
         rays.seed += statistics.mesh; // meshes that lie on each other have no noise in common
+        auto seen = sampledMoments(finest.mesh().mesh, samples, places, rays, settings_.refine_cones,
+                                   [&](size_t place, uint64_t done, uint64_t total)
+                                   { return report(place, places.size(), done, total); });
+        if (!seen)
+            return std::nullopt;
         statistics.samples = samples.size();
-        for (uint32_t i = 0; i < count; ++i)
-        {
-            rays.first_ray = i * rays.rays_per_sample;
-            const std::vector<SamplePoint> points =
-                samplePoints(finest.positions, finest.indices, samples, transforms[i]);
-            const auto moments = visibilityMoments(occluders, points, rays,
-                                                   [&](uint64_t done, uint64_t total)
-                                                   { return report(i, count, done, total); });
-            if (!moments)
-                return std::nullopt;
-            statistics.rays += samples.size() * rays.rays_per_sample;
-            rays_before_ += samples.size() * rays.rays_per_sample;
-            for (size_t s = 0; s < sum.size(); ++s)
-            {
-                sum[s].m0 += (*moments)[s].m0 / static_cast<float>(count);
-                sum[s].m1 =
-                    sum[s].m1 + objectMoment(transforms[i], (*moments)[s].m1) / static_cast<float>(count);
-            }
-        }
-        return sum;
+        statistics.rays = seen->rays;
+        rays_before_ += seen->rays;
+        return seen;
     }
 
-    bool report(uint32_t instance, uint32_t count, uint64_t done, uint64_t total) const
+    bool report(size_t place, size_t count, uint64_t done, uint64_t total) const
     {
         if (!observe_)
             return true;
         const double part = total == 0 ? 1 : static_cast<double>(done) / static_cast<double>(total);
-        return observe_({share_before_ + share_of_mesh_ * (instance + part) / count, rays_before_ + done});
+        const double share = (static_cast<double>(place) + part) / static_cast<double>(count);
+        return observe_({share_before_ + share_of_mesh_ * share, rays_before_ + place * total + done});
     }
 
     void fit(const std::vector<LevelArrays>& levels, const std::vector<SurfaceSample>& samples,
-             const std::vector<Moments>& moments, MeshStatistics& statistics)
+             const SampledMoments& seen, MeshStatistics& statistics)
     {
         const auto start = std::chrono::steady_clock::now();
         std::vector<LevelMesh> meshes;
         for (const LevelArrays& level : levels)
             meshes.push_back(level.mesh());
-        const std::vector<LevelFit> fits = fitLevels(meshes, samples, moments, settings_.fit);
+        std::vector<LevelFit> fits = fitLevels(meshes, samples, seen.moments, settings_.fit);
+        if (settings_.refine_cones)
+            statistics.refined = refineLevels(meshes, samples, seen.second, settings_.fit, fits);
         statistics.proxy = fits.front().proxy;
         for (size_t l = 0; l < levels.size(); ++l)
         {
@@ -253,7 +232,7 @@ private:
         }
         statistics.fit_seconds = secondsSince(start);
         if (settings_.estimate_error)
-            statistics.ao_error = noiseOf(levels.front(), samples, moments);
+            statistics.ao_error = noiseOf(levels.front(), samples, seen.moments);
     }
 
     /// Clusters that several cuts draw have equal codes in all of them.
@@ -340,6 +319,10 @@ nlohmann::ordered_json jsonOf(const MeshStatistics& mesh)
         {"clamped", mesh.clamped},
         {"unseen", mesh.unseen},
     };
+    if (mesh.refined)
+        json["refined"] = {{"cones", mesh.refined->cones},
+                           {"distance_before", mesh.refined->statistics.start_rms},
+                           {"distance", mesh.refined->statistics.rms}};
     if (mesh.ao_error)
         json["ao_error"] = *mesh.ao_error;
     return json;

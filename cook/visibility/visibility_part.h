@@ -4,6 +4,7 @@
 
 #include "cook/visibility/level_fit.h"
 #include "cook/visibility/rays.h"
+#include "cook/visibility/refined_levels.h"
 #include "formats/pack_view.h"
 
 #include <functional>
@@ -21,6 +22,7 @@ struct BakeSettings
     /// Rays meet the mesh alone, in its own space, instead of all instances of the scene in the world.
     bool alone = false;
     LevelFitSettings fit;
+    bool refine_cones = false;   ///< nine harmonics instead of four moments: refined_levels.h
     bool estimate_error = false; ///< fill MeshStatistics::ao_error, for two more fits
 };
 
@@ -38,11 +40,12 @@ struct MeshStatistics
     double fit_seconds = 0;
     ProxyStatistics proxy; ///< of the finest level
     uint32_t most_iterations = 0;
-    double condition = 0;  ///< the largest of all levels
-    bool converged = true; ///< on all levels
-    uint64_t vertices = 0; ///< of the proxies of all levels
-    uint64_t clamped = 0;  ///< of them, whose fit was not the visibility of anything
-    uint64_t unseen = 0;   ///< of them, on pieces without a sample
+    double condition = 0;              ///< the largest of all levels
+    bool converged = true;             ///< on all levels
+    uint64_t vertices = 0;             ///< of the proxies of all levels
+    uint64_t clamped = 0;              ///< of them, whose fit was not the visibility of anything
+    uint64_t unseen = 0;               ///< of them, on pieces without a sample
+    std::optional<RefineGain> refined; ///< where asked for
     std::optional<double>
         ao_error; ///< rms of ambient occlusion at the finest level's vertices, by the choice of samples and rays
 };

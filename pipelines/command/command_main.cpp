@@ -98,6 +98,9 @@ void addCook(CLI::App& app, Work& run)
                      "visibility of what is t metres away is (t / distance)^power; nothing by default")
         ->check(CLI::Range(0.0, 16.0))
         ->needs(distance);
+    verb->add_flag("--visibility-refine", options->baked.refine,
+                   "cones by nine harmonics instead of four moments; the report says what that gained")
+        ->needs(visibility);
     verb->add_option("--report", options->report_file, "write a report as JSON");
     auto* quiet = verb->add_flag("-q,--quiet", options->quiet, "print errors only");
     verb->add_flag("-v,--verbose", options->verbose, "print the command line of every stage")

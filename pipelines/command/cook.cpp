@@ -52,6 +52,12 @@ std::string statisticsFile(const std::string& folder, size_t index)
     return fmt::format("{}/{}.clusters.json", folder, index);
 }
 
+/// What hearth-visibility says of a source, and how it looks.
+std::string visibilityFile(const std::string& folder, size_t index, const char* extension)
+{
+    return fmt::format("{}/{}.visibility.{}", folder, index, extension);
+}
+
 /// The flags of hearth-visibility.
 std::vector<std::string> visibilityFlags(const VisibilityOptions& options)
 {
@@ -59,6 +65,8 @@ std::vector<std::string> visibilityFlags(const VisibilityOptions& options)
     if (options.distance > 0)
         flags.insert(flags.end(), {"--distance", fmt::format("{}", options.distance), "--power",
                                    fmt::format("{}", options.power)});
+    if (options.refine)
+        flags.emplace_back("--refine-cones");
     return flags;
 }
 
@@ -100,6 +108,9 @@ std::vector<size_t> addSource(Plan& plan, const std::string& programs, const std
     addFlags(clusters, {"--visibility"});
     const size_t visibility = add("visibility", {import_stage, clusters});
     addFlags(visibility, visibilityFlags(*options.visibility));
+    if (!options.report_file.empty())
+        addFlags(visibility, {"--stats", visibilityFile(folder, index, "json"), "--picture",
+                              visibilityFile(folder, index, "png")});
     return {import_stage, visibility, textures, skinning};
 }
 
@@ -384,7 +395,12 @@ std::optional<Failure> cookInPrivate(const CookOptions& options, CookOutcome& ou
 
     if (!options.report_file.empty())
         for (size_t i = 0; i < options.sources.size(); ++i)
+        {
             outcome.cluster_statistics.push_back(textOf(statisticsFile(parts->path(), i)));
+            if (options.visibility)
+                outcome.visibility.push_back({textOf(visibilityFile(parts->path(), i, "json")),
+                                              textOf(visibilityFile(parts->path(), i, "png"))});
+        }
     outcome.output_bytes = sizeOf(packed);
     if (::rename(packed.c_str(), options.output.c_str()) != 0)
         return fail(

@@ -19,6 +19,7 @@ struct VisibilityOptions
     std::string occluders = "scene";
     double distance = 0; ///< metres; 0: no limit
     double power = 0;    ///< with a distance only
+    bool refine = false; ///< cones by nine harmonics
 };
 
 struct CookOptions
@@ -46,6 +47,13 @@ struct StageRecord
     uint64_t output_bytes = 0;
 };
 
+/// What hearth-visibility says of a source; for the report.
+struct VisibilityReport
+{
+    std::string statistics; ///< JSON
+    std::string picture;    ///< PNG
+};
+
 struct CookOutcome
 {
     int exit_code = 0;
@@ -53,6 +61,7 @@ struct CookOutcome
     size_t failed_source = 0;
     std::vector<StageRecord> stages;             ///< in the order of the plan, those that ended well
     std::vector<std::string> cluster_statistics; ///< of each source, JSON of hearth-clusters; for the report
+    std::vector<VisibilityReport> visibility;    ///< of each source, where visibility was baked
     double seconds = 0;
     uint64_t output_bytes = 0;
 };

@@ -31,6 +31,33 @@ Json clustersJson(const std::string& statistics)
             {"totals", json.value("totals", Json::object())}};
 }
 
+std::string base64(std::string_view bytes)
+{
+    constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::string text;
+    for (size_t i = 0; i < bytes.size(); i += 3)
+    {
+        uint32_t bits = 0;
+        for (size_t k = 0; k < 3; ++k)
+            bits = bits << 8 | (i + k < bytes.size() ? static_cast<uint8_t>(bytes[i + k]) : 0u);
+        for (size_t k = 0; k < 4; ++k)
+            text += i + k <= bytes.size() ? kDigits[bits >> (18 - 6 * k) & 63u] : '=';
+    }
+    return text;
+}
+
+/// What hearth-visibility wrote of a source, and its picture, which a browser shows as it stands there.
+Json visibilityJson(const VisibilityReport& visibility)
+{
+    Json json = Json::parse(visibility.statistics, nullptr, false);
+    if (!json.is_object())
+        return nullptr;
+    json.erase("source");
+    if (!visibility.picture.empty())
+        json["picture"] = "data:image/png;base64," + base64(visibility.picture);
+    return json;
+}
+
 Json assetJson(const CookOptions& options, const CookOutcome& outcome, size_t source)
 {
     const bool failed = outcome.exit_code != 0 &&
@@ -42,6 +69,8 @@ Json assetJson(const CookOptions& options, const CookOutcome& outcome, size_t so
             asset["stages"].push_back(stageJson(stage));
     if (source < outcome.cluster_statistics.size())
         asset["clusters"] = clustersJson(outcome.cluster_statistics[source]);
+    if (source < outcome.visibility.size())
+        asset["visibility"] = visibilityJson(outcome.visibility[source]);
     return asset;
 }
 

@@ -30,8 +30,7 @@ const std::vector<Layer>& layers()
         {"cook/motion/", {"formats/"}},
         {"cook/pages/", {"formats/"}},
         {"cook/sampling/", {"formats/"}},
-        {"cook/",
-         {"formats/", "cook/tools/", "cook/mesh/", "cook/motion/", "cook/pages/", "cook/sampling/"}},
+        {"cook/", {"formats/", "cook/tools/", "cook/mesh/", "cook/motion/", "cook/pages/", "cook/sampling/"}},
         // extract draws the cut that the runtime would draw
         {"pipelines/command/", {"formats/", "cook/", "pipelines/", "runtime/pack/"}},
         {"pipelines/", {"formats/", "cook/", "pipelines/"}},
@@ -65,7 +64,8 @@ const std::vector<Library>& libraries()
         {"backends/", {"runtime/viewer/window/"}}, // Dear ImGui's, for SDL and Vulkan
         {"stddef.h", {"runtime/c/"}, true},        // hearth.h is C
         {"stdint.h", {"runtime/c/"}, true},
-        {"png.h", {"pipelines/import/", "cook/textures/", "runtime/viewer/", "sample_assets/"}},
+        {"png.h",
+         {"pipelines/import/", "cook/textures/", "cook/visibility/", "runtime/viewer/", "sample_assets/"}},
         {"jpeglib.h", {"pipelines/import/"}},
         {"jerror.h", {"pipelines/import/"}},
         {"webp/", {"pipelines/import/"}},

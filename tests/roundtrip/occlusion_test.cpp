@@ -3,8 +3,10 @@
 #include "tests/command/sandbox.h"
 
 #include "formats/math.h"
+#include "tests/reference/png_image.h"
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <array>
@@ -445,6 +447,62 @@ TEST_F(Occlusion, isWrittenAlikeByAnyNumberOfThreads)
     EXPECT_EQ(sandbox_.read("1.part"), sandbox_.read("2.part"));
     EXPECT_EQ(sandbox_.read("1.part"), sandbox_.read("7.part"));
     EXPECT_NE(sandbox_.read("1.part"), sandbox_.read("clusters.part"));
+}
+
+TEST_F(Occlusion, isReportedWithAPicture)
+{
+    bake(bowl(16), {"--visibility-quality", "draft", "--visibility-refine", "--report", "report.json"});
+    const auto report = nlohmann::json::parse(sandbox_.read("report.json"));
+    const auto& visibility = report["assets"][0]["visibility"];
+    const auto& mesh = visibility["meshes"][0];
+    EXPECT_EQ(mesh["rays"], 32 * mesh["samples"].get<uint64_t>());
+    EXPECT_GT(mesh["seconds"]["rays"], 0);
+    EXPECT_GT(mesh["seconds"]["fit"], 0);
+    EXPECT_GT(mesh["solve"]["iterations"], 0);
+    EXPECT_GE(mesh["solve"]["condition"], 1);
+    EXPECT_TRUE(mesh.contains("clamped"));
+    EXPECT_GT(mesh["ao_error"], 0);
+    EXPECT_GT(mesh["refined"]["cones"], 0);
+    EXPECT_LT(mesh["refined"]["distance"], mesh["refined"]["distance_before"]);
+    // the signature of PNG
+    EXPECT_EQ(visibility["picture"].get<std::string>().find("data:image/png;base64,iVBORw0KGgo"), 0u);
+}
+
+TEST_F(Occlusion, isDrawn)
+{
+    // a floor, and a dark one below that it hides from the viewer
+    Shape shape;
+    shape.addGrid({-1, 0, 1}, {2, 0, 0}, {0, 0, -2}, 4, 4);
+    shape.addGrid({-0.3f, -0.3f, 0.3f}, {0.6f, 0, 0}, {0, 0, -0.6f}, 4, 4);
+    sandbox_.write("floors.ply", shape.ply());
+    ASSERT_EQ(sandbox_.run({kBin + "/hearth-import", "floors.ply", "-o", "import.part"}).exit_code, 0);
+    ASSERT_EQ(sandbox_.run({kBin + "/hearth-clusters", "import.part", "-o", "clusters.part", "--visibility"})
+                  .exit_code,
+              0);
+    const ProgramEnd end = sandbox_.run({kBin + "/hearth-visibility", "import.part", "clusters.part", "-o",
+                                         "out.part", "--picture", "seen.png"});
+    ASSERT_EQ(end.exit_code, 0) << end.err;
+    const auto picture = reference::readPng(sandbox_ / "seen.png");
+    ASSERT_TRUE(picture.ok());
+    ASSERT_EQ(picture->width, 640u);
+    ASSERT_EQ(picture->height, 480u);
+    size_t white = 0, dark = 0;
+    for (size_t i = 0; i < picture->rgb.size(); i += 3)
+    {
+        white += picture->rgb[i] > 250;
+        dark += picture->rgb[i] == 26;
+    }
+    // 4 m^2 from 30 degrees above, in a picture that the square's 2.8 m, turned by 37 degrees, fill to 1 / 1.04
+    const double metre = 640 / (2.8 * 1.04), pixels = 640 * 480;
+    EXPECT_NEAR(static_cast<double>(white), 2 * metre * metre, 0.03 * pixels);
+    EXPECT_NEAR(static_cast<double>(white + dark), pixels, 0.01 * pixels) << "but for edges";
+    EXPECT_EQ(picture->at(0, 0)[0], 26) << "background";
+    EXPECT_GT(picture->at(320, 260)[0], 250) << "the floor, in front of the lower one";
+    EXPECT_EQ(sandbox_
+                  .run({kBin + "/hearth-visibility", "import.part", "clusters.part", "-o", "out.part",
+                        "--picture", "nowhere/seen.png"})
+                  .exit_code,
+              73);
 }
 
 TEST_F(Occlusion, isNotWrittenWhenItIsInterrupted)
