@@ -339,18 +339,20 @@ void Collapser::evaluateValid(uint32_t position, float popped_cost)
         }
 }
 
+/// All triangles are asked, because hardly ever one turns over, and which ones go cannot be foretold.
 bool Collapser::turnsOver(uint32_t from, uint32_t to)
 {
+    uint32_t turned = 0;
     for (const Corner corner : mesh_.star(from))
     {
         const uint32_t next = mesh_.positionAt(nextCorner(corner));
         const uint32_t previous = mesh_.positionAt(previousCorner(corner));
-        if (next != to && previous != to &&
-            turnsTriangle(group_.positions[next], group_.positions[previous], group_.positions[from],
-                          group_.positions[to]))
-            return true;
+        const bool turns = turnsTriangle(group_.positions[next], group_.positions[previous],
+                                         group_.positions[from], group_.positions[to]);
+        turned |= static_cast<uint32_t>(turns) & static_cast<uint32_t>(next != to) &
+                  static_cast<uint32_t>(previous != to);
     }
-    return false;
+    return turned != 0;
 }
 
 /// After a collapse to `center`. Its own cost has risen, most likely, and is asked for again when it comes out of the

@@ -47,35 +47,32 @@ public:
     /// Number of `vertex`, or kClusterMaxVertices if it would be one too many.
     uint32_t numberOf(uint32_t vertex)
     {
-        uint32_t slot = (vertex * 0x9E3779B1u) >> 22;
-        while (numbers_[slot] != kFree)
-        {
-            if (vertices_[numbers_[slot]] == vertex)
-                return numbers_[slot];
-            slot = (slot + 1) % kSlotCount;
-        }
-        if (count_ == limit_)
-            return kClusterMaxVertices;
-        numbers_[slot] = static_cast<uint16_t>(count_);
+        // whether it is new cannot be foretold: it is put behind the last in any case
         vertices_[count_] = vertex;
-        return count_++;
+        uint32_t slot = (vertex * 0x9E3779B1u) >> 22;
+        while (vertices_[std::min(numbers_[slot], count_)] != vertex)
+            slot = (slot + 1) % kSlotCount;
+        const uint32_t number = std::min(numbers_[slot], count_);
+        numbers_[slot] = number;
+        count_ += number == count_ ? 1 : 0;
+        return count_ <= limit_ ? number : kClusterMaxVertices;
     }
 
     std::span<const uint32_t> vertices() const { return std::span(vertices_).first(count_); }
 
 private:
     static constexpr uint32_t kSlotCount = 1024; ///< four times what can be in it
-    static constexpr uint16_t kFree = 0xFFFF;
+    static constexpr uint32_t kFree = 0xFFFFFFFFu;
 
-    static constexpr std::array<uint16_t, kSlotCount> allFree()
+    static constexpr std::array<uint32_t, kSlotCount> allFree()
     {
-        std::array<uint16_t, kSlotCount> slots{};
+        std::array<uint32_t, kSlotCount> slots{};
         slots.fill(kFree);
         return slots;
     }
 
-    std::array<uint16_t, kSlotCount> numbers_ = allFree();
-    std::array<uint32_t, kClusterMaxVertices> vertices_;
+    std::array<uint32_t, kSlotCount> numbers_ = allFree();
+    std::array<uint32_t, kClusterMaxVertices + 1> vertices_; ///< and one that may be too many
     uint32_t limit_;
     uint32_t count_ = 0;
 };
