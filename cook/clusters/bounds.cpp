@@ -7,6 +7,7 @@
 #include "formats/double3.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -272,7 +273,8 @@ float roundUp(double value)
     if (!(value < kLargest))
         return kLargest;
     const auto rounded = static_cast<float>(value);
-    return rounded >= value ? rounded : std::nextafter(rounded, kLargest);
+    // the next float has the next bits
+    return std::bit_cast<float>(std::bit_cast<uint32_t>(rounded) + (rounded < value ? 1u : 0u));
 }
 
 Sphere sphereOfPoints(std::span<const Float3> points)

@@ -15,7 +15,7 @@ namespace hearth::clusters
 /// cannot see them inverted (design notes, RUNTIME 2.1).
 inline constexpr double kMonotoneSlack = 1.0 + 1.0 / 262144.0;
 
-/// `value` as a float that is not smaller; the largest finite float if it is beyond them.
+/// `value`, at least 0, as a float that is not smaller; the largest finite float if it is beyond them.
 float roundUp(double value);
 
 /// A sphere around the points, at most a few per cent larger than the smallest.

@@ -158,33 +158,45 @@ private:
         return target != positions_before_[corner] || simplified_.placement.remade[target] != 0;
     }
 
-    /// Calls visit(total) for all that changed, as the map has it.
+    /// Calls visit(total) for all that changed, as the map has it, and that are not below `least`, which is at least 0.
+    /// Few are: that is the one branch.
     template <typename Visit>
-    void forEachTotal(Visit visit) const
+    void forEachTotal(const float& least, Visit visit) const
     {
+        const auto select = [](bool changed, float upper) { return changed ? upper : -1.0f; };
         for (uint32_t t = 0; t < changed_.size(); ++t)
-            if (changed_[t] != 0)
-                visit(Total{map_.maps(t) ? group_.errors[t] + map_.farOf(t) : kInfinity, t, true});
+            if (const float upper =
+                    select(changed_[t] != 0, map_.maps(t) ? group_.errors[t] + map_.farOf(t) : kInfinity);
+                upper >= least)
+                visit(Total{upper, t, true});
         for (uint32_t t = 0; t < sums_.size(); ++t)
-            if (changed_[simplified_.source_triangle[t]] != 0)
-                visit(Total{map_.covers(t) ? sums_[t] : kInfinity, t, false});
+            if (const float upper = select(changed_[simplified_.source_triangle[t]] != 0,
+                                           map_.covers(t) ? sums_[t] : kInfinity);
+                upper >= least)
+                visit(Total{upper, t, false});
     }
 
     /// Largest first: once one needs no closer look, neither do the others. The largest of all rules most of them out.
     void settleLargest()
     {
-        Total largest{-1, 0, false};
-        forEachTotal([&](const Total& total) { largest = std::max(largest, total); });
-        if (largest.upper < 0)
+        Total largest{0, 0, false};
+        bool changed = false;
+        forEachTotal(largest.upper,
+                     [&](const Total& total)
+                     {
+                         changed = true;
+                         largest = std::max(largest, total);
+                     });
+        if (!changed)
             return;
         settle(largest);
         std::vector<Total> larger;
-        forEachTotal(
-            [&](const Total& total)
-            {
-                if (total.upper > worst_ && total < largest)
-                    larger.push_back(total);
-            });
+        forEachTotal(worst_,
+                     [&](const Total& total)
+                     {
+                         if (total.upper > worst_ && total < largest)
+                             larger.push_back(total);
+                     });
         std::make_heap(larger.begin(), larger.end());
         for (; !larger.empty() && larger.front().upper > worst_; larger.pop_back())
         {

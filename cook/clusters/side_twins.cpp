@@ -90,8 +90,8 @@ private:
                 uint32_t& count = count_at_[end];
                 if (count < Arriving::kPlaces)
                 {
-                    // one that rises does not count
-                    arriving_[end].start[count] = start > end ? start : kNoSide;
+                    // one that rises does not count, and is a branch that could not be foretold
+                    arriving_[end].start[count] = start | (0u - static_cast<uint32_t>(start < end));
                     arriving_[end].side[count] = side;
                 }
                 else if (start > end)

@@ -94,6 +94,7 @@ bool SideWays::holds(uint32_t facet, const Image& image) const
 
 void SideWays::findWay(uint32_t side)
 {
+    way_of_side_[side] = static_cast<uint32_t>(ways_.size());
     Way& way = ways_.emplace_back();
     way.side = side;
     way.first = static_cast<uint32_t>(crossings_.size());

@@ -77,25 +77,18 @@ public:
         return image.isVertex() ? cornerPoint(cornerAt(facet, image.vertex) - facet * 3) : image.at;
     }
 
-    /// The way of a side is searched when it is asked for first.
-    const Way& wayOf(uint32_t side)
-    {
-        uint32_t& way = way_of_side_[side];
-        if (way == kNoSide)
-        {
-            way = static_cast<uint32_t>(ways_.size());
-            findWay(side);
-        }
-        return ways_[way];
-    }
-    const Way& knownWayOf(uint32_t side) const { return ways_[way_of_side_[side]]; }
+    /// Search the way of a side; once for each.
+    void findWay(uint32_t side);
+
+    /// Of a side whose way was searched.
+    const Way& wayOf(uint32_t side) const { return ways_[way_of_side_[side]]; }
 
     std::span<const Crossing> crossingsOf(const Way& way) const
     {
         return std::span(crossings_).subspan(way.first, way.count);
     }
 
-    /// Those that were asked for.
+    /// Those that were searched.
     std::span<const Way> ways() const { return ways_; }
 
     std::span<const uint32_t> twins() const { return twins_; }
@@ -105,7 +98,6 @@ public:
 
 private:
     void findImages(const GroupMesh& group, const Simplified& simplified, std::span<const FacetPoint> points);
-    void findWay(uint32_t side);
     bool findWay(const Image& start, const Image& end, Way& way);
     bool walk(const Image& start, const Image& end, Way& way);
     uint32_t commonFacet(const Image& a, const Image& b) const;

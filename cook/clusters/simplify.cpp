@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/clusters/simplify.h"
 
+#include "cook/clusters/collapse_heap.h"
 #include "cook/clusters/quadric.h"
 #include "cook/clusters/star_mesh.h"
 #include "cook/clusters/thinning.h"
@@ -32,20 +33,6 @@ struct Candidate
     bool exact; ///< else the cost is a lower bound, for as long as the wedges without a way have no goals
 
     bool operator<(const Candidate& b) const { return cost != b.cost ? cost < b.cost : target < b.target; }
-};
-
-struct HeapEntry
-{
-    float cost;
-    uint32_t position;
-    uint32_t target;
-    uint32_t version;
-
-    // std heaps keep the greatest in front
-    bool operator<(const HeapEntry& b) const
-    {
-        return cost != b.cost ? cost > b.cost : position > b.position;
-    }
 };
 
 class Collapser
@@ -131,7 +118,7 @@ private:
     double nextCost() const
     {
         const double scale2 = group_.scale * group_.scale;
-        return double{heap_.front().cost} * scale2 * scale2;
+        return double{heap_.front().cost()} * scale2 * scale2;
     }
     void holdEdges(uint32_t position);
     void gather(uint32_t position)
@@ -168,7 +155,7 @@ private:
     std::vector<uint8_t> edges_held_;    ///< 1 where holdEdges was
     std::vector<uint8_t> wedge_blocked_; ///< 1 where wedges without a way ruled out a collapse
     std::vector<uint8_t> grown_;         ///< 1 for positions that others went to
-    std::vector<HeapEntry> heap_;
+    CollapseHeap heap_;
     Growth growth_;
 
     // scratch
@@ -291,8 +278,7 @@ void Collapser::gatherCandidates(uint32_t position, bool along_seams)
 void Collapser::push(uint32_t position, Candidate candidate)
 {
     best_target_[position] = candidate.target;
-    heap_.push_back({candidate.cost, position, candidate.target, version_[position]});
-    std::push_heap(heap_.begin(), heap_.end());
+    heap_.push({candidate.cost, position, candidate.target, version_[position]});
 }
 
 /// Take the cheapest candidate out of the list; nullopt if it is empty.
@@ -353,18 +339,20 @@ void Collapser::evaluateValid(uint32_t position, float popped_cost)
         }
 }
 
+/// All triangles are asked, because hardly ever one turns over, and which ones go cannot be foretold.
 bool Collapser::turnsOver(uint32_t from, uint32_t to)
 {
+    uint32_t turned = 0;
     for (const Corner corner : mesh_.star(from))
     {
         const uint32_t next = mesh_.positionAt(nextCorner(corner));
         const uint32_t previous = mesh_.positionAt(previousCorner(corner));
-        if (next != to && previous != to &&
-            turnsTriangle(group_.positions[next], group_.positions[previous], group_.positions[from],
-                          group_.positions[to]))
-            return true;
+        const bool turns = turnsTriangle(group_.positions[next], group_.positions[previous],
+                                         group_.positions[from], group_.positions[to]);
+        turned |= static_cast<uint32_t>(turns) & static_cast<uint32_t>(next != to) &
+                  static_cast<uint32_t>(previous != to);
     }
-    return false;
+    return turned != 0;
 }
 
 /// After a collapse to `center`. Its own cost has risen, most likely, and is asked for again when it comes out of the
@@ -392,30 +380,28 @@ void Collapser::noteAround(uint32_t center)
 
 void Collapser::step()
 {
-    std::pop_heap(heap_.begin(), heap_.end());
-    const HeapEntry entry = heap_.back();
-    heap_.pop_back();
-    if (entry.version != version_[entry.position])
+    const HeapEntry entry = heap_.pop();
+    if (entry.version() != version_[entry.position()])
         return;
-    gather(entry.position);
-    if (outdated_[entry.position] != 0 || mesh_.degree(entry.target) == 0)
+    gather(entry.position());
+    if (outdated_[entry.position()] != 0 || mesh_.degree(entry.target()) == 0)
     {
-        evaluateGathered(entry.position);
+        evaluateGathered(entry.position());
         return;
     }
-    if (!wedges_.mapTo(entry.position, entry.target) || !valid(entry.position, entry.target))
+    if (!wedges_.mapTo(entry.position(), entry.target()) || !valid(entry.position(), entry.target()))
     {
-        evaluateValid(entry.position, entry.cost);
+        evaluateValid(entry.position(), entry.cost());
         return;
     }
-    wedges_.mapRest(entry.target);
-    if (group_.locked[entry.target] == 0) // nobody asks for those of locked positions
-        quadrics_.move(group_, entry.position, entry.target, wedges_.moves());
-    mesh_.collapse(entry.position, entry.target, wedges_.moves());
-    target_[entry.position] = entry.target;
-    grown_[entry.target] = 1;
-    ++version_[entry.position];
-    noteAround(entry.target);
+    wedges_.mapRest(entry.target());
+    if (group_.locked[entry.target()] == 0) // nobody asks for those of locked positions
+        quadrics_.move(group_, entry.position(), entry.target(), wedges_.moves());
+    mesh_.collapse(entry.position(), entry.target(), wedges_.moves());
+    target_[entry.position()] = entry.target();
+    grown_[entry.target()] = 1;
+    ++version_[entry.position()];
+    noteAround(entry.target());
 }
 
 bool Collapser::pruneIslands(size_t target_triangles)

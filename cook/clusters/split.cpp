@@ -9,6 +9,8 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
+#include <memory>
 
 #include <tbb/parallel_for.h>
 
@@ -32,7 +34,7 @@ constexpr size_t kEvenNode = 2048;
 
 struct Cut
 {
-    int axis = 0;
+    size_t axis = 0;
     size_t left_count = 0;
 };
 
@@ -45,35 +47,32 @@ public:
     /// Number of `vertex`, or kClusterMaxVertices if it would be one too many.
     uint32_t numberOf(uint32_t vertex)
     {
-        uint32_t slot = (vertex * 0x9E3779B1u) >> 22;
-        while (numbers_[slot] != kFree)
-        {
-            if (vertices_[numbers_[slot]] == vertex)
-                return numbers_[slot];
-            slot = (slot + 1) % kSlotCount;
-        }
-        if (count_ == limit_)
-            return kClusterMaxVertices;
-        numbers_[slot] = static_cast<uint16_t>(count_);
+        // whether it is new cannot be foretold: it is put behind the last in any case
         vertices_[count_] = vertex;
-        return count_++;
+        uint32_t slot = (vertex * 0x9E3779B1u) >> 22;
+        while (vertices_[std::min(numbers_[slot], count_)] != vertex)
+            slot = (slot + 1) % kSlotCount;
+        const uint32_t number = std::min(numbers_[slot], count_);
+        numbers_[slot] = number;
+        count_ += number == count_ ? 1 : 0;
+        return count_ <= limit_ ? number : kClusterMaxVertices;
     }
 
     std::span<const uint32_t> vertices() const { return std::span(vertices_).first(count_); }
 
 private:
     static constexpr uint32_t kSlotCount = 1024; ///< four times what can be in it
-    static constexpr uint16_t kFree = 0xFFFF;
+    static constexpr uint32_t kFree = 0xFFFFFFFFu;
 
-    static constexpr std::array<uint16_t, kSlotCount> allFree()
+    static constexpr std::array<uint32_t, kSlotCount> allFree()
     {
-        std::array<uint16_t, kSlotCount> slots{};
+        std::array<uint32_t, kSlotCount> slots{};
         slots.fill(kFree);
         return slots;
     }
 
-    std::array<uint16_t, kSlotCount> numbers_ = allFree();
-    std::array<uint32_t, kClusterMaxVertices> vertices_;
+    std::array<uint32_t, kSlotCount> numbers_ = allFree();
+    std::array<uint32_t, kClusterMaxVertices + 1> vertices_; ///< and one that may be too many
     uint32_t limit_;
     uint32_t count_ = 0;
 };
@@ -117,7 +116,11 @@ struct LaneBox
         min = minimum(min, point);
         max = maximum(max, point);
     }
-    Box3 box() const { return {{min[0], min[1], min[2]}, {max[0], max[1], max[2]}}; }
+    void add(const LaneBox& other)
+    {
+        min = minimum(min, other.min);
+        max = maximum(max, other.max);
+    }
 };
 
 /// An item's center in the first three lanes.
@@ -126,22 +129,20 @@ Lanes centerLanes(const SplitItem& item)
     return Lanes{item.center.x, item.center.y, item.center.z, 0};
 }
 
-Box3 boxOf(std::span<const SplitItem> items)
+LaneBox boxOf(std::span<const SplitItem> items)
 {
     LaneBox box;
     for (const SplitItem& item : items)
         box.add(centerLanes(item));
-    return box.box();
+    return box;
 }
 
-/// Half the surface of a box, in double: coordinates may be as large as floats go.
-double halfArea(const Box3& box)
+/// Half the surface of a box that is not empty. Where floats have no number for its sides it is none, and no cut is
+/// better than that at the median.
+double halfArea(const LaneBox& box)
 {
-    if (box.empty())
-        return 0;
-    const double x = double{box.max.x} - box.min.x;
-    const double y = double{box.max.y} - box.min.y;
-    const double z = double{box.max.z} - box.min.z;
+    const Lanes sides = box.max - box.min;
+    const double x = double{sides[0]}, y = double{sides[1]}, z = double{sides[2]};
     return x * y + y * z + z * x;
 }
 
@@ -149,27 +150,29 @@ double halfArea(const Box3& box)
 class Binning
 {
 public:
-    explicit Binning(const Box3& box)
+    explicit Binning(const LaneBox& box)
+        : half_low_(box.min * allLanes(0.5f)), half_sides_(box.max * allLanes(0.5f) - half_low_)
     {
-        for (int axis = 0; axis < 3; ++axis)
-        {
-            const double extent = (double{box.max[axis]} - box.min[axis]) * 0.5;
-            const auto lane = static_cast<size_t>(axis);
-            half_low_[lane] = box.min[axis] * 0.5f;
-            // an axis too short for floats has one bin
-            if (extent > 1e-35)
-                scale_[lane] = static_cast<float>(kBinCount / extent);
-        }
+        // an axis too short for floats has one bin
+        for (size_t axis = 0; axis < 3; ++axis)
+            if (half_sides_[axis] > 1e-35f)
+                scale_[axis] = kBinCount / half_sides_[axis];
     }
 
-    LaneMask operator()(Lanes center) const
+    LaneMask operator()(const SplitItem& item) const
     {
-        const Lanes bin = (center * allLanes(0.5f) - half_low_) * scale_;
+        const Lanes bin = (centerLanes(item) * allLanes(0.5f) - half_low_) * scale_;
         return __builtin_convertvector(minimum(bin, allLanes(kBinCount - 1)), LaneMask);
     }
 
+    size_t longestAxis() const
+    {
+        const float x = half_sides_[0], y = half_sides_[1], z = half_sides_[2];
+        return x >= y && x >= z ? 0 : y >= z ? 1 : 2;
+    }
+
 private:
-    Lanes half_low_{};
+    Lanes half_low_, half_sides_;
     Lanes scale_{};
 };
 
@@ -180,110 +183,143 @@ size_t roundToFull(size_t count, size_t total, size_t capacity)
     return std::clamp((count + capacity / 2) / capacity * capacity, capacity, last);
 }
 
-int longestAxis(const Box3& box)
-{
-    const double x = double{box.max.x} - box.min.x;
-    const double y = double{box.max.y} - box.min.y;
-    const double z = double{box.max.z} - box.min.z;
-    return x >= y && x >= z ? 0 : y >= z ? 1 : 2;
-}
-
-Cut medianCut(const Box3& box, size_t count, size_t capacity)
-{
-    return {longestAxis(box), roundToFull(count / 2, count, capacity)};
-}
-
 struct AxisCost
 {
     double cost;
     Cut cut;
 };
 
+using BinCounts = std::array<uint32_t, kBinCount>;
+
 struct Bins
 {
     std::array<LaneBox, kBinCount> boxes;
-    std::array<size_t, kBinCount> counts{};
+    BinCounts counts{};
 };
 
 /// The cheapest bin border along one axis. Counts are rounded to full clusters before they are weighed.
-AxisCost bestCutOfAxis(const Bins& bins, int axis, size_t item_count, size_t capacity)
+AxisCost bestCutOfAxis(const Bins& bins, size_t axis, size_t item_count, size_t capacity)
 {
-    std::array<Box3, kBinCount> boxes;
-    for (size_t b = 0; b < kBinCount; ++b)
-        boxes[b] = bins.boxes[b].box();
     std::array<double, kBinCount> right_area{};
-    Box3 right;
+    LaneBox right;
     for (size_t b = kBinCount; b-- > 1;)
     {
-        right.add(boxes[b]);
+        right.add(bins.boxes[b]);
         right_area[b] = halfArea(right);
     }
     AxisCost best{std::numeric_limits<double>::infinity(), {axis, 0}};
-    Box3 left;
+    LaneBox left;
     size_t left_count = 0;
     for (size_t b = 0; b + 1 < kBinCount; ++b)
     {
-        left.add(boxes[b]);
+        left.add(bins.boxes[b]);
         left_count += bins.counts[b];
+        if (bins.counts[b] == 0 || left_count == item_count)
+            continue;
         const size_t cut = roundToFull(left_count, item_count, capacity);
         const double cost = halfArea(left) * static_cast<double>(cut) +
                             right_area[b + 1] * static_cast<double>(item_count - cut);
-        if (left_count > 0 && left_count < item_count && cost < best.cost)
+        if (cost < best.cost)
             best = {cost, {axis, cut}};
     }
     return best;
 }
 
-Cut bestCut(std::span<const SplitItem> items, size_t capacity)
+/// Cuts nodes in two.
+class NodeCutter
 {
-    const Box3 box = boxOf(items);
-    if (items.size() > kMedianOnly)
-        return medianCut(box, items.size(), capacity);
-    const Binning binning(box);
-    std::array<Bins, 3> bins;
-    for (const SplitItem& item : items)
+public:
+    /// most_items  of a node
+    explicit NodeCutter(size_t most_items) : aside_(std::make_unique_for_overwrite<SplitItem[]>(most_items))
     {
-        const Lanes center = centerLanes(item);
-        const LaneMask bin = binning(center);
-        for (size_t axis = 0; axis < 3; ++axis)
-        {
-            const auto b = static_cast<size_t>(bin[axis]);
-            bins[axis].boxes[b].add(center);
-            ++bins[axis].counts[b];
-        }
     }
-    AxisCost best{std::numeric_limits<double>::infinity(), medianCut(box, items.size(), capacity)};
-    for (int axis = 0; axis < 3; ++axis)
-        if (box.max[axis] > box.min[axis])
-            if (const AxisCost found =
-                    bestCutOfAxis(bins[static_cast<size_t>(axis)], axis, items.size(), capacity);
-                found.cost < best.cost)
-                best = found;
-    return best.cut;
-}
 
-/// Move the `count` items that are first along an axis to the front. Ties go by triangle: one result on every machine.
-template <float Float3::*axis>
-void moveToFront(std::span<SplitItem> items, size_t count)
-{
-    const auto order = [](const SplitItem& a, const SplitItem& b)
+    /// Cut at a multiple of `capacity`. Returns how many items are on the left; they come first.
+    size_t operator()(std::span<SplitItem> items, size_t capacity)
     {
-        const float x = a.center.*axis;
-        const float y = b.center.*axis;
-        return x < y || (x == y && a.triangle < b.triangle);
-    };
-    std::nth_element(items.begin(), items.begin() + static_cast<ptrdiff_t>(count), items.end(), order);
-}
+        const Binning binning(boxOf(items));
+        Cut cut{binning.longestAxis(), roundToFull(items.size() / 2, items.size(), capacity)};
+        if (items.size() > kMedianOnly)
+            apply(items, cut, binning, countsOf(items, binning, cut.axis));
+        else
+        {
+            const std::array<Bins, 3> bins = binsOf(items, binning);
+            double least = std::numeric_limits<double>::infinity();
+            for (size_t axis = 0; axis < 3; ++axis)
+                if (const AxisCost found = bestCutOfAxis(bins[axis], axis, items.size(), capacity);
+                    found.cost < least)
+                {
+                    least = found.cost;
+                    cut = found.cut;
+                }
+            apply(items, cut, binning, bins[cut.axis].counts);
+        }
+        return cut.left_count;
+    }
 
-void applyCut(std::span<SplitItem> items, Cut cut)
-{
-    if (cut.axis == 0)
-        moveToFront<&Float3::x>(items, cut.left_count);
-    else if (cut.axis == 1)
-        moveToFront<&Float3::y>(items, cut.left_count);
-    else
-        moveToFront<&Float3::z>(items, cut.left_count);
-}
+private:
+    static BinCounts countsOf(std::span<const SplitItem> items, const Binning& binning, size_t axis)
+    {
+        BinCounts counts{};
+        for (const SplitItem& item : items)
+            ++counts[static_cast<size_t>(binning(item)[axis])];
+        return counts;
+    }
+
+    static std::array<Bins, 3> binsOf(std::span<const SplitItem> items, const Binning& binning)
+    {
+        std::array<Bins, 3> bins;
+        for (const SplitItem& item : items)
+        {
+            const LaneMask bin = binning(item);
+            for (size_t axis = 0; axis < 3; ++axis)
+            {
+                const auto b = static_cast<size_t>(bin[axis]);
+                bins[axis].boxes[b].add(centerLanes(item));
+                ++bins[axis].counts[b];
+            }
+        }
+        return bins;
+    }
+
+    /// Move the items that are first along the axis to the front. Only those in one bin must be compared for that: that of
+    /// the last on the left.
+    void apply(std::span<SplitItem> items, Cut cut, const Binning& binning, const BinCounts& counts)
+    {
+        size_t bin = 0, before = 0;
+        for (; before + counts[bin] < cut.left_count; ++bin)
+            before += counts[bin];
+        // without branches, which could not be foretold: each item goes to all three places, and one of them is kept
+        size_t left = 0, right = 0, middle = items.size();
+        for (const SplitItem item : items)
+        {
+            const auto b = static_cast<size_t>(binning(item)[cut.axis]);
+            items[left] = item;
+            aside_[right] = item;
+            aside_[middle - 1] = item;
+            left += b < bin ? 1 : 0;
+            right += b > bin ? 1 : 0;
+            middle -= b == bin ? 1 : 0;
+        }
+        const auto of_bin = std::span(aside_.get() + middle, items.size() - middle);
+        moveToFront(of_bin, cut.axis, cut.left_count - before);
+        std::copy(of_bin.begin(), of_bin.end(), items.begin() + static_cast<ptrdiff_t>(left));
+        std::copy_n(aside_.get(), right, items.end() - static_cast<ptrdiff_t>(right));
+    }
+
+    /// The same by comparing. Ties go by triangle: one result on every machine.
+    static void moveToFront(std::span<SplitItem> items, size_t axis, size_t count)
+    {
+        const auto order = [&](const SplitItem& a, const SplitItem& b)
+        {
+            const float x = centerLanes(a)[axis], y = centerLanes(b)[axis];
+            return x < y || (x == y && a.triangle < b.triangle);
+        };
+        std::nth_element(items.begin(), items.begin() + static_cast<ptrdiff_t>(count), items.end(), order);
+    }
+
+    std::unique_ptr<SplitItem[]> aside_; ///< items of the right half and of the bin that is cut
+};
 
 /// Triangles that a cluster of these items can have on average before its vertices run out.
 size_t clusterCapacity(std::span<const SplitItem> items, const SplitTriangles& triangles)
@@ -301,7 +337,7 @@ size_t clusterCapacity(std::span<const SplitItem> items, const SplitTriangles& t
 /// Cut `root` into clusters of up to `capacity` triangles, depth first without recursion. A cluster with too many
 /// vertices is halved, or ends the work with false.
 bool splitNode(std::span<SplitItem> root, size_t capacity, bool halve, const SplitTriangles& triangles,
-               ClusterStore& out)
+               NodeCutter& cutNode, ClusterStore& out)
 {
     std::vector<std::span<SplitItem>> stack{root};
     while (!stack.empty())
@@ -317,28 +353,28 @@ bool splitNode(std::span<SplitItem> root, size_t capacity, bool halve, const Spl
                 return false;
             part = (items.size() + 1) / 2;
         }
-        const Cut cut = bestCut(items, part);
-        applyCut(items, cut);
-        stack.push_back(items.subspan(cut.left_count));
-        stack.push_back(items.first(cut.left_count));
+        const size_t left = cutNode(items, part);
+        stack.push_back(items.subspan(left));
+        stack.push_back(items.first(left));
     }
     return true;
 }
 
 /// Cut a node whose clusters share vertices about evenly: into full clusters if their vertices suffice, else again
 /// into smaller ones of the size for which they do.
-void splitEvenNode(std::span<SplitItem> items, const SplitTriangles& triangles, ClusterStore& out)
+void splitEvenNode(std::span<SplitItem> items, const SplitTriangles& triangles, NodeCutter& cutNode,
+                   ClusterStore& out)
 {
     const size_t shape_count = out.shapes.size();
     const size_t vertex_count = out.vertices.size();
     const size_t index_count = out.indices.size();
-    if (splitNode(items, kClusterMaxTriangles, false, triangles, out))
+    if (splitNode(items, kClusterMaxTriangles, false, triangles, cutNode, out))
         return;
     out.shapes.resize(shape_count);
     out.vertices.resize(vertex_count);
     out.indices.resize(index_count);
     out.errors.resize(index_count / 3);
-    splitNode(items, clusterCapacity(items, triangles), true, triangles, out);
+    splitNode(items, clusterCapacity(items, triangles), true, triangles, cutNode, out);
 }
 
 /// The top of the tree, a wave of nodes at a time, until they are small enough to be split one per task.
@@ -354,9 +390,8 @@ std::vector<std::span<SplitItem>> splitTop(std::span<SplitItem> items)
                               halves[i] = {nodes[i], {}};
                               if (nodes[i].size() <= kMedianOnly)
                                   return;
-                              const Cut cut = bestCut(nodes[i], kClusterMaxTriangles);
-                              applyCut(nodes[i], cut);
-                              halves[i] = {nodes[i].first(cut.left_count), nodes[i].subspan(cut.left_count)};
+                              const size_t left = NodeCutter(nodes[i].size())(nodes[i], kClusterMaxTriangles);
+                              halves[i] = {nodes[i].first(left), nodes[i].subspan(left)};
                           });
         changed = false;
         nodes.clear();
@@ -400,6 +435,7 @@ std::vector<SplitItem> itemsOf(const PreparedMesh& mesh)
 void splitIntoClusters(std::span<SplitItem> items, const SplitTriangles& triangles, ClusterStore& out)
 {
     HEARTH_ASSERT(!items.empty());
+    NodeCutter cutNode(items.size());
     std::vector<std::span<SplitItem>> stack{items};
     while (!stack.empty())
     {
@@ -407,13 +443,12 @@ void splitIntoClusters(std::span<SplitItem> items, const SplitTriangles& triangl
         stack.pop_back();
         if (node.size() <= kEvenNode)
         {
-            splitEvenNode(node, triangles, out);
+            splitEvenNode(node, triangles, cutNode, out);
             continue;
         }
-        const Cut cut = bestCut(node, kClusterMaxTriangles);
-        applyCut(node, cut);
-        stack.push_back(node.subspan(cut.left_count));
-        stack.push_back(node.first(cut.left_count));
+        const size_t left = cutNode(node, kClusterMaxTriangles);
+        stack.push_back(node.subspan(left));
+        stack.push_back(node.first(left));
     }
 }
 

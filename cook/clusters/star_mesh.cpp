@@ -55,8 +55,10 @@ std::span<const Corner> StarMesh::star(uint32_t position)
     {
         uint32_t kept = 0;
         for (uint32_t i = 0; i < star.count; ++i)
-            if (alive_[triangleOf(items[i])] != 0)
-                items[kept++] = items[i];
+        {
+            items[kept] = items[i];
+            kept += alive_[triangleOf(items[i])];
+        }
         star.count = kept;
     }
     return {items, star.count};
@@ -214,28 +216,40 @@ bool StarMesh::linkHolds(uint32_t from, uint32_t to)
 
 void StarMesh::collapse(uint32_t from, uint32_t to, std::span<const WedgeMove> moves)
 {
-    for (const Corner corner : star(from))
-        if (has(triangleOf(corner), to))
-            remove(triangleOf(corner));
-    const auto first = static_cast<uint32_t>(star_items_.size());
+    // which triangles go cannot be foretold: they are listed without a branch
+    const auto star_from = star(from);
+    removed_.resize(star_from.size());
+    size_t removed_count = 0;
+    for (const Corner corner : star_from)
+    {
+        removed_[removed_count] = triangleOf(corner);
+        removed_count += has(triangleOf(corner), to) ? 1 : 0;
+    }
+    for (size_t i = 0; i < removed_count; ++i)
+        remove(removed_[i]);
+    const size_t first = star_items_.size();
+    star_items_.resize(first + stars_[to].count + stars_[from].count);
+    Corner* end = star_items_.data() + first;
     const auto copyStar = [&](const Star& star)
     {
         for (uint32_t i = star.first; i < star.first + star.count; ++i)
-            if (const Corner corner = star_items_[i]; alive_[triangleOf(corner)] != 0)
-                star_items_.push_back(corner);
+        {
+            *end = star_items_[i];
+            end += alive_[triangleOf(*end)];
+        }
     };
     copyStar(stars_[to]);
-    const size_t moved = star_items_.size();
+    const Corner* const moved = end;
     copyStar(stars_[from]);
-    for (size_t i = moved; i < star_items_.size(); ++i)
+    for (const Corner corner : std::span(moved, end))
     {
-        const Corner corner = star_items_[i];
         uint32_t& wedge = wedge_of_corner_[corner];
         position_of_corner_[corner] = to;
         wedge = std::find_if(moves.begin(), moves.end(), [&](WedgeMove m) { return m.from == wedge; })->to;
     }
-    const auto count = static_cast<uint32_t>(star_items_.size()) - first;
-    stars_[to] = {first, count, count};
+    const auto count = static_cast<uint32_t>(end - star_items_.data() - static_cast<ptrdiff_t>(first));
+    star_items_.resize(first + count);
+    stars_[to] = {static_cast<uint32_t>(first), count, count};
     stars_[from] = {};
 }
 

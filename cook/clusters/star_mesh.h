@@ -144,7 +144,7 @@ private:
 
     std::vector<uint32_t> position_of_corner_;
     std::vector<uint32_t> wedge_of_corner_;
-    std::vector<uint8_t> alive_; ///< for each triangle
+    std::vector<uint8_t> alive_; ///< for each triangle, 1 or 0
     size_t alive_count_;
     std::vector<Star> stars_; ///< pieces of star_items_, which may name triangles that are gone
     std::vector<Corner> star_items_;
@@ -159,6 +159,7 @@ private:
     std::vector<uint32_t> mark_; ///< mark_value_ + place in fan_ or ring_, for the positions in it
     uint32_t mark_value_ = 0;
     std::vector<uint32_t> tips_;
+    std::vector<uint32_t> removed_; ///< triangles of a collapse
 };
 
 } // namespace hearth::clusters

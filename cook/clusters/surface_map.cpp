@@ -51,10 +51,28 @@ SurfaceMap::SurfaceMap(const GroupMesh& group, const Simplified& simplified,
       far_(wanted.size(), kNotMapped),
       covered_(after.facetCount(), 0)
 {
+    findWays(wanted);
     for (uint32_t t = 0; t < wanted.size(); ++t)
         if (wanted[t] != 0 && !mapTriangle(t))
             far_[t] = kNotMapped;
     findCovered();
+}
+
+/// Those of the sides of wanted triangles, each once. They are listed first: which of two twins comes first cannot be
+/// foretold.
+void SurfaceMap::findWays(std::span<const uint8_t> wanted)
+{
+    std::vector<uint32_t> sides(positions_.size());
+    size_t count = 0;
+    for (uint32_t side = 0; side < positions_.size(); ++side)
+    {
+        const uint32_t twin = twins_[side];
+        const uint32_t other = twin == kNoSide ? side : twin;
+        sides[count] = side;
+        count += static_cast<uint32_t>(side < twin) & (wanted[side / 3] | wanted[other / 3]);
+    }
+    for (const uint32_t side : std::span(sides).first(count))
+        ways_.findWay(side);
 }
 
 /// Follows the ways of the three sides.
@@ -105,13 +123,12 @@ bool SurfaceMap::mapTriangle(uint32_t t)
 void SurfaceMap::follow(const Way& way, bool backwards)
 {
     const auto crossings = ways_.crossingsOf(way);
-    for (size_t i = 0; i < crossings.size(); ++i)
-    {
-        const Crossing& crossing = crossings[backwards ? crossings.size() - 1 - i : i];
-        fill_.cross(backwards ? crossing.entering : crossing.leaving,
-                    backwards ? crossing.leaving : crossing.entering,
-                    backwards ? 1 - crossing.t : crossing.t);
-    }
+    if (backwards)
+        for (size_t i = crossings.size(); i-- > 0;)
+            fill_.cross(crossings[i].entering, crossings[i].leaving, 1 - crossings[i].t);
+    else
+        for (const Crossing& crossing : crossings)
+            fill_.cross(crossing.leaving, crossing.entering, crossing.t);
 }
 
 /// From facet to facet on the spot.
@@ -189,7 +206,7 @@ void SurfaceMap::findCovered()
 /// Only one triangle is mapped beside a side: nothing is known of facets that its way goes through.
 void SurfaceMap::openAlong(uint32_t side)
 {
-    const Way& way = ways_.knownWayOf(side);
+    const Way& way = ways_.wayOf(side);
     uint32_t facet = way.from;
     InFacet point = ways_.pointIn(facet, ways_.imageOf(positions_[side]));
     for (const Crossing& crossing : ways_.crossingsOf(way))

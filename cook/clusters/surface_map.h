@@ -50,7 +50,7 @@ public:
     {
         for (uint32_t side = triangle * 3; side < triangle * 3 + 3; ++side)
         {
-            const Way& way = ways_.knownWayOf(std::min(side, twins_[side]));
+            const Way& way = ways_.wayOf(std::min(side, twins_[side]));
             visit(way.from);
             for (const Crossing& crossing : ways_.crossingsOf(way))
                 visit(crossing.entering / 3);
@@ -74,6 +74,7 @@ private:
         float far;
     };
 
+    void findWays(std::span<const uint8_t> wanted);
     bool mapTriangle(uint32_t t);
     void follow(const Way& way, bool backwards);
     bool turn(uint32_t t, const Image& image, uint32_t from, uint32_t to);

@@ -1,0 +1,93 @@
+// What may be collapsed, the cheapest first.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace hearth::clusters
+{
+
+/// A collapse of one position to another.
+class HeapEntry
+{
+public:
+    /// cost     at least 0
+    /// version  as the caller counts them
+    HeapEntry(float cost, uint32_t position, uint32_t target, uint32_t version)
+        : // + 0.0: there is one zero
+          order_(uint64_t{std::bit_cast<uint32_t>(cost + 0.0f)} << 32 | position),
+          target_(target),
+          version_(version)
+    {
+    }
+
+    float cost() const { return std::bit_cast<float>(static_cast<uint32_t>(order_ >> 32)); }
+    uint32_t position() const { return static_cast<uint32_t>(order_); }
+    uint32_t target() const { return target_; }
+    uint32_t version() const { return version_; }
+
+    /// By cost, then by position.
+    bool operator<(const HeapEntry& b) const { return order_ < b.order_; }
+
+private:
+    uint64_t order_; ///< floats that are not negative are ordered as their bits
+    uint32_t target_;
+    uint32_t version_;
+};
+
+/// A binary heap. The cheaper of two children is found by counting, not by a branch, which could not be foretold: that
+/// is where the heaps of the standard library spend their time.
+class CollapseHeap
+{
+public:
+    bool empty() const { return entries_.empty(); }
+    const HeapEntry& front() const { return entries_.front(); }
+    void clear() { entries_.clear(); }
+
+    void push(const HeapEntry& entry)
+    {
+        entries_.push_back(entry);
+        rise(entries_.size() - 1, entry);
+    }
+
+    HeapEntry pop()
+    {
+        const HeapEntry cheapest = entries_.front();
+        const HeapEntry last = entries_.back();
+        entries_.pop_back();
+        const size_t count = entries_.size();
+        if (count == 0)
+            return cheapest;
+        // the hole sinks to the bottom, from where the last entry hardly ever rises
+        size_t hole = 0;
+        for (size_t child = 1; child + 1 < count; child = hole * 2 + 1)
+        {
+            child += entries_[child + 1] < entries_[child] ? 1 : 0;
+            entries_[hole] = entries_[child];
+            hole = child;
+        }
+        if (hole * 2 + 1 < count)
+        {
+            entries_[hole] = entries_[hole * 2 + 1];
+            hole = hole * 2 + 1;
+        }
+        rise(hole, last);
+        return cheapest;
+    }
+
+private:
+    /// Put an entry where it belongs between a hole and the front.
+    void rise(size_t hole, const HeapEntry& entry)
+    {
+        for (size_t parent; hole > 0 && entry < entries_[parent = (hole - 1) / 2]; hole = parent)
+            entries_[hole] = entries_[parent];
+        entries_[hole] = entry;
+    }
+
+    std::vector<HeapEntry> entries_;
+};
+
+} // namespace hearth::clusters
