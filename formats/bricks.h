@@ -1,0 +1,53 @@
+// Chunks of the brick grid: which voxels of a scene are solid, and what light their faces give back. See FORMAT.md, "Bricks".
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "formats/container.h"
+#include "formats/shared/bricks.h"
+
+namespace hearth::formats
+{
+
+inline constexpr uint32_t kChunkBrickGrid = fourCC("BRKS"); ///< BrickGridRecord[], one at most
+inline constexpr uint32_t kChunkBrickGroups =
+    fourCC("BRKG"); ///< BrickGroupRecord[], all of the grid, x fastest, then y, z
+inline constexpr uint32_t kChunkBricks = fourCC("BRKB");        ///< BrickRecord[]
+inline constexpr uint32_t kChunkBrickOpacity = fourCC("BRKO");  ///< u8[], one for each solid voxel
+inline constexpr uint32_t kChunkBrickAlbedo = fourCC("BRKA");   ///< u32[], one for each face
+inline constexpr uint32_t kChunkBrickNormals = fourCC("BRKN");  ///< u16[], one for each face
+inline constexpr uint32_t kChunkBrickEmission = fourCC("BRKE"); ///< u32[], one for each face, R11G11B10F
+inline constexpr uint32_t kChunkBrickLighting = fourCC("BRKL"); ///< u32[], one for each face, R11G11B10F
+
+/// A grid has at most so many voxels along each axis: their places are exact in floats, their groups fit 32 bits.
+inline constexpr uint32_t kMaxGridVoxels = 1u << 14;
+
+/// Voxel (x, y, z) is the box from origin + voxel_size * (x, y, z) to origin + voxel_size * (x + 1, y + 1, z + 1).
+struct BrickGridRecord
+{
+    Float3 origin;
+    float voxel_size;
+    uint32_t voxels[3];
+    uint32_t group_count;
+    uint32_t brick_count;
+    uint32_t solid_count;
+    uint32_t face_count;
+    uint32_t reserved;
+};
+
+using BrickGroupRecord = shared::BrickGroup;
+using BrickRecord = shared::Brick;
+
+} // namespace hearth::formats
+
+HEARTH_RECORD(hearth::formats::BrickGridRecord, 48,
+              HEARTH_FIELD(hearth::formats::BrickGridRecord, origin,
+                           "least corner of voxel (0, 0, 0), world space, metres"),
+              HEARTH_FIELD(hearth::formats::BrickGridRecord, voxel_size, "edge of a voxel, metres, > 0"),
+              HEARTH_FIELD(hearth::formats::BrickGridRecord, voxels,
+                           "along each axis, 1 to 16384; groups along it are a sixteenth, rounded up"),
+              HEARTH_FIELD(hearth::formats::BrickGridRecord, group_count, "of chunk BRKG"),
+              HEARTH_FIELD(hearth::formats::BrickGridRecord, brick_count, "of chunk BRKB"),
+              HEARTH_FIELD(hearth::formats::BrickGridRecord, solid_count, "of chunk BRKO"),
+              HEARTH_FIELD(hearth::formats::BrickGridRecord, face_count,
+                           "of chunks BRKA, BRKN, BRKE and BRKL"),
+              HEARTH_FIELD(hearth::formats::BrickGridRecord, reserved, "0"));
