@@ -230,6 +230,12 @@ DescriptorWriter& DescriptorWriter::input(uint32_t binding, VkImageView view)
     return *this;
 }
 
+DescriptorWriter& DescriptorWriter::image(uint32_t binding, VkImageView view)
+{
+    add(binding, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, {}, {VK_NULL_HANDLE, view, VK_IMAGE_LAYOUT_GENERAL});
+    return *this;
+}
+
 void DescriptorWriter::write(const Device& device)
 {
     std::vector<VkWriteDescriptorSet> writes;
@@ -255,7 +261,8 @@ Result<UniqueDescriptorPool> createDescriptorPool(const Device& device, uint32_t
     const VkDescriptorPoolSize all[] = {{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, sizes.uniforms},
                                         {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, sizes.storages},
                                         {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, sizes.textures},
-                                        {VK_DESCRIPTOR_TYPE_INPUT_ATTACHMENT, sizes.inputs}};
+                                        {VK_DESCRIPTOR_TYPE_INPUT_ATTACHMENT, sizes.inputs},
+                                        {VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, sizes.images}};
     std::vector<VkDescriptorPoolSize> used;
     for (const VkDescriptorPoolSize& size : all)
         if (size.descriptorCount > 0)
