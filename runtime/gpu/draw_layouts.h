@@ -126,7 +126,7 @@ struct DrawLayouts
     UniqueSetLayout tiles;       ///< of the material-tiles pass, bindings TileBinding
     UniqueSetLayout inspection;  ///< bindings InspectionBinding
     UniqueSetLayout bricks;       ///< bindings BrickBinding
-    UniqueSetLayout fresh_light;  ///< one binding: light of faces before it is copied to where it is read
+    UniqueSetLayout fresh_light;  ///< two bindings: light of faces before it is copied to where it is read, places of bricks
     UniqueSetLayout gather_point; ///< bindings GatherPointBinding
     UniqueSetLayout gather;       ///< bindings GatherBinding
     UniquePipelineLayout visibility; ///< sets scene, material, bins

@@ -128,6 +128,15 @@ Result<ComputePipeline> createComputePipeline(const Device& device, std::span<co
     return result;
 }
 
+Result<ComputePipeline> createComputePipeline(const Device& device, std::span<const uint32_t> spirv,
+                                              std::span<const VkDescriptorSetLayout> sets,
+                                              std::span<const uint32_t> constants)
+{
+    ComputePipeline result;
+    HEARTH_TRY(finishComputePipeline(device, spirv, sets, 0, constants, result));
+    return result;
+}
+
 Result<UniquePipeline> createGraphicsPipeline(const Device& device, const GraphicsDescription& description)
 {
     HEARTH_ASSIGN_OR_RETURN(const UniqueShaderModule vertex, createModule(device, description.vertex));

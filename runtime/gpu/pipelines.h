@@ -41,6 +41,11 @@ Result<ComputePipeline> createComputePipeline(const Device& device, std::span<co
                                               uint32_t push_bytes, VkDescriptorSetLayout shared_set,
                                               std::span<const uint32_t> constants = {});
 
+/// One with shared sets alone: sets[i] is its set i.
+Result<ComputePipeline> createComputePipeline(const Device& device, std::span<const uint32_t> spirv,
+                                              std::span<const VkDescriptorSetLayout> sets,
+                                              std::span<const uint32_t> constants = {});
+
 struct GraphicsDescription
 {
     std::span<const uint32_t> vertex;

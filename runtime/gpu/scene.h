@@ -4,6 +4,7 @@
 #pragma once
 
 #include "runtime/gpu/draw_layouts.h"
+#include "runtime/gpu/scene_bricks.h"
 #include "runtime/gpu/scene_deformation.h"
 #include "runtime/gpu/scene_layout.h"
 #include "runtime/gpu/scene_stream.h"
@@ -32,6 +33,8 @@ struct SceneOptions
     ShadowOptions shadows{}; ///< none unless max_maps is set (README.md, "Shadows")
 
     DeformationOptions deformation{}; ///< of a scene that has deformed meshes
+
+    BrickOptions bricks{}; ///< of a scene that has them
 };
 
 class SceneShadows;
@@ -107,6 +110,7 @@ struct Scene
     std::unique_ptr<SceneStream> stream;           ///< of a streamed scene
     std::unique_ptr<SceneDeformation> deformation; ///< of a scene with deformed meshes
     std::unique_ptr<SceneShadows> shadows;         ///< of a scene with shadows
+    std::unique_ptr<SceneBricks> bricks;           ///< of a scene that has them
     std::vector<SceneBin> bins;
     std::vector<formats::InstanceRecord> instances; ///< as they were loaded
     uint32_t instance_count = 0;

@@ -4,10 +4,11 @@
 #pragma once
 
 #include "formats/pack_view.h"
+#include "formats/shared/brick_view.h"
 #include "runtime/gpu/draw_layouts.h"
 #include "runtime/gpu/uploader.h"
 
-#include <memory>
+#include <vector>
 
 namespace hearth::gpu
 {
@@ -16,8 +17,16 @@ struct Scene;
 
 struct BrickOptions
 {
-    /// Faces that are lit a frame: what changes shows after face_count / faces_per_frame frames and a few more.
+    /// Faces that are lit a frame, about: all of them take face_count / faces_per_frame frames, the period. See README.md for
+    /// the frames after which changed light has settled.
     uint32_t faces_per_frame = 1u << 16;
+};
+
+/// Bricks whose faces a frame lights, and these faces: one behind the other, as they lie in the tables.
+struct BrickShare
+{
+    uint32_t first_brick = 0, brick_count = 0;
+    uint32_t first_face = 0, face_count = 0;
 };
 
 /// Of a scene whose pack has bricks.
@@ -25,18 +34,21 @@ struct SceneBricks
 {
     formats::BrickGridRecord grid;
     Buffer view; ///< shared::BrickView, of the last frame
-    Buffer groups, bricks, opacity;
+    Buffer groups, bricks, places, opacity;
     Buffer surfaces; ///< of the faces: albedo, then emission, then normals
-    Buffer lighting; ///< R11G11B10F of each face: what a frame finds, and gathers from
+    Buffer lighting; ///< shared::BrickLight of each face: what a frame finds, and gathers from
     Buffer fresh;    ///< of the faces of one frame, before they are copied
     VkDescriptorSet set = VK_NULL_HANDLE;
     VkDescriptorSet fresh_set = VK_NULL_HANDLE;
 
-    uint32_t faces_per_frame = 0;
-    uint32_t next_face = 0; ///< the first one of the next frame
-    uint32_t frame = 0;     ///< counts up
-    uint32_t quick_frames = 0; ///< so many frames more show changed light: what is gathered shall follow
+    std::vector<uint32_t> first_faces; ///< of each brick, and behind the last one
+    uint32_t period = 1;               ///< frames that light all faces once
+    uint32_t frame = 0;                ///< that light faces, so far
+    BrickShare share{};                ///< of the last frame
 };
+
+/// What a frame lights.
+BrickShare brickShare(const SceneBricks& bricks, uint32_t frame);
 
 /// Into scene.bricks, where the pack has bricks. Needs scene.pool, and the buffers of frames and lights.
 /// errors: device_limit, device_failed, those of reading chunks.
