@@ -21,6 +21,15 @@ HEARTH_CONSTANT uint kGatherPixels = 8;
 HEARTH_CONSTANT uint kGatherRays = 16;
 HEARTH_CONSTANT uint kGatherFrames = 16;
 
+/// Of these so many more about the mirror's direction, for smooth surfaces: a cone of this tangent, that of a GGX lobe of
+/// roughness kGatherLobe.
+HEARTH_CONSTANT uint kGatherMirrorRays = 4;
+HEARTH_CONSTANT float kGatherLobe = 0.4f;
+HEARTH_CONSTANT float kGatherLobeTangent = 0.16f;
+
+/// Frames whose mean the lobe shows: it follows the eye.
+HEARTH_CONSTANT float kGatherMirrorMemory = 8.0f;
+
 /// Points of a workgroup.
 HEARTH_CONSTANT uint kGatherGroupPoints = 4;
 
@@ -37,7 +46,7 @@ struct GatherPoint
     float sky;       ///< share of its rays that met no brick
     Float3 mean;     ///< m0, linear colour
     float reserved;
-    Float4 red; ///< m1 of each colour, world axes
+    Float4 red; ///< m1 of each colour, world axes; w: radiance of the mirror's lobe
     Float4 green;
     Float4 blue;
 };
@@ -54,7 +63,7 @@ struct GatherView
     uint frame;      ///< counts up
     uint tiles_x;
     uint tiles_y;
-    uint known; ///< 0: nothing is known of a frame before
+    uint known;       ///< 0: nothing is known of a frame before
     float tile_angle; ///< metres that a tile covers at a distance of one metre
 };
 

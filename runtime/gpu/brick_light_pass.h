@@ -21,8 +21,9 @@ public:
 
     /// Outside a render pass. What it writes is visible to compute and fragment shaders that follow, and to transfers.
     ///
+    /// lights_change  those of the frame are not those of the frame before
     /// emission  all of this frame: the first shared::kMaxEmissionBoxes count, of those that overlap the last
-    void record(const Device& device, VkCommandBuffer commands, const Scene& scene,
+    void record(const Device& device, VkCommandBuffer commands, const Scene& scene, bool lights_change,
                 std::span<const EmissionScale> emission) const;
 
 private:

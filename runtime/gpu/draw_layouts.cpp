@@ -23,9 +23,10 @@ Result<DrawLayouts> DrawLayouts::create(const Device& device)
     material[0] = {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, kBoth};
 
     const SetBinding bins[] = {{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_SHADER_STAGE_VERTEX_BIT}};
-    const SetBinding attachments[] = {{VK_DESCRIPTOR_TYPE_INPUT_ATTACHMENT, VK_SHADER_STAGE_FRAGMENT_BIT},
-                                      {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_SHADER_STAGE_VERTEX_BIT},
-                                      {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_SHADER_STAGE_FRAGMENT_BIT}};
+    const SetBinding attachments[] = {
+        {VK_DESCRIPTOR_TYPE_INPUT_ATTACHMENT, VK_SHADER_STAGE_FRAGMENT_BIT},
+        {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_SHADER_STAGE_VERTEX_BIT},
+        {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_SHADER_STAGE_FRAGMENT_BIT}};
 
     const SetBinding occlusion[] = {{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, VK_SHADER_STAGE_COMPUTE_BIT},
                                     {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_SHADER_STAGE_COMPUTE_BIT},
@@ -39,8 +40,8 @@ Result<DrawLayouts> DrawLayouts::create(const Device& device)
     inspection[kInspectionFrame].type = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
 
     std::vector<SetBinding> bricks(
-        kBrickBindingCount, {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
-                             VK_SHADER_STAGE_COMPUTE_BIT | VK_SHADER_STAGE_FRAGMENT_BIT});
+        kBrickBindingCount,
+        {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_SHADER_STAGE_COMPUTE_BIT | VK_SHADER_STAGE_FRAGMENT_BIT});
     bricks[kBrickFrame].type = bricks[kBrickView].type = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
     const SetBinding fresh_light[] = {{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_SHADER_STAGE_COMPUTE_BIT},
                                       {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_SHADER_STAGE_COMPUTE_BIT}};

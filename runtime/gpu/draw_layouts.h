@@ -125,13 +125,14 @@ struct DrawLayouts
     UniqueSetLayout occlusion;   ///< of the culling and pyramid passes, bindings OcclusionBinding
     UniqueSetLayout tiles;       ///< of the material-tiles pass, bindings TileBinding
     UniqueSetLayout inspection;  ///< bindings InspectionBinding
-    UniqueSetLayout bricks;       ///< bindings BrickBinding
-    UniqueSetLayout fresh_light;  ///< two bindings: light of faces before it is copied to where it is read, places of bricks
-    UniqueSetLayout gather_point; ///< bindings GatherPointBinding
-    UniqueSetLayout gather;       ///< bindings GatherBinding
-    UniquePipelineLayout visibility; ///< sets scene, material, bins
-    UniquePipelineLayout picture;    ///< sets scene, material, attachments
-    UniquePipelineLayout clusters;   ///< of the views of clusters: sets inspection, attachments
+    UniqueSetLayout bricks;      ///< bindings BrickBinding
+    UniqueSetLayout
+        fresh_light; ///< two bindings: light of faces before it is copied to where it is read, places of bricks
+    UniqueSetLayout gather_point;     ///< bindings GatherPointBinding
+    UniqueSetLayout gather;           ///< bindings GatherBinding
+    UniquePipelineLayout visibility;  ///< sets scene, material, bins
+    UniquePipelineLayout picture;     ///< sets scene, material, attachments
+    UniquePipelineLayout clusters;    ///< of the views of clusters: sets inspection, attachments
     UniquePipelineLayout brick_views; ///< of the views of bricks: set bricks
 
     static Result<DrawLayouts> create(const Device& device);

@@ -11,13 +11,13 @@ namespace
 
 constexpr uint32_t kPointGroupTiles = 8; // each way, as gather_points.comp has it
 
-void bind(const Device& device, VkCommandBuffer commands, const ComputePipeline& pipeline, VkDescriptorSet first,
-          VkDescriptorSet second)
+void bind(const Device& device, VkCommandBuffer commands, const ComputePipeline& pipeline,
+          VkDescriptorSet first, VkDescriptorSet second)
 {
     const VkDescriptorSet sets[] = {first, second};
     device.vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.pipeline.get());
-    device.vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.layout.get(), 0, 2, sets,
-                                      0, nullptr);
+    device.vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.layout.get(), 0, 2,
+                                      sets, 0, nullptr);
 }
 
 void transition(const Device& device, VkCommandBuffer commands, const Image& image, VkImageLayout from,
@@ -61,8 +61,8 @@ Result<GatherPass> GatherPass::create(const Device& device, const DrawLayouts& l
     return pass;
 }
 
-void GatherPass::record(const Device& device, VkCommandBuffer commands, const Scene& scene, FrameTargets& targets,
-                        const shared::FrameView& view, bool light_changes) const
+void GatherPass::record(const Device& device, VkCommandBuffer commands, const Scene& scene,
+                        FrameTargets& targets, const shared::FrameView& view, bool light_changes) const
 {
     constexpr VkPipelineStageFlags kCompute = VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT;
     GatherTargets& gather = targets.gather();
@@ -72,14 +72,15 @@ void GatherPass::record(const Device& device, VkCommandBuffer commands, const Sc
     transition(device, commands, gather.texels(), VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_GENERAL, 0,
                VK_ACCESS_SHADER_WRITE_BIT, kCompute | VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT, kCompute);
     barrier(device, commands, kCompute | VK_PIPELINE_STAGE_TRANSFER_BIT,
-            VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT, kCompute | VK_PIPELINE_STAGE_TRANSFER_BIT,
+            VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT,
+            kCompute | VK_PIPELINE_STAGE_TRANSFER_BIT,
             VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT);
     device.vk.vkCmdUpdateBuffer(commands, gather.view().handle.get(), 0, sizeof(told), &told);
     barrier(device, commands, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT, kCompute,
             VK_ACCESS_UNIFORM_READ_BIT);
 
-    bind(device, commands, points_[scene.used_slices == 1 ? 0 : 1][hasDeformed(scene) ? 1 : 0], scene.draw_set,
-         gather.pointSet());
+    bind(device, commands, points_[scene.used_slices == 1 ? 0 : 1][hasDeformed(scene) ? 1 : 0],
+         scene.draw_set, gather.pointSet());
     device.vk.vkCmdDispatch(commands, (tiles_x + kPointGroupTiles - 1) / kPointGroupTiles,
                             (tiles_y + kPointGroupTiles - 1) / kPointGroupTiles, 1);
     barrier(device, commands, kCompute, VK_ACCESS_SHADER_WRITE_BIT, kCompute,
@@ -90,8 +91,8 @@ void GatherPass::record(const Device& device, VkCommandBuffer commands, const Sc
     barrier(device, commands, kCompute, VK_ACCESS_SHADER_WRITE_BIT, VK_PIPELINE_STAGE_TRANSFER_BIT,
             VK_ACCESS_TRANSFER_READ_BIT);
     transition(device, commands, gather.texels(), VK_IMAGE_LAYOUT_GENERAL,
-               VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, VK_ACCESS_SHADER_WRITE_BIT, VK_ACCESS_SHADER_READ_BIT,
-               kCompute, VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT);
+               VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, VK_ACCESS_SHADER_WRITE_BIT,
+               VK_ACCESS_SHADER_READ_BIT, kCompute, VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT);
 }
 
 } // namespace hearth::gpu

@@ -6,8 +6,9 @@
 namespace hearth::gpu
 {
 
-Result<GatherTargets> GatherTargets::create(const Device& device, const DrawLayouts& layouts, MemoryArena& arena,
-                                            VkExtent2D extent, VkImageView visibility, VkSampler sampler)
+Result<GatherTargets> GatherTargets::create(const Device& device, const DrawLayouts& layouts,
+                                            MemoryArena& arena, VkExtent2D extent, VkImageView visibility,
+                                            VkSampler sampler)
 {
     GatherTargets t({shared::gatherTiles(extent.width), shared::gatherTiles(extent.height)});
     const uint64_t bytes = uint64_t{t.tiles_.width} * t.tiles_.height * sizeof(shared::GatherPoint);
@@ -16,22 +17,20 @@ Result<GatherTargets> GatherTargets::create(const Device& device, const DrawLayo
                      "the device cannot bind the gathered light of " + std::to_string(extent.width) + "x" +
                          std::to_string(extent.height) + " pixels"};
     HEARTH_ASSIGN_OR_RETURN(
-        t.view_,
-        arena.createBuffer(sizeof(shared::GatherView),
-                              VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
-                              MemoryKind::device));
+        t.view_, arena.createBuffer(sizeof(shared::GatherView),
+                                    VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+                                    MemoryKind::device));
     for (Buffer& points : t.points_)
     {
         HEARTH_ASSIGN_OR_RETURN(
-            points, arena.createBuffer(
-                        bytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
-                        MemoryKind::device));
+            points,
+            arena.createBuffer(bytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
+                               MemoryKind::device));
     }
     HEARTH_ASSIGN_OR_RETURN(
-        t.texels_,
-        arena.createImage({.format = VK_FORMAT_R32G32B32A32_UINT,
-                              .extent = {2 * t.tiles_.width, t.tiles_.height},
-                              .usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT}));
+        t.texels_, arena.createImage({.format = VK_FORMAT_R32G32B32A32_UINT,
+                                      .extent = {2 * t.tiles_.width, t.tiles_.height},
+                                      .usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT}));
 
     const DescriptorPoolSizes sizes{.uniforms = 2, .storages = 6, .textures = 2, .images = 2};
     HEARTH_ASSIGN_OR_RETURN(t.pool_, createDescriptorPool(device, 4, sizes));

@@ -43,7 +43,8 @@ std::vector<std::byte> surfacesOf(const formats::PackView& pack)
 std::vector<shared::BrickPlace> placesOf(const formats::PackView& pack)
 {
     const formats::BrickGridRecord& grid = pack.brickGrid()[0];
-    const uint32_t groups_x = shared::brickGroups(grid.voxels[0]), groups_y = shared::brickGroups(grid.voxels[1]);
+    const uint32_t groups_x = shared::brickGroups(grid.voxels[0]),
+                   groups_y = shared::brickGroups(grid.voxels[1]);
     std::vector<shared::BrickPlace> places;
     for (uint32_t number = 0; number < pack.brickGroups().size(); ++number)
     {
@@ -53,8 +54,8 @@ std::vector<shared::BrickPlace> placesOf(const formats::PackView& pack)
                        z = number / (groups_x * groups_y) * shared::kGroupVoxels;
         for (uint32_t bit = 0; bit < 64; ++bit)
             if (shared::maskHas(group.brick_mask_low, group.brick_mask_high, bit))
-                places.push_back({.xy = (x + (bit & 3) * 4) | (y + (bit >> 2 & 3) * 4) << 16,
-                                  .z = z + (bit >> 4) * 4});
+                places.push_back(
+                    {.xy = (x + (bit & 3) * 4) | (y + (bit >> 2 & 3) * 4) << 16, .z = z + (bit >> 4) * 4});
     }
     return places;
 }
@@ -85,8 +86,7 @@ uint32_t mostFacesOfAFrame(const SceneBricks& bricks)
     return most;
 }
 
-Status createBuffers(const Device& device, const formats::PackView& pack, Uploader& uploader,
-                     Scene& scene)
+Status createBuffers(const Device& device, const formats::PackView& pack, Uploader& uploader, Scene& scene)
 {
     SceneBricks& b = *scene.bricks;
     const auto upload = [&](Buffer& target, std::span<const std::byte> bytes,
@@ -100,17 +100,19 @@ Status createBuffers(const Device& device, const formats::PackView& pack, Upload
     opacity.resize((opacity.size() + 3) / 4 * 4);
     HEARTH_TRY(upload(b.groups, std::as_bytes(pack.brickGroups())));
     HEARTH_TRY(upload(b.bricks, std::as_bytes(pack.bricks())));
-    HEARTH_TRY(upload(b.places, std::as_bytes(std::span(placesOf(pack)))));
+    const std::vector<shared::BrickPlace> places = placesOf(pack);
+    const std::vector<shared::BrickLight> light = lightOf(pack);
+    HEARTH_TRY(upload(b.places, std::as_bytes(std::span(places))));
     HEARTH_TRY(upload(b.opacity, opacity));
     HEARTH_TRY(upload(b.surfaces, surfacesOf(pack)));
-    HEARTH_TRY(upload(b.lighting, std::as_bytes(std::span(lightOf(pack))), VK_BUFFER_USAGE_TRANSFER_SRC_BIT));
-    HEARTH_ASSIGN_OR_RETURN(b.fresh, createTable(device, pack,
-                                                 sizeof(shared::BrickLight) * mostFacesOfAFrame(b),
-                                                 VK_BUFFER_USAGE_TRANSFER_SRC_BIT, scene));
-    HEARTH_ASSIGN_OR_RETURN(
-        b.view, scene.arena.createBuffer(sizeof(shared::BrickView),
-                                         VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
-                                         MemoryKind::device));
+    HEARTH_TRY(upload(b.lighting, std::as_bytes(std::span(light)), VK_BUFFER_USAGE_TRANSFER_SRC_BIT));
+    HEARTH_ASSIGN_OR_RETURN(b.fresh,
+                            createTable(device, pack, sizeof(shared::BrickLight) * mostFacesOfAFrame(b),
+                                        VK_BUFFER_USAGE_TRANSFER_SRC_BIT, scene));
+    HEARTH_ASSIGN_OR_RETURN(b.view, scene.arena.createBuffer(sizeof(shared::BrickView),
+                                                             VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT |
+                                                                 VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+                                                             MemoryKind::device));
     return success();
 }
 
@@ -133,10 +135,12 @@ Status uploadBricks(const Device& device, const DrawLayouts& layouts, const form
     scene.bricks = std::make_unique<SceneBricks>();
     SceneBricks& b = *scene.bricks;
     b.grid = pack.brickGrid()[0];
+    b.rays = options.rays;
     b.first_faces = firstFacesOf(pack);
     // a period of at most a frame a brick
     const auto brick_count = static_cast<uint32_t>(pack.bricks().size());
-    b.period = std::clamp(b.grid.face_count / std::max(1u, options.faces_per_frame), 1u, std::max(1u, brick_count));
+    b.period =
+        std::clamp(b.grid.face_count / std::max(1u, options.faces_per_frame), 1u, std::max(1u, brick_count));
     HEARTH_TRY(createBuffers(device, pack, uploader, scene));
 
     HEARTH_ASSIGN_OR_RETURN(b.set, allocateSet(device, scene.pool.get(), layouts.bricks.get()));

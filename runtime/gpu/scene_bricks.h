@@ -20,6 +20,8 @@ struct BrickOptions
     /// Faces that are lit a frame, about: all of them take face_count / faces_per_frame frames, the period. See README.md for
     /// the frames after which changed light has settled.
     uint32_t faces_per_frame = 1u << 16;
+
+    uint32_t rays = 16; ///< of each face that is lit, at least 1
 };
 
 /// Bricks whose faces a frame lights, and these faces: one behind the other, as they lie in the tables.
@@ -42,9 +44,12 @@ struct SceneBricks
     VkDescriptorSet fresh_set = VK_NULL_HANDLE;
 
     std::vector<uint32_t> first_faces; ///< of each brick, and behind the last one
+    uint32_t rays = 16;                ///< of a face
     uint32_t period = 1;               ///< frames that light all faces once
     uint32_t frame = 0;                ///< that light faces, so far
     BrickShare share{};                ///< of the last frame
+    shared::BrickView last_view{};     ///< the same
+    uint32_t quick_frames = 0;         ///< so many more frames follow changed light quickly
 };
 
 /// What a frame lights.

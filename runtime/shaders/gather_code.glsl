@@ -1,10 +1,11 @@
 // How what was gathered for a tile is handed to shading: two texels of 128 bits. Needs formats/shared/gather.h.
+// Also formats/shared/brick_codes.h.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 
 struct GatherTexels
 {
     uvec4 mean;    // mean and share of sky as halves, normal, where the plane of the point lies
-    uvec4 moments; // along the two axes of gatherAxes, of red, green and blue, as halves
+    uvec4 moments; // along the two axes of gatherAxes, of red, green and blue, as halves; the lobe as R11G11B10F
 };
 
 vec2 gatherOctahedral(vec3 n)
@@ -49,6 +50,7 @@ GatherTexels encodeGathered(GatherPoint point)
     GatherTexels texels;
     texels.mean = uvec4(packHalf2x16(mean.xy), packHalf2x16(mean.zw), normal_code,
                         point.count > 0.0 ? floatBitsToUint(dot(normal, point.position)) : kNoPlane);
-    texels.moments = uvec4(packHalf2x16(red), packHalf2x16(green), packHalf2x16(blue), 0u);
+    texels.moments = uvec4(packHalf2x16(red), packHalf2x16(green), packHalf2x16(blue),
+                          encodeRadiance(vec3(point.red.w, point.green.w, point.blue.w)));
     return texels;
 }

@@ -16,6 +16,7 @@ layout(set = 1, binding = 3, rgba32ui) uniform writeonly uimage2D gather_texels;
 // A ray's light, and how much of it is the sky's; its direction.
 shared vec4 ray_light[kGatherGroupPoints][kGatherRays];
 shared vec3 ray_direction[kGatherGroupPoints][kGatherRays];
+shared vec3 mirror_light[kGatherGroupPoints][kGatherMirrorRays];
 shared BrickStart starts[kGatherGroupPoints];
 
 // As brickRayRadiance, with the share that passes all bricks.
@@ -40,6 +41,18 @@ vec4 rayLight(vec3 place, vec3 direction)
     return vec4(radiance + brickSkyRadiance(brickSky(), direction) * through, through);
 }
 
+// Of the cone about the mirror's direction, never below the surface.
+vec3 mirrorDirection(GatherPoint point, uint index)
+{
+    vec3 mirror = reflect(normalize(point.position), point.normal);
+    // by the cosine about the mirror, drawn together to the cone
+    vec3 about = brickRayDirection(mirror, index * kGatherFrames + gather.frame % kGatherFrames,
+                                   kGatherMirrorRays * kGatherFrames, 0u);
+    vec3 direction = mirror + (about - mirror * dot(mirror, about)) * kGatherLobeTangent;
+    float below = dot(direction, point.normal);
+    return normalize(direction - point.normal * (2.0 * min(below, 0.0)));
+}
+
 // The mean over the rays of a frame.
 GatherPoint meanOf(GatherPoint point, uint row)
 {
@@ -54,11 +67,18 @@ GatherPoint meanOf(GatherPoint point, uint row)
         point.blue.xyz += across * light.b;
     }
     float share = 1.0 / float(kGatherRays);
+    vec3 lobe = vec3(0.0);
+    for (uint i = 0u; i < kGatherMirrorRays; ++i)
+        lobe += mirror_light[row][i];
+    lobe /= float(kGatherMirrorRays);
     point.mean *= share;
     point.sky *= share;
     point.red *= share;
     point.green *= share;
     point.blue *= share;
+    point.red.w = lobe.r;
+    point.green.w = lobe.g;
+    point.blue.w = lobe.b;
     return point;
 }
 
@@ -137,11 +157,13 @@ GatherPoint goOn(GatherPoint fresh, GatherPoint known)
 {
     float count = min(known.count + 1.0, gather.memory);
     float share = 1.0 / count;
+    float mirror_share = 1.0 / min(count, kGatherMirrorMemory);
     fresh.mean = mix(known.mean, fresh.mean, share);
     fresh.sky = mix(known.sky, fresh.sky, share);
-    fresh.red = mix(known.red, fresh.red, share);
-    fresh.green = mix(known.green, fresh.green, share);
-    fresh.blue = mix(known.blue, fresh.blue, share);
+    vec4 shares = vec4(vec3(share), mirror_share);
+    fresh.red = mix(known.red, fresh.red, shares);
+    fresh.green = mix(known.green, fresh.green, shares);
+    fresh.blue = mix(known.blue, fresh.blue, shares);
     fresh.count = count;
     return fresh;
 }
@@ -177,6 +199,9 @@ void main()
                                            kGatherRays * kGatherFrames, brickHash(number));
         ray_direction[row][index] = direction;
         ray_light[row][index] = start.buried != 0u ? vec4(0.0) : rayLight(start.place, direction);
+        if (index < kGatherMirrorRays)
+            mirror_light[row][index] =
+                start.buried != 0u ? vec3(0.0) : rayLight(start.place, mirrorDirection(point, index)).rgb;
     }
     barrier();
     if (!inside || index != 0u)

@@ -1,5 +1,6 @@
 // The light of bricks at a pixel, from the four tiles about it: of each as much as its plane and normal are the pixel's.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "formats/shared/brick_codes.h"
 #include "formats/shared/gather.h"
 #include "gather_code.glsl"
 
@@ -8,7 +9,7 @@ layout(set = 2, binding = 2) uniform usampler2D gathered;
 struct GatheredLight
 {
     vec3 diffuse; // irradiance / pi at the normal
-    vec3 mirror;  // radiance from a direction, blurred as by a rough surface
+    vec3 mirror;  // radiance from the mirror's direction, blurred as by a surface of this roughness
     float sky;    // share of what is seen of the sky past the bricks, by the cosine
     bool known;   // false: all about it is sky
 };
@@ -17,7 +18,8 @@ struct GatheredLight
 // position  relative to the eye
 // normal    that is lit, unit
 // mirror    direction from which the mirror image comes, unit
-GatheredLight gatheredLight(vec2 pixel, vec3 position, vec3 normal, vec3 mirror)
+// roughness perceptual
+GatheredLight gatheredLight(vec2 pixel, vec3 position, vec3 normal, vec3 mirror, float roughness)
 {
     vec2 at = pixel / float(kGatherPixels) - 0.5;
     vec2 low = floor(at);
@@ -26,6 +28,7 @@ GatheredLight gatheredLight(vec2 pixel, vec3 position, vec3 normal, vec3 mirror)
     float reach = length(position) * float(kGatherPixels) / view.lod_scale;
     GatheredLight sum = GatheredLight(vec3(0.0), vec3(0.0), 0.0, false);
     float weights = 0.0;
+    float rough = smoothstep(kGatherLobe, 1.0, roughness);
     for (uint i = 0u; i < 4u; ++i)
     {
         vec2 corner = vec2(i & 1u, i >> 1);
@@ -55,7 +58,7 @@ GatheredLight gatheredLight(vec2 pixel, vec3 position, vec3 normal, vec3 mirror)
         vec3 bent = vec3(dot(red, normal_across), dot(green, normal_across), dot(blue, normal_across)) * (8.0 / 3.0);
         vec3 aside = vec3(dot(red, mirror_across), dot(green, mirror_across), dot(blue, mirror_across)) * 4.0;
         sum.diffuse += max(mean.rgb + bent, vec3(0.0)) * weight;
-        sum.mirror += max(mean.rgb + aside, vec3(0.0)) * weight;
+        sum.mirror += mix(decodeRadiance(moments.w), max(mean.rgb + aside, vec3(0.0)), rough) * weight;
         sum.sky += mean.a * weight;
         weights += weight;
     }
