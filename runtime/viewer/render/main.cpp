@@ -115,6 +115,18 @@ public:
         return success();
     }
 
+    /// Lets the light of bricks settle, where the picture shows it.
+    Status settle(const shared::Camera& camera)
+    {
+        if (scene_.bricks == nullptr ||
+            !(settings_.bricks_light || gpu::showsBricks(settings_.view)))
+            return success();
+        for (uint32_t i = 0; i < options_.gi_frames; ++i)
+            HEARTH_TRY(draw(camera, 0));
+        times_.clear();
+        return success();
+    }
+
     Status draw(const shared::Camera& camera, size_t number)
     {
         gpu::FrameInput frame = frameOf(camera);
@@ -282,6 +294,7 @@ gpu::SceneOptions sceneOptions(const RenderOptions& options, const formats::Pack
 
 Status drawPack(const RenderOptions& options, const formats::PackView& pack, VulkanHost& host)
 {
+    HEARTH_TRY(checkPack(options, pack));
     HEARTH_ASSIGN_OR_RETURN(Animation animation, Animation::create(options.animation, pack));
     animation.goTo(0);
     HEARTH_ASSIGN_OR_RETURN(const std::vector<shared::Camera> cameras,
@@ -307,6 +320,7 @@ Status drawPack(const RenderOptions& options, const formats::PackView& pack, Vul
     Run run(options, pack, animation, host, *renderer, *scene, targets, timestamps);
     if (scene->stream != nullptr && options.camera_path.empty())
         HEARTH_TRY(run.prefetch(cameras.front()));
+    HEARTH_TRY(run.settle(cameras.front()));
     for (size_t i = 0; i < cameras.size(); ++i)
     {
         HEARTH_TRY(run.draw(cameras[i], i));
