@@ -34,6 +34,8 @@ HEARTH_CONSTANT float kBrickFaceMargin = 0.001953125f;
 /// Voxels along the normal within which a surface's point finds the air before it.
 HEARTH_CONSTANT float kBrickMostBuried = 3.0f;
 
+HEARTH_CONSTANT float kBrickLampMetres = 0.1f;
+
 HEARTH_CONSTANT float kBrickPi = 3.14159265f;
 
 /// formats::LightType
@@ -401,12 +403,12 @@ HEARTH_FUNCTION Float3 brickDirect(HEARTH_IN(BrickScene) scene, HEARTH_IN(BrickS
             min(max(light.cone_offset - dot(light.direction, to_lamp) * light.cone_scale, 0.0f), 1.0f);
         share *= cone * cone;
     }
-    if (share <= 0.0f)
+    if (share <= 0.0f || metres < kBrickLampMetres + 0.5f * grid.voxel_size)
         return Float3(0.0f, 0.0f, 0.0f);
     Float3 way = lamp - start.place;
     float far = sqrt(dot(way, way));
     way = far > 0.0f ? way * (1.0f / far) : start.normal;
-    float edge = brickLampEdge(start.place, way, lamp);
+    float edge = brickLampEdge(start.place, way, lamp) - kBrickFaceMargin;
     if (edge > 0.0f)
         share *= brickRayThrough(scene, start.place, way, edge);
     return light.intensity * (share / kBrickPi);
