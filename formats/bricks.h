@@ -20,6 +20,10 @@ inline constexpr uint32_t kChunkBrickLighting = fourCC("BRKL"); ///< u32[], one 
 
 /// A grid has at most so many voxels along each axis: their places are exact in floats, their groups fit 32 bits.
 inline constexpr uint32_t kMaxGridVoxels = 1u << 14;
+/// So many groups, solid voxels and faces at most: a table of theirs is never larger than 64 MiB.
+inline constexpr uint32_t kMaxBrickGroups = 1u << 22;
+inline constexpr uint32_t kMaxBrickVoxels = 1u << 26;
+inline constexpr uint32_t kMaxBrickFaces = 1u << 24;
 
 /// Voxel (x, y, z) is the box from origin + voxel_size * (x, y, z) to origin + voxel_size * (x + 1, y + 1, z + 1).
 struct BrickGridRecord
@@ -37,6 +41,21 @@ struct BrickGridRecord
 using BrickGroupRecord = shared::BrickGroup;
 using BrickRecord = shared::Brick;
 
+/// The grid as marches take it.
+constexpr shared::BrickGrid brickGridOf(const BrickGridRecord& record)
+{
+    return {record.origin, record.voxel_size, record.voxels[0], record.voxels[1], record.voxels[2], 0};
+}
+
+/// Groups of a grid of so many voxels along its axes, each at most kMaxGridVoxels.
+constexpr uint32_t brickGroupCount(const uint32_t (&voxels)[3])
+{
+    uint32_t count = 1;
+    for (const uint32_t along : voxels)
+        count *= (along + shared::kGroupVoxels - 1) / shared::kGroupVoxels;
+    return count;
+}
+
 } // namespace hearth::formats
 
 HEARTH_RECORD(hearth::formats::BrickGridRecord, 48,
@@ -51,3 +70,20 @@ HEARTH_RECORD(hearth::formats::BrickGridRecord, 48,
               HEARTH_FIELD(hearth::formats::BrickGridRecord, face_count,
                            "of chunks BRKA, BRKN, BRKE and BRKL"),
               HEARTH_FIELD(hearth::formats::BrickGridRecord, reserved, "0"));
+
+HEARTH_RECORD(hearth::formats::BrickGroupRecord, 12,
+              HEARTH_FIELD(hearth::formats::BrickGroupRecord, brick_mask_low,
+                           "which of its 4 x 4 x 4 bricks exist: bits 0 to 31"),
+              HEARTH_FIELD(hearth::formats::BrickGroupRecord, brick_mask_high, "bits 32 to 63"),
+              HEARTH_FIELD(hearth::formats::BrickGroupRecord, first_brick,
+                           "of its bricks; where it has none, that of the next group"));
+
+HEARTH_RECORD(hearth::formats::BrickRecord, 64,
+              HEARTH_FIELD(hearth::formats::BrickRecord, voxel_mask_low,
+                           "which of its 4 x 4 x 4 voxels are solid: bits 0 to 31; one at least"),
+              HEARTH_FIELD(hearth::formats::BrickRecord, voxel_mask_high, "bits 32 to 63"),
+              HEARTH_FIELD(hearth::formats::BrickRecord, face_masks,
+                           "the voxels that have face x-, x+, y-, y+, z-, z+: two words for each"),
+              HEARTH_FIELD(hearth::formats::BrickRecord, first_voxel, "of its solid voxels"),
+              HEARTH_FIELD(hearth::formats::BrickRecord, first_face,
+                           "of its faces: those of x- in the order of their bits, then those of x+, ..."));
