@@ -6,15 +6,20 @@
 namespace hearth::bricks
 {
 
+namespace
+{
+
+constexpr double kRow = kSampleRow;
+
+} // namespace
+
 uint64_t hiddenSamples(const Polygon& piece, const Cell& cell, int axis)
 {
     const int u_axis = uAxis(axis), v_axis = vAxis(axis);
     const double u0 = cell[static_cast<size_t>(u_axis)], v0 = cell[static_cast<size_t>(v_axis)];
-    constexpr double kRow = kSampleRow;
     // the first sample at or above a place
-    const auto firstFrom = [](double place) {
-        return static_cast<int>(std::clamp(std::ceil(place * kRow - 0.5), 0.0, kRow));
-    };
+    const auto firstFrom = [](double place)
+    { return static_cast<int>(std::clamp(std::ceil(place * kRow - 0.5), 0.0, kRow)); };
     const std::array<double, 2> rows = piece.span(v_axis);
     uint64_t hidden = 0;
     for (int row = firstFrom(rows[0] - v0); row < firstFrom(rows[1] - v0); ++row)
@@ -30,7 +35,8 @@ uint64_t hiddenSamples(const Polygon& piece, const Cell& cell, int axis)
                 continue;
             const Double3& low = p_below ? p : q;
             const Double3& high = p_below ? q : p;
-            const double t = (v - coordinate(low, v_axis)) / (coordinate(high, v_axis) - coordinate(low, v_axis));
+            const double t =
+                (v - coordinate(low, v_axis)) / (coordinate(high, v_axis) - coordinate(low, v_axis));
             const double u =
                 coordinate(low, u_axis) + (coordinate(high, u_axis) - coordinate(low, u_axis)) * t;
             least = std::min(least, u);

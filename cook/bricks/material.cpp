@@ -86,10 +86,9 @@ Result<std::vector<MaterialUse>> materialsOf(const PackView& scene, const PackVi
     return uses;
 }
 
-TriangleSurface::TriangleSurface(const MaterialUse& material, const Polygon& corners, const TriangleLook& look)
-    : material_(material),
-      corners_(corners),
-      look_(look)
+TriangleSurface::TriangleSurface(const MaterialUse& material, const Polygon& corners,
+                                 const TriangleLook& look)
+    : material_(material), corners_(corners), look_(look)
 {
     const Double3 area = doubleArea(corners);
     for (int axis = 1; axis < 3; ++axis)
@@ -133,7 +132,9 @@ float TriangleSurface::alpha(const std::array<float, 3>& weights, uint32_t mip) 
     if (material_.base_color)
     {
         const TextureRef& reference = material_.record.base_color_texture;
-        alpha *= material_.base_color->at(reference, transformed(reference, mixed(look_.base_color_uv, weights)), mip).w;
+        alpha *= material_.base_color
+                     ->at(reference, transformed(reference, mixed(look_.base_color_uv, weights)), mip)
+                     .w;
     }
     return alpha;
 }

@@ -14,8 +14,9 @@ namespace hearth::bricks
 /// A point of a surface.
 struct Look
 {
-    Float3 albedo;   ///< base colour, linear Rec.709, 0 to 1; a metal's too: what it mirrors is light all the same
-    Float3 emission; ///< radiance, linear Rec.709
+    Float3
+        albedo; ///< base colour, linear Rec.709, 0 to 1; a metal's too: what it mirrors is light all the same
+    Float3 emission;  ///< radiance, linear Rec.709
     float hidden = 1; ///< of what lies behind: 0 in the holes of a mask, alpha of what is blended
 };
 
@@ -36,7 +37,8 @@ MaterialUse defaultMaterial();
 
 /// The materials of a source, with the images of its textures part.
 /// errors: meaning_reference for an image that is not there
-Result<std::vector<MaterialUse>> materialsOf(const formats::PackView& scene, const formats::PackView& textures);
+Result<std::vector<MaterialUse>> materialsOf(const formats::PackView& scene,
+                                             const formats::PackView& textures);
 
 /// The attributes of one triangle's corners.
 struct TriangleLook

@@ -59,9 +59,7 @@ Float2 transformed(const TextureRef& reference, Float2 uv)
 }
 
 Texture::Texture(const PackView& part, uint32_t image)
-    : part_(&part),
-      image_(image),
-      record_(part.images()[image])
+    : part_(&part), image_(image), record_(part.images()[image])
 {
 }
 
@@ -90,7 +88,8 @@ Float4 Texture::at(const TextureRef& reference, Float2 uv, uint32_t level) const
         const int64_t j = wrapped(static_cast<int64_t>(top) + row, height, reference.wrap_v);
         return texel(texels, static_cast<uint64_t>(j * width + i));
     };
-    return mixed(mixed(fetch(0, 0), fetch(1, 0), x - left), mixed(fetch(0, 1), fetch(1, 1), x - left), y - top);
+    return mixed(mixed(fetch(0, 0), fetch(1, 0), x - left), mixed(fetch(0, 1), fetch(1, 1), x - left),
+                 y - top);
 }
 
 Status Texture::status() const
@@ -121,9 +120,10 @@ Texture::Texels Texture::read(uint32_t mip) const
         return {data->bytes().begin() + static_cast<ptrdiff_t>(first),
                 data->bytes().begin() + static_cast<ptrdiff_t>(end)};
     if (status_.ok())
-        status_ = data.ok() ? Status(Error{Issue::chunk_size, part_->name(), "image " + std::to_string(image_),
-                                           "it has fewer texels than its size says"})
-                            : Status(data.error());
+        status_ = data.ok()
+                      ? Status(Error{Issue::chunk_size, part_->name(), "image " + std::to_string(image_),
+                                     "it has fewer texels than its size says"})
+                      : Status(data.error());
     return {};
 }
 
@@ -142,7 +142,8 @@ Float4 Texture::texel(const Texels& texels, uint64_t index) const
     }
     uint16_t halves[4];
     std::memcpy(halves, texels.data() + index * sizeof(halves), sizeof(halves));
-    return {floatFromHalf(halves[0]), floatFromHalf(halves[1]), floatFromHalf(halves[2]), floatFromHalf(halves[3])};
+    return {floatFromHalf(halves[0]), floatFromHalf(halves[1]), floatFromHalf(halves[2]),
+            floatFromHalf(halves[3])};
 }
 
 } // namespace hearth::bricks
