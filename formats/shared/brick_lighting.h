@@ -34,6 +34,8 @@ HEARTH_CONSTANT float kBrickFaceMargin = 0.001953125f;
 /// Voxels along the normal within which a surface's point finds the air before it.
 HEARTH_CONSTANT float kBrickMostBuried = 3.0f;
 
+HEARTH_CONSTANT float kBrickLampMetres = 0.1f;
+
 HEARTH_CONSTANT float kBrickPi = 3.14159265f;
 
 /// formats::LightType
@@ -353,20 +355,51 @@ HEARTH_FUNCTION Float3 brickGather(HEARTH_IN(BrickScene) scene, HEARTH_IN(BrickS
 
 // ---- lights
 
-/// Where along a ray from `place` towards a light its own voxel begins: what is in that voxel is the lamp, and does not
-/// shadow its own light.
-HEARTH_FUNCTION float brickLampEdge(Float3 place, Float3 direction, Float3 lamp)
+HEARTH_FUNCTION bool brickSolid(HEARTH_IN(BrickScene) scene, int x, int y, int z)
 {
-    float low_x = floor(lamp.x);
-    float low_y = floor(lamp.y);
-    float low_z = floor(lamp.z);
-    float t_x =
-        direction.x == 0.0f ? 0.0f : ((direction.x > 0.0f ? low_x : low_x + 1.0f) - place.x) / direction.x;
-    float t_y =
-        direction.y == 0.0f ? 0.0f : ((direction.y > 0.0f ? low_y : low_y + 1.0f) - place.y) / direction.y;
-    float t_z =
-        direction.z == 0.0f ? 0.0f : ((direction.z > 0.0f ? low_z : low_z + 1.0f) - place.z) / direction.z;
-    return max(max(t_x, t_y), t_z);
+    BrickGrid grid = brickGridOf(brickMasksOf(scene));
+    if (uint(x) >= grid.voxels_x || uint(y) >= grid.voxels_y || uint(z) >= grid.voxels_z)
+        return false;
+    uint group_index = (uint(x) >> 4) + brickGroups(grid.voxels_x) *
+                                            ((uint(y) >> 4) + brickGroups(grid.voxels_y) * (uint(z) >> 4));
+    BrickGroup group = brickGroupAt(brickMasksOf(scene), group_index);
+    uint bit = brickBit(uint(x) >> 2, uint(y) >> 2, uint(z) >> 2);
+    if (!maskHas(group.brick_mask_low, group.brick_mask_high, bit))
+        return false;
+    Brick brick =
+        brickAt(brickMasksOf(scene),
+                group.first_brick + maskCountBelow(group.brick_mask_low, group.brick_mask_high, bit));
+    return maskHas(brick.voxel_mask_low, brick.voxel_mask_high, brickBit(uint(x), uint(y), uint(z)));
+}
+
+/// From where a lamp shines through the bricks, in voxels: where it stands, if that is in the air. Lamps stand in their
+/// shades and beside their bulbs, which fill their voxel: then from the middle of the nearest voxel of air around, of two the
+/// lower one, and from where it stands where there is none. The same for all faces: a frame may find it once.
+/// lamp  in voxels
+HEARTH_FUNCTION Float3 brickLampPlace(HEARTH_IN(BrickScene) scene, Float3 lamp)
+{
+    Float3 low = Float3(floor(lamp.x), floor(lamp.y), floor(lamp.z));
+    // so far off the grid all is air, and the numbers would not fit
+    float most = max(max(abs(lamp.x), abs(lamp.y)), abs(lamp.z));
+    if (most > 32768.0f || !brickSolid(scene, int(low.x), int(low.y), int(low.z)))
+        return lamp;
+    Float3 place = lamp;
+    float nearest = kBrickFar;
+    for (int i = 0; i < 27; ++i)
+    {
+        int x = i % 3 - 1;
+        int z = i / 3 % 3 - 1;
+        int y = i / 9 - 1;
+        Float3 middle = low + Float3(float(x) + 0.5f, float(y) + 0.5f, float(z) + 0.5f);
+        Float3 way = middle - lamp;
+        float distance2 = dot(way, way);
+        if (distance2 < nearest && !brickSolid(scene, int(low.x) + x, int(low.y) + y, int(low.z) + z))
+        {
+            nearest = distance2;
+            place = middle;
+        }
+    }
+    return place;
 }
 
 /// Irradiance over pi that a light gives a face through the bricks.
@@ -401,14 +434,12 @@ HEARTH_FUNCTION Float3 brickDirect(HEARTH_IN(BrickScene) scene, HEARTH_IN(BrickS
             min(max(light.cone_offset - dot(light.direction, to_lamp) * light.cone_scale, 0.0f), 1.0f);
         share *= cone * cone;
     }
-    if (share <= 0.0f)
+    if (share <= 0.0f || metres < kBrickLampMetres + 0.5f * grid.voxel_size)
         return Float3(0.0f, 0.0f, 0.0f);
-    Float3 way = lamp - start.place;
+    Float3 way = brickLampPlace(scene, lamp) - start.place;
     float far = sqrt(dot(way, way));
-    way = far > 0.0f ? way * (1.0f / far) : start.normal;
-    float edge = brickLampEdge(start.place, way, lamp);
-    if (edge > 0.0f)
-        share *= brickRayThrough(scene, start.place, way, edge);
+    if (far > 0.0f)
+        share *= brickRayThrough(scene, start.place, way * (1.0f / far), far);
     return light.intensity * (share / kBrickPi);
 }
 
