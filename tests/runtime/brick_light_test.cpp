@@ -120,7 +120,10 @@ protected:
             draw(*scene_, *targets_, {.position = {0, 0, 2}}, options);
     }
 
-    std::vector<BrickLight> faces() { return read<BrickLight>(scene_->bricks->lighting, model_.albedo.size()); }
+    std::vector<BrickLight> faces()
+    {
+        return read<BrickLight>(scene_->bricks->lighting, model_.albedo.size());
+    }
 
     /// No light at all but what glows: the sun of scenes without lights is put out, the sky made black.
     static shared::Lighting darkness()
@@ -186,7 +189,8 @@ TEST_F(BrickLightTest, marchesLikeTheCpuToTheBit)
     size_t found = 0;
     for (size_t i = 0; i < rays.size(); ++i)
     {
-        BrickRay ray = brickMarch(masks, brickRay(masks.grid, rays[i].origin, rays[i].direction, rays[i].far));
+        BrickRay ray =
+            brickMarch(masks, brickRay(masks.grid, rays[i].origin, rays[i].direction, rays[i].far));
         ASSERT_EQ(hits[2 * i], hitOf(masks, ray)) << i;
         found += ray.inside;
         if (ray.inside != 0)
@@ -231,8 +235,8 @@ TEST_F(BrickLightTest, lightsFacesLikeTheSolver)
         }
     }
     RecordProperty("alike", std::to_string(double(alike) / double(gpu_faces.size())));
-    std::printf("%.5f of %zu codes alike, most %.2g, brightest %.3g\n", double(alike) / double(gpu_faces.size()),
-                gpu_faces.size(), double(most), double(brightest));
+    std::printf("%.5f of %zu codes alike, most %.2g, brightest %.3g\n",
+                double(alike) / double(gpu_faces.size()), gpu_faces.size(), double(most), double(brightest));
     EXPECT_GT(brightest, 0.5f);
     EXPECT_GT(alike, gpu_faces.size() * 99 / 100);
 }
@@ -273,7 +277,10 @@ TEST_F(BrickLightTest, aSealedRoomStaysDarkUnderTheSun)
 {
     constexpr std::array<uint32_t, 3> kVoxels{9, 8, 11};
     test_.addLight(sun({0.4f, -1, 0.3f}));
-    load(brickModel(kVoxels, shellOf(kVoxels), [](auto, uint32_t) { return FaceLook{{0.8f, 0.8f, 0.8f}, {}}; }));
+    load(brickModel(kVoxels, shellOf(kVoxels),
+                    [](auto, uint32_t) {
+                        return FaceLook{{0.8f, 0.8f, 0.8f}, {}};
+                    }));
     drawFrames(6);
     const std::vector<BrickLight> lit = faces();
     const std::vector<FacePlace> places = facePlaces(model_);
@@ -296,7 +303,10 @@ TEST_F(BrickLightTest, aLightThatGoesOutIsForgotten)
     constexpr float kAlbedo = 0.8f;
     const formats::LightRecord lamp = light(formats::LightType::point, {4.5f, 4.5f, 4.5f}, {0, -1, 0}, 4);
     test_.addLight(lamp);
-    load(brickModel(kVoxels, shellOf(kVoxels), [](auto, uint32_t) { return FaceLook{{kAlbedo, kAlbedo, kAlbedo}, {}}; }),
+    load(brickModel(kVoxels, shellOf(kVoxels),
+                    [](auto, uint32_t) {
+                        return FaceLook{{kAlbedo, kAlbedo, kAlbedo}, {}};
+                    }),
          {.faces_per_frame = 200});
     const uint32_t period = scene_->bricks->period;
     ASSERT_GT(period, 2u);

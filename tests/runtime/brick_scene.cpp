@@ -25,8 +25,8 @@ std::vector<FacePlace> facePlaces(const BrickModel& model)
             for (uint32_t side = 0; side < 6; ++side)
                 for (uint32_t bit = 0; bit < 64; ++bit)
                     if (const uint32_t face = shared::brickFace(brick, bit, side); face != shared::kNoFace)
-                        places[face] = {{first[0] + (bit & 3), first[1] + (bit >> 2 & 3), first[2] + (bit >> 4)},
-                                        side};
+                        places[face] = {
+                            {first[0] + (bit & 3), first[1] + (bit >> 2 & 3), first[2] + (bit >> 4)}, side};
         }
     }
     return places;

@@ -118,8 +118,7 @@ public:
     /// Lets the light of bricks settle, where the picture shows it.
     Status settle(const shared::Camera& camera)
     {
-        if (scene_.bricks == nullptr ||
-            !(settings_.bricks_light || gpu::showsBricks(settings_.view)))
+        if (scene_.bricks == nullptr || !(settings_.bricks_light || gpu::showsBricks(settings_.view)))
             return success();
         for (uint32_t i = 0; i < options_.gi_frames; ++i)
             HEARTH_TRY(draw(camera, 0));
@@ -193,20 +192,21 @@ public:
     {
         if (options_.stats.empty())
             return success();
-        const FrameReport report{.device = host_.deviceName(),
-                                 .width = targets_.extent().width,
-                                 .height = targets_.extent().height,
-                                 .error_pixels = options_.settings.error_pixels,
-                                 .scene_bytes =
-                                     scene_.arena.allocatedBytes() +
-                                     (scene_.stream == nullptr ? 0 : scene_.stream->allocatedBytes()),
-                                 .target_bytes = targets_.allocatedBytes(),
-                                 .dropped_lights = scene_.dropped_lights,
-                                 .frames = frames_,
-                                 .streaming = streaming_,
-                                 .shadows = shadows_,
-                                 .skinning = skinning_,
-                                 .milliseconds = medianPassTimes(times_)};
+        const FrameReport report{
+            .device = host_.deviceName(),
+            .width = targets_.extent().width,
+            .height = targets_.extent().height,
+            .error_pixels = options_.settings.error_pixels,
+            .scene_bytes = scene_.arena.allocatedBytes() +
+                           (scene_.stream == nullptr ? 0 : scene_.stream->allocatedBytes()),
+            .target_bytes = targets_.allocatedBytes(),
+            .dropped_lights = scene_.dropped_lights,
+            .frames = frames_,
+            .streaming = streaming_,
+            .shadows = shadows_,
+            .skinning = skinning_,
+            .bricks = scene_.bricks == nullptr ? std::nullopt : std::optional(countBricks(scene_, targets_)),
+            .milliseconds = medianPassTimes(times_)};
         const std::string text = formatReport(report, pack_);
         return writeFile(options_.stats, std::as_bytes(std::span(text)));
     }
