@@ -37,9 +37,10 @@ shared::BrickView viewOf(const SceneBricks& bricks, std::span<const EmissionScal
     return view;
 }
 
-/// After a change what has been gathered counts little for so many sweeps over all faces: by then half of what was there
-/// before is gone wherever the albedo is .84 or less.
-constexpr uint32_t kQuickSweeps = 4;
+/// After a change what has been gathered counts little for so many sweeps over all faces, by which less than 3 % of the light
+/// before is left where the albedo is .8, and for so many frames more, by which less than 1 % of what was gathered is.
+constexpr uint32_t kQuickSweeps = 16;
+constexpr uint32_t kQuickFrames = 16;
 
 bool sameEmission(const shared::BrickView& a, const shared::BrickView& b)
 {
@@ -64,7 +65,7 @@ void BrickLightPass::record(const Device& device, VkCommandBuffer commands, cons
     bricks.share = brickShare(bricks, bricks.frame++);
     const shared::BrickView view = viewOf(bricks, emission);
     if (lights_change || !sameEmission(view, bricks.last_view))
-        bricks.quick_frames = kQuickSweeps * bricks.period;
+        bricks.quick_frames = kQuickSweeps * bricks.period + kQuickFrames;
     else if (bricks.quick_frames > 0)
         --bricks.quick_frames;
     bricks.last_view = view;

@@ -9,7 +9,7 @@
 #include "tests/runtime/shaders/test_shaders.h"
 
 #include <cmath>
-#include <map>
+#include <limits>
 
 namespace hearth::test
 {
@@ -125,13 +125,6 @@ protected:
         return read<BrickLight>(scene_->bricks->lighting, model_.albedo.size());
     }
 
-    /// No light at all but what glows: the sun of scenes without lights is put out, the sky made black.
-    static shared::Lighting darkness()
-    {
-        shared::Lighting lighting{};
-        return lighting;
-    }
-
     BrickModel model_;
     TestScene test_;
     std::optional<formats::PackView> pack_;
@@ -149,7 +142,7 @@ TEST_F(BrickLightTest, marchesLikeTheCpuToTheBit)
     model.grid.voxel_size = 0.37f;
     load(model);
     drawFrames(1); // fills the view of the bricks
-    const std::vector<TestRay> rays = randomRays(model.masks().grid, 20000);
+    const std::vector<TestRay> rays = randomRays(model.masks().grid, 8000);
 
     const gpu::Device& device = renderer().device();
     gpu::MemoryArena arena(device);
@@ -197,8 +190,8 @@ TEST_F(BrickLightTest, marchesLikeTheCpuToTheBit)
             ray = brickMarch(masks, brickPass(masks, ray));
         ASSERT_EQ(hits[2 * i + 1], hitOf(masks, ray)) << i << ", second";
     }
-    EXPECT_GT(found, rays.size() / 5);
-    EXPECT_LT(found, rays.size() * 4 / 5);
+    EXPECT_GT(found, rays.size() / 8);
+    EXPECT_LT(found, rays.size() * 7 / 8);
 }
 
 TEST_F(BrickLightTest, lightsFacesLikeTheSolver)
@@ -215,7 +208,7 @@ TEST_F(BrickLightTest, lightsFacesLikeTheSolver)
     const uint32_t period = scene_->bricks->period;
     ASSERT_EQ(period, 3u);
 
-    bricks::FaceLighting solver(viewOf(model));
+    bricks::FaceLighting solver(brickViewOf(model));
     for (uint32_t frame = 0; frame < 7; ++frame)
     {
         drawFrames(1);
@@ -234,10 +227,9 @@ TEST_F(BrickLightTest, lightsFacesLikeTheSolver)
             brightest = std::max(brightest, its[c]);
         }
     }
-    RecordProperty("alike", std::to_string(double(alike) / double(gpu_faces.size())));
-    std::printf("%.5f of %zu codes alike, most %.2g, brightest %.3g\n",
-                double(alike) / double(gpu_faces.size()), gpu_faces.size(), double(most), double(brightest));
     EXPECT_GT(brightest, 0.5f);
+    // to the bit but for rounding, by which some codes are the next ones
+    EXPECT_LT(most, 0.002f);
     EXPECT_GT(alike, gpu_faces.size() * 99 / 100);
 }
 

@@ -6,6 +6,7 @@
 #include "tests/runtime/gpu_fixture.h"
 #include "tests/runtime/lit_scene.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace hearth::test
@@ -106,7 +107,7 @@ TEST_F(BrickPictureTest, gathersWhatTheCpuGathers)
     load();
     settled({}, 64);
     const Lighting lighting = gpu::makeLighting(*pack_);
-    bricks::FaceLighting solver(viewOf(model_));
+    bricks::FaceLighting solver(brickViewOf(model_));
     solver.sweep(lighting, scene_->bricks->rays, 24);
     const BrickSky sky{lighting.sky_zenith, lighting.sky_horizon, lighting.sky_ground};
     const BrickScene scene = solver.scene();
@@ -127,8 +128,7 @@ TEST_F(BrickPictureTest, gathersWhatTheCpuGathers)
     }
     const double count = 3 * double(gathered.size());
     const double rms = std::sqrt(square / count) / (sum / count);
-    std::printf("rms %.4f of the mean\n", rms);
-    EXPECT_LT(rms, 0.04);
+    EXPECT_LT(rms, 0.02);
 }
 
 TEST_F(BrickPictureTest, standsStill)
@@ -169,7 +169,6 @@ TEST_F(BrickPictureTest, whatMovesReceivesLight)
     const gpu::InstanceMove move = gpu::moveInstance(*scene_, kCard, translated(kCardNear)).value();
     frame({.shown = kViewGathered, .moves = {&move, 1}});
     const double near = rednessOfCard(settled({.shown = kViewGathered}, 8));
-    std::printf("red over green: far %.3f, near %.3f\n", far, near);
     EXPECT_GT(near, 1.15 * far);
 }
 
@@ -199,9 +198,11 @@ TEST_F(BrickPictureTest, showsBricksAndTheirLight)
     load();
     const Picture lit = settled({.shown = kViewBrickLighting}, 8);
     const Picture cells = frame({.shown = kViewBricks});
-    // the wall glows red to the left, the sky stands over the floor's far edge
-    const uint32_t wall = lit.at(4, kHeight / 2), sky = lit.at(kWidth - 4, 2);
-    EXPECT_GT(channel(wall, 0), 4 * channel(wall, 1));
+    const auto red =
+        std::count_if(lit.color.begin(), lit.color.end(),
+                      [](uint32_t c) { return channel(c, 0) > 200 && channel(c, 0) > 2 * channel(c, 1); });
+    EXPECT_GT(red, 200);
+    const uint32_t sky = lit.at(kWidth - 4, 2);
     EXPECT_GE(channel(sky, 2), channel(sky, 0));
     EXPECT_NE(cells.color, lit.color);
     // bluish, as the albedo of the floor is
@@ -219,7 +220,7 @@ TEST_F(BrickPictureTest, newLightIsSeenSoon)
     const gpu::LightChange change = gpu::changeLight(*scene_, 0, out).value();
     const gpu::EmissionScale dark{{{-10, -10, -10}, {10, 10, 10}}, 0};
     frame({.lights = {&change, 1}, .emission = {&dark, 1}});
-    const Picture soon = settled({.emission = {&dark, 1}}, 16);
+    const Picture soon = settled({.emission = {&dark, 1}}, 20);
     const Picture late = settled({.emission = {&dark, 1}}, 64);
     EXPECT_GT(mostDifference(before, late), 20);
     EXPECT_LE(mostDifference(soon, late), 3);

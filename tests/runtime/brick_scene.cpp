@@ -52,7 +52,7 @@ void setBricks(TestScene& scene, const BrickModel& bricks)
     scene.model().brick_grids = {bricks.grid};
 }
 
-bricks::BrickView viewOf(const BrickModel& model)
+bricks::BrickView brickViewOf(const BrickModel& model)
 {
     return {model.masks(), model.opacity, model.albedo, model.normals, model.emission, model.lighting};
 }

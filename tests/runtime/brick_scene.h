@@ -25,7 +25,7 @@ BrickModel brickModel(std::array<uint32_t, 3> voxels,
 void setBricks(TestScene& scene, const BrickModel& bricks);
 
 /// What the cookers' library reads of a model, which must outlive it.
-bricks::BrickView viewOf(const BrickModel& model);
+bricks::BrickView brickViewOf(const BrickModel& model);
 
 /// Voxel and side of each face.
 struct FacePlace
