@@ -5,6 +5,9 @@
 #include "formats/container.h"
 #include "formats/shared/bricks.h"
 
+#include <algorithm>
+#include <array>
+
 namespace hearth::formats
 {
 
@@ -17,6 +20,15 @@ inline constexpr uint32_t kChunkBrickAlbedo = fourCC("BRKA");   ///< u32[], one 
 inline constexpr uint32_t kChunkBrickNormals = fourCC("BRKN");  ///< u16[], one for each face
 inline constexpr uint32_t kChunkBrickEmission = fourCC("BRKE"); ///< u32[], one for each face, R11G11B10F
 inline constexpr uint32_t kChunkBrickLighting = fourCC("BRKL"); ///< u32[], one for each face, R11G11B10F
+
+/// All of them, in the order in which files have them.
+inline constexpr std::array kBrickChunks{kChunkBrickGrid,   kChunkBrickGroups,  kChunkBricks,
+                                         kChunkBrickOpacity, kChunkBrickAlbedo,   kChunkBrickNormals,
+                                         kChunkBrickEmission, kChunkBrickLighting};
+constexpr bool isBrickChunk(uint32_t type)
+{
+    return std::find(kBrickChunks.begin(), kBrickChunks.end(), type) != kBrickChunks.end();
+}
 
 /// A grid has at most so many voxels along each axis: their places are exact in floats, their groups fit 32 bits.
 inline constexpr uint32_t kMaxGridVoxels = 1u << 14;
@@ -40,6 +52,13 @@ struct BrickGridRecord
 
 using BrickGroupRecord = shared::BrickGroup;
 using BrickRecord = shared::Brick;
+
+/// How texts name a face of shared::kVoxelFaces; "none" for kNoFace.
+constexpr std::string_view brickFaceName(uint32_t face)
+{
+    constexpr std::string_view kNames[] = {"x-", "x+", "y-", "y+", "z-", "z+"};
+    return face < shared::kVoxelFaces ? kNames[face] : "none";
+}
 
 /// The grid as marches take it.
 constexpr shared::BrickGrid brickGridOf(const BrickGridRecord& record)

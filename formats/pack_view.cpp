@@ -67,18 +67,7 @@ constexpr uint64_t kMaxTableSize = uint64_t{1} << 32;
 
 constexpr uint64_t plausibleSize(uint32_t type)
 {
-    switch (type)
-    {
-    case kChunkBrickGroups:
-    case kChunkBrickOpacity:
-    case kChunkBrickAlbedo:
-    case kChunkBrickNormals:
-    case kChunkBrickEmission:
-    case kChunkBrickLighting:
-        return kSmallBrickTable;
-    default:
-        return kSmallTable;
-    }
+    return isBrickChunk(type) ? kSmallBrickTable : kSmallTable;
 }
 
 /// errors: chunk_version, chunk_size for tables that no writer makes.

@@ -96,10 +96,11 @@ HEARTH_FUNCTION int brickVoxelAt(float place, float inverse, uint voxels)
     return voxel < int(voxels) ? voxel : int(voxels) - 1;
 }
 
-/// Whether the ray enters its voxel across the plane of an axis.
+/// Whether the ray enters its voxel across the plane of an axis; never of one that it does not move along, where no place
+/// lies on the voxel's far side.
 HEARTH_FUNCTION bool brickEnters(float place, float along, int voxel)
 {
-    return along != 0.0f && place == float(along > 0.0f ? voxel : voxel + 1);
+    return place == float(along > 0.0f ? voxel : voxel + 1);
 }
 
 /// A ray in voxels from the grid's origin.

@@ -14,6 +14,7 @@
 #include <numbers>
 #include <optional>
 #include <random>
+#include <sstream>
 
 namespace hearth::test
 {
@@ -425,6 +426,152 @@ TEST(BrickMarch, findsWhatAnExhaustiveSearchFinds)
     // the rays meet something often enough, and start inside often enough
     EXPECT_GT(hits, kRays / 4);
     EXPECT_GT(ends, kRays / 20);
+}
+
+TEST(BrickMarch, passesThroughAllThatTheRayMeets)
+{
+    std::mt19937 random(2);
+    for (uint32_t i = 0; i < 20; ++i)
+    {
+        const Scene scene = randomScene({37, 20, 50}, 400, random);
+        const BrickMasks masks = scene.model.masks();
+        RayMaker rays(scene, random);
+        for (uint32_t r = 0; r < 500; ++r)
+        {
+            const Ray ray = rays.next();
+            const Oracle oracle(scene, ray);
+            std::vector<Cell> met;
+            float t = 0;
+            for (BrickRay at =
+                     brickMarch(masks, brickRayInVoxels(masks.grid, ray.origin, ray.direction, ray.far));
+                 at.inside; at = brickMarch(masks, brickPass(masks, at)))
+            {
+                met.push_back(cellOf(at));
+                EXPECT_TRUE(oracle.mostChord(met.back()).met()) << describe(ray, at);
+                EXPECT_GE(at.t, t) << describe(ray, at);
+                t = at.t;
+                ASSERT_LE(met.size(), scene.solid.size());
+            }
+            std::sort(met.begin(), met.end());
+            EXPECT_TRUE(std::adjacent_find(met.begin(), met.end()) == met.end());
+            for (const Cell& cell : scene.solid)
+            {
+                const Chord least = oracle.leastChord(cell);
+                if (least.met() && least.in < oracle.far() - oracle.slack())
+                    EXPECT_TRUE(std::binary_search(met.begin(), met.end(), cell))
+                        << cell[0] << " " << cell[1] << " " << cell[2];
+            }
+        }
+    }
+}
+
+TEST(BrickMarch, endsWhateverTheRayIs)
+{
+    std::mt19937 random(3);
+    const Scene scene = randomScene({50, 20, 33}, 40, random);
+    const BrickMasks masks = scene.model.masks();
+    for (uint32_t i = 0; i < 100000; ++i)
+    {
+        Ray ray;
+        for (int axis = 0; axis < 3; ++axis)
+        {
+            const float any = std::bit_cast<float>(static_cast<uint32_t>(random()));
+            ray.direction[axis] = std::isfinite(any) ? any : 0;
+            ray.origin[axis] = static_cast<float>(random() % 60) - 5;
+        }
+        const BrickRay found =
+            brickMarch(masks, brickRayInVoxels(masks.grid, ray.origin, ray.direction, kBrickFar));
+        ASSERT_LE(found.steps, 50u + 20 + 33) << describe(ray, found);
+    }
+}
+
+TEST(BrickMarch, letsNothingThroughBetweenVoxelsWithACommonEdge)
+{
+    // a slanted wall without thickness: voxels x = y, each beside the next along an edge alone
+    const BrickModel wall = brickModel({48, 48, 4}, [](uint32_t x, uint32_t y, uint32_t) { return x == y; });
+    const BrickMasks masks = wall.masks();
+    std::mt19937 random(4);
+    const auto place = [&] { return 2 + static_cast<float>(random() % 177) * 0.25f; };
+    for (uint32_t i = 0; i < 100000; ++i)
+    {
+        const float x = place(), y = place(), to_x = place(), to_y = place();
+        const bool crosses = (x < y - 1 && to_x > to_y + 1) || (x > y + 1 && to_x < to_y - 1);
+        if (!crosses)
+            continue;
+        const Float3 from{x, y, 2}, way{to_x - x, to_y - y, 0.25f * static_cast<float>(random() % 3)};
+        const float size = length(way);
+        const BrickRay found = brickMarch(masks, brickRayInVoxels(masks.grid, from, way / size, size));
+        ASSERT_TRUE(found.inside) << describe({from, way / size, size}, found);
+    }
+}
+
+namespace
+{
+
+BrickRay marchIn(const BrickModel& model, Float3 origin, Float3 direction, float far = kBrickFar)
+{
+    const BrickMasks masks = model.masks();
+    return brickMarch(masks, brickRay(masks.grid, origin, direction, far));
+}
+
+} // namespace
+
+TEST(BrickMarch, measuresInMetresFromTheGridsOrigin)
+{
+    BrickModel model = brickModel({20, 20, 20}, [](uint32_t x, uint32_t, uint32_t) { return x == 17; });
+    model.grid.origin = {-8, 100, 4};
+    model.grid.voxel_size = 0.5f;
+    const BrickRay found = marchIn(model, {-10, 105, 8}, {1, 0, 0});
+    ASSERT_TRUE(found.inside);
+    EXPECT_EQ(cellOf(found), (Cell{17, 10, 8}));
+    EXPECT_EQ(found.face, 0u);
+    EXPECT_EQ(brickDistance(model.masks().grid, found), 2 + 17 * 0.5f);
+    EXPECT_TRUE(marchIn(model, {-10, 105, 8}, {1, 0, 0}, 10.5f).inside);
+    EXPECT_FALSE(marchIn(model, {-10, 105, 8}, {1, 0, 0}, 10.49f).inside);
+}
+
+TEST(BrickMarch, takesAFaceForWhatLiesBehindIt)
+{
+    const BrickModel model =
+        brickModel({8, 8, 8}, [](uint32_t x, uint32_t y, uint32_t z) { return x == 3 && y == 3 && z == 3; });
+    // into the voxel: by that face, at once
+    BrickRay found = marchIn(model, {3, 3.5f, 3.5f}, {1, 0, 0});
+    EXPECT_TRUE(found.inside && found.face == 0 && found.t == 0);
+    found = marchIn(model, {3.5f, 4, 3.5f}, {0, -1, 0});
+    EXPECT_TRUE(found.inside && found.face == 3 && found.t == 0);
+    // away from it: not at all
+    EXPECT_FALSE(marchIn(model, {4, 3.5f, 3.5f}, {1, 0, 0}).inside);
+    EXPECT_FALSE(marchIn(model, {3.5f, 3.5f, 3}, {0, 0, -1}).inside);
+    // along it: in the voxel above
+    EXPECT_TRUE(marchIn(model, {3, 0, 3.5f}, {0, 1, 0}).inside);
+    EXPECT_FALSE(marchIn(model, {4, 0, 3.5f}, {0, 1, 0}).inside);
+    found = marchIn(model, {3.25f, 3.5f, 3.5f}, {1, 0, 0});
+    EXPECT_TRUE(found.inside && found.face == kNoFace && found.t == 0);
+}
+
+TEST(BrickMarch, findsTheFaceOfAVoxel)
+{
+    std::mt19937 random(5);
+    const Scene scene = randomScene({20, 20, 20}, 1500, random);
+    const BrickMasks masks = scene.model.masks();
+    uint32_t faces = 0, voxels = 0;
+    for (const Brick& brick : masks.bricks)
+        for (uint32_t face = 0; face < kVoxelFaces; ++face)
+            for (uint32_t bit = 0; bit < 64; ++bit)
+            {
+                voxels += face == 0 && maskHas(brick.voxel_mask_low, brick.voxel_mask_high, bit) ? 1 : 0;
+                const uint32_t index = brickFace(brick, bit, face);
+                if (index == kNoFace)
+                    continue;
+                // in their order, none left out, and with the normal of the face
+                ASSERT_EQ(index, faces++);
+                const float along = scene.model.normals[index] == scene.model.normals[0] ? 1 : 0;
+                EXPECT_EQ(along, face == 0 ? 1 : 0);
+                EXPECT_LT(brickVoxel(brick, bit), scene.solid.size());
+            }
+    EXPECT_EQ(faces, scene.model.albedo.size());
+    EXPECT_EQ(voxels, scene.solid.size());
+    EXPECT_EQ(brickFace(masks.bricks[0], 0, kNoFace), kNoFace);
 }
 
 } // namespace hearth::test
