@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
+#include "cook/bricks/brick_tables.h"
 #include "formats/pack_view.h"
 #include "formats/shared/brick_march.h"
 
@@ -30,6 +31,12 @@ inline BrickView brickViewOf(const formats::PackView& view)
             view.brickNormals(),
             view.brickEmission(),
             view.brickLighting()};
+}
+
+/// The tables must outlive the view.
+inline BrickView brickViewOf(const BrickTables& tables)
+{
+    return {tables.masks(), tables.opacity, tables.albedo, tables.normals, tables.emission, tables.lighting};
 }
 
 } // namespace hearth::bricks

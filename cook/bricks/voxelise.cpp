@@ -47,11 +47,11 @@ std::vector<Item> itemsOf(const StaticScene& scene, std::span<const PlacedCluste
             const double size = frame.voxels[a];
             // a box that is not finite reaches nothing
             reaches = reaches && coordinate(box.max, axis) >= 0 && coordinate(box.min, axis) <= size;
-            const auto tileAt = [&](double voxel)
+            const auto tileOf = [&](double voxel)
             { return static_cast<uint32_t>(std::clamp(voxel, 0.0, size - 1)) / kTileVoxels; };
             // what lies in a plane between tiles belongs to one or the other
-            first[a] = reaches ? tileAt(coordinate(box.min, axis) - 1) : 0;
-            last[a] = reaches ? tileAt(coordinate(box.max, axis)) : 0;
+            first[a] = reaches ? tileOf(coordinate(box.min, axis) - 1) : 0;
+            last[a] = reaches ? tileOf(coordinate(box.max, axis)) : 0;
         }
         if (!reaches)
             continue;
