@@ -127,5 +127,6 @@ Status checkPageTables(const PackView& view);
 Status checkPageGeometry(const PackView& view);
 Status checkDeformedMeshes(const PackView& view);
 Status checkSpecularTable(const PackView& view);
+Status checkBrickTables(const PackView& view);
 
 } // namespace hearth::formats::check

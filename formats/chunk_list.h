@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
+#include "formats/bricks.h"
 #include "formats/deformation.h"
 #include "formats/mesh.h"
 #include "formats/scene.h"
@@ -60,6 +61,14 @@ inline constexpr std::array kChunkList{
               "parts only: where their groups can be"},
     ChunkInfo{kChunkSpecular, 1, "SpecularTableRecord[]", false,
               "the table of specular occlusion, one at most"},
+    ChunkInfo{kChunkBrickGrid, 1, "BrickGridRecord[]", false, "the grid of bricks, one at most"},
+    ChunkInfo{kChunkBrickGroups, 1, "BrickGroupRecord[]", false, "all groups of the grid"},
+    ChunkInfo{kChunkBricks, 1, "BrickRecord[]", false, "the bricks of all groups"},
+    ChunkInfo{kChunkBrickOpacity, 1, "u8[]", false, "of each solid voxel"},
+    ChunkInfo{kChunkBrickAlbedo, 1, "u32[]", false, "of each face"},
+    ChunkInfo{kChunkBrickNormals, 1, "u16[]", false, "of each face"},
+    ChunkInfo{kChunkBrickEmission, 1, "u32[]", false, "of each face"},
+    ChunkInfo{kChunkBrickLighting, 1, "u32[]", false, "of each face"},
 };
 
 /// The list's line for a type, or nullptr: readers skip types that they do not know.

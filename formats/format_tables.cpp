@@ -58,6 +58,9 @@ constexpr RecordTable kRecords[] = {
     HEARTH_RECORD_TABLE(DeformedClusterRecord),
     HEARTH_RECORD_TABLE(DeformedGroupRecord),
     HEARTH_RECORD_TABLE(SpecularTableRecord),
+    HEARTH_RECORD_TABLE(BrickGridRecord),
+    HEARTH_RECORD_TABLE(BrickGroupRecord),
+    HEARTH_RECORD_TABLE(BrickRecord),
 };
 #undef HEARTH_RECORD_TABLE
 
@@ -259,6 +262,10 @@ std::string limitTable()
         {"vertices of a cluster", std::to_string(kClusterMaxVertices)},
         {"bytes of a decoded page", std::to_string(kPageMaxBytes)},
         {"texels of an image's side", std::to_string(kImageMaxSize)},
+        {"voxels along an axis of a grid of bricks", std::to_string(kMaxGridVoxels)},
+        {"groups of a grid of bricks", std::to_string(kMaxBrickGroups)},
+        {"solid voxels of a grid of bricks", std::to_string(kMaxBrickVoxels)},
+        {"faces of a grid of bricks", std::to_string(kMaxBrickFaces)},
         {"slack of spheres", scientific(kSphereSlack)},
         {"slack of normal cones", scientific(kConeSlack)},
         {"slack of apexes", scientific(kApexSlack)},

@@ -108,6 +108,11 @@ Status checkSpecular(const PackView& view)
     return check::checkSpecularTable(view);
 }
 
+Status checkBricks(const PackView& view)
+{
+    return check::checkBrickTables(view);
+}
+
 Status checkPack(const PackView& view)
 {
     if (view.container().kind() != ContainerKind::pack)
@@ -124,7 +129,8 @@ Status checkPack(const PackView& view)
     HEARTH_TRY(checkHierarchy(view));
     HEARTH_TRY(check::checkMaterialsOfClusters(view));
     HEARTH_TRY(check::checkDeformedMeshes(view));
-    return checkSpecular(view);
+    HEARTH_TRY(checkSpecular(view));
+    return checkBricks(view);
 }
 
 } // namespace hearth::formats

@@ -37,4 +37,7 @@ Status checkHierarchy(const PackView& view);
 /// Check the table of specular occlusion alone: what a specular part has.
 Status checkSpecular(const PackView& view);
 
+/// Check the grid of bricks alone: what a bricks part has.
+Status checkBricks(const PackView& view);
+
 } // namespace hearth::formats

@@ -60,8 +60,15 @@ namespace
 // Tables shrink by 2 to 5 in real packs. One that claims far more would fill the memory out of a small file.
 constexpr uint64_t kMaxTableRatio = 256;
 constexpr uint64_t kSmallTable = uint64_t{1} << 20;
+// those of bricks may be all alike, as where nothing glows: they are as large as their limits allow, from any file
+constexpr uint64_t kSmallBrickTable = uint64_t{1} << 26;
 // far above any real table, and low enough that indices and sums of ranges fit 32 bits
 constexpr uint64_t kMaxTableSize = uint64_t{1} << 32;
+
+constexpr uint64_t plausibleSize(uint32_t type)
+{
+    return isBrickChunk(type) ? kSmallBrickTable : kSmallTable;
+}
 
 /// errors: chunk_version, chunk_size for tables that no writer makes.
 Status checkEntry(const ContainerReader& reader, const ChunkEntry& entry)
@@ -75,8 +82,8 @@ Status checkEntry(const ContainerReader& reader, const ChunkEntry& entry)
                      "version " + std::to_string(entry.version) + ", this reads " +
                          std::to_string(info->version)};
     const bool table = !info->one_per_index && entry.type != kChunkPages;
-    if (table && (entry.size > kMaxTableSize ||
-                  (entry.size > kSmallTable && entry.size / kMaxTableRatio > entry.stored_size)))
+    if (table && (entry.size > kMaxTableSize || (entry.size > plausibleSize(entry.type) &&
+                                                 entry.size / kMaxTableRatio > entry.stored_size)))
         return Error{Issue::chunk_size, reader.name(), where,
                      std::to_string(entry.size) + " bytes from " + std::to_string(entry.stored_size) +
                          " in the file are not plausible"};
@@ -121,6 +128,14 @@ Status PackView::readTables()
     HEARTH_TRY(table(kChunkDeformedClusters, deformed_clusters_));
     HEARTH_TRY(table(kChunkClusterJoints, cluster_joints_));
     HEARTH_TRY(table(kChunkSpecular, specular_tables_));
+    HEARTH_TRY(table(kChunkBrickGrid, brick_grid_));
+    HEARTH_TRY(table(kChunkBrickGroups, brick_groups_));
+    HEARTH_TRY(table(kChunkBricks, bricks_));
+    HEARTH_TRY(table(kChunkBrickOpacity, brick_opacity_));
+    HEARTH_TRY(table(kChunkBrickAlbedo, brick_albedo_));
+    HEARTH_TRY(table(kChunkBrickNormals, brick_normals_));
+    HEARTH_TRY(table(kChunkBrickEmission, brick_emission_));
+    HEARTH_TRY(table(kChunkBrickLighting, brick_lighting_));
 
     // pages are read one by one from the file, each with its own codec
     const ChunkEntry* pages = reader_.find(kChunkPages);

@@ -3,6 +3,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
+#include "formats/bricks.h"
 #include "formats/cluster_bounds.h"
 #include "formats/container_reader.h"
 #include "formats/deformation.h"
@@ -299,6 +300,15 @@ public:
     std::span<const uint32_t> clusterJoints() const { return cluster_joints_.span(); }
     /// None or one.
     std::span<const SpecularTableRecord> specularTables() const { return specular_tables_.span(); }
+    /// None or one.
+    std::span<const BrickGridRecord> brickGrid() const { return brick_grid_.span(); }
+    std::span<const BrickGroupRecord> brickGroups() const { return brick_groups_.span(); }
+    std::span<const BrickRecord> bricks() const { return bricks_.span(); }
+    std::span<const uint8_t> brickOpacity() const { return brick_opacity_.span(); }
+    std::span<const uint32_t> brickAlbedo() const { return brick_albedo_.span(); }
+    std::span<const uint16_t> brickNormals() const { return brick_normals_.span(); }
+    std::span<const uint32_t> brickEmission() const { return brick_emission_.span(); }
+    std::span<const uint32_t> brickLighting() const { return brick_lighting_.span(); }
 
     /// Chunk PAGE, as it lies in the file.
     std::span<const std::byte> pageBytes() const { return page_bytes_.bytes(); }
@@ -350,6 +360,14 @@ private:
     Records<DeformedClusterRecord> deformed_clusters_;
     Records<uint32_t> cluster_joints_;
     Records<SpecularTableRecord> specular_tables_;
+    Records<BrickGridRecord> brick_grid_;
+    Records<BrickGroupRecord> brick_groups_;
+    Records<BrickRecord> bricks_;
+    Records<uint8_t> brick_opacity_;
+    Records<uint32_t> brick_albedo_;
+    Records<uint16_t> brick_normals_;
+    Records<uint32_t> brick_emission_;
+    Records<uint32_t> brick_lighting_;
     ChunkData page_bytes_;
 };
 

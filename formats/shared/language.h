@@ -48,6 +48,15 @@ inline uint floatBits(float value)
 {
     return std::bit_cast<uint>(value);
 }
+inline float floatOfBits(uint bits)
+{
+    return std::bit_cast<float>(bits);
+}
+/// How many bits are set.
+inline int bitCount(uint bits)
+{
+    return std::popcount(bits);
+}
 } // namespace hearth::shared
 
 #else
@@ -61,6 +70,7 @@ inline uint floatBits(float value)
 #define HEARTH_PRECISE precise
 
 #define floatBits floatBitsToUint
+#define floatOfBits uintBitsToFloat
 #define arcTangent atan
 
 #define Float2 vec2

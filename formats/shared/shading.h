@@ -89,6 +89,10 @@ HEARTH_CONSTANT uint kViewAmbientOcclusion = 12;
 HEARTH_CONSTANT uint kViewBentNormal = 13;        ///< axis of the visibility cone
 HEARTH_CONSTANT uint kViewAperture = 14;          ///< its half-angle, white: 90 degrees
 HEARTH_CONSTANT uint kViewSpecularOcclusion = 15; ///< from the eye, by the material's roughness
+// of scenes with bricks
+HEARTH_CONSTANT uint kViewBricks = 16;        ///< the voxels that a pixel's ray meets first, by their albedo
+HEARTH_CONSTANT uint kViewBrickLighting = 17; ///< the same by what they send out; red: nothing is known
+HEARTH_CONSTANT uint kViewGathered = 18;      ///< the light of bricks alone, on white surfaces
 
 /// How the sky's mirror image is occluded. The numbers are those of the settings.
 HEARTH_CONSTANT uint kSpecularOcclusionFit = 0;

@@ -5,6 +5,7 @@
 #include "pipelines/command/cook.h"
 #include "pipelines/command/explain.h"
 #include "pipelines/command/extract.h"
+#include "pipelines/command/extract_bricks.h"
 #include "pipelines/command/extract_specular.h"
 #include "pipelines/command/inspect.h"
 #include "pipelines/command/inspect_bounds.h"
@@ -219,8 +220,9 @@ void addExtract(CLI::App& app, Work& run)
     mesh->needs(error);
     error->needs(mesh);
     const CLI::Option* part =
-        verb->add_option("--part", options->part, "specular: its table, instead of a mesh")
-            ->check(CLI::IsMember({"specular"}))
+        verb->add_option("--part", options->part,
+                         "instead of a mesh; specular: its table, bricks: the faces of all solid voxels")
+            ->check(CLI::IsMember({"specular", "bricks"}))
             ->excludes(mesh);
     CLI::Option* animation = verb->add_option(
         "--animation", options->animation, "clip that poses the mesh: its name, or its index if it has none");
@@ -237,7 +239,9 @@ void addExtract(CLI::App& app, Work& run)
             {
                 if (part->count() > 0)
                 {
-                    const Status status = command::extractSpecular(options->file, options->output);
+                    const Status status = options->part == "bricks"
+                                              ? command::extractBricks(options->file, options->output)
+                                              : command::extractSpecular(options->file, options->output);
                     return status.ok() ? 0 : fail(status.error());
                 }
                 if (!(options->error >= 0) || !std::isfinite(options->error))

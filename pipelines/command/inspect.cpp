@@ -174,6 +174,18 @@ MetaSummary readMeta(std::string_view json)
     return meta;
 }
 
+BricksSummary summarizeBricks(const PackView& pack)
+{
+    BricksSummary summary;
+    for (const ChunkEntry& entry : pack.container().chunks())
+        if (isBrickChunk(entry.type))
+        {
+            summary.bytes += entry.size;
+            summary.stored_bytes += entry.stored_size;
+        }
+    return summary;
+}
+
 PackSummary summarize(const PackView& pack)
 {
     PackSummary summary;

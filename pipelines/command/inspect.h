@@ -93,6 +93,14 @@ struct PackSummary
     uint64_t instanced_triangles = 0; ///< of the finest level, over all instances
 };
 
+/// The grid of bricks; the pack has one.
+struct BricksSummary
+{
+    uint64_t bytes = 0;        ///< of its tables, as they lie in memory
+    uint64_t stored_bytes = 0; ///< as they lie in the file
+};
+BricksSummary summarizeBricks(const formats::PackView& pack);
+
 PackSummary summarize(const formats::PackView& pack);
 
 /// Chunk META of a part or a pack; what is not there or of the wrong type is left out.

@@ -167,16 +167,45 @@ Json sceneJson(const PackView& pack, const PackSummary& summary)
         {"specular_tables", listJson(pack.specularTables().size(), specular)}};
 }
 
+Json chunkJson(const ChunkEntry& entry)
+{
+    return {{"kind", chunkName(entry.type, entry.index).substr(6, 4)},
+            {"index", entry.index},
+            {"size", entry.size},
+            {"stored", entry.stored_size},
+            {"codec", codecName(entry.codec)}};
+}
+
+/// One row for each chunk, but one for all of the bricks, which make sense together alone.
 Json chunksJson(const PackView& pack)
 {
     Json list = Json::array();
+    Json brick_chunks = Json::array();
     for (const ChunkEntry& entry : pack.container().chunks())
-        list.push_back({{"kind", chunkName(entry.type, entry.index).substr(6, 4)},
-                        {"index", entry.index},
-                        {"size", entry.size},
-                        {"stored", entry.stored_size},
-                        {"codec", codecName(entry.codec)}});
+        (isBrickChunk(entry.type) ? brick_chunks : list).push_back(chunkJson(entry));
+    const BricksSummary bricks = summarizeBricks(pack);
+    if (!brick_chunks.empty())
+        list.push_back({{"kind", "bricks"},
+                        {"index", 0},
+                        {"size", bricks.bytes},
+                        {"stored", bricks.stored_bytes},
+                        {"chunks", std::move(brick_chunks)}});
     return list;
+}
+
+Json bricksJson(const PackView& pack)
+{
+    const BrickGridRecord& grid = pack.brickGrid()[0];
+    const BricksSummary summary = summarizeBricks(pack);
+    return {{"voxel_size", grid.voxel_size},
+            {"origin", pointJson(grid.origin)},
+            {"dims", {grid.voxels[0], grid.voxels[1], grid.voxels[2]}},
+            {"groups", grid.group_count},
+            {"bricks", grid.brick_count},
+            {"solid_voxels", grid.solid_count},
+            {"faces", grid.face_count},
+            {"bytes", summary.bytes},
+            {"bytes_stored", summary.stored_bytes}};
 }
 
 Json totalsJson(const PackView& pack, const PackSummary& summary)
@@ -234,6 +263,8 @@ std::string inspectJson(const PackView& pack, const PackSummary& summary)
     for (uint32_t i = 0; i < summary.meshes.size(); ++i)
         json["meshes"].push_back(meshJson(summary.meshes[i], i));
     json["scene"] = sceneJson(pack, summary);
+    if (!pack.brickGrid().empty())
+        json["bricks"] = bricksJson(pack);
     json["chunks"] = chunksJson(pack);
     json["messages"] = Json::array();
     for (const MessageSummary& message : summary.meta.messages)

@@ -10,8 +10,8 @@ namespace hearth::command
 {
 
 /// Map the file and check all of it: the container, every hash, and for a pack the meaning of every record.
-/// A part is opened as well: its tables are safe to read, but nobody has looked at what they mean.
-/// errors: those of ContainerReader::open, PackView::read and checkPack.
+/// A part is opened as well: its tables are safe to read, but of what they mean only bricks are checked, which stand alone.
+/// errors: those of ContainerReader::open, PackView::read, checkPack and checkBricks.
 Result<formats::PackView> openContainer(const std::string& path);
 
 /// The same for packs alone. errors: container_kind where it is a part.

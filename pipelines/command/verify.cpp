@@ -27,8 +27,7 @@ Result<PackView> readContainer(const std::string& path)
 Result<PackView> openContainer(const std::string& path)
 {
     HEARTH_ASSIGN_OR_RETURN(PackView view, readContainer(path));
-    if (view.container().kind() == ContainerKind::pack)
-        HEARTH_TRY(checkPack(view));
+    HEARTH_TRY(view.container().kind() == ContainerKind::pack ? checkPack(view) : checkBricks(view));
     return view;
 }
 

@@ -10,6 +10,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <optional>
 #include <unistd.h>
 #include <vector>
 
@@ -306,8 +307,28 @@ Result<std::vector<SpecularTableRecord>> readSpecular(std::span<const std::strin
     return tables;
 }
 
+/// The part with the pack's bricks; none where `path` is empty.
+Result<std::optional<PackView>> openBricks(const std::string& path)
+{
+    if (path.empty())
+        return std::optional<PackView>();
+    HEARTH_ASSIGN_OR_RETURN(PackView part, openPart(path));
+    if (part.brickGrid().empty())
+        return Error{Issue::chunk_missing, path, chunkName(kChunkBrickGrid, 0),
+                     "this is not a bricks part: it has no grid"};
+    HEARTH_TRY(checkBricks(part)); // here the message names the part
+    return std::optional<PackView>(std::move(part));
+}
+
+Status writeBricks(ContainerWriter& writer, const PackView& part)
+{
+    for (const uint32_t type : kBrickChunks)
+        HEARTH_TRY(copyChunks(writer, part, type, 0));
+    return success();
+}
+
 Status writePack(const std::string& path, std::span<const Source> sources,
-                 const std::vector<SpecularTableRecord>& specular)
+                 const std::vector<SpecularTableRecord>& specular, const std::optional<PackView>& bricks)
 {
     HEARTH_ASSIGN_OR_RETURN(ContainerWriter writer, ContainerWriter::create(path, ContainerKind::pack));
     HEARTH_TRY(writeMeta(writer, sources, path));
@@ -317,6 +338,8 @@ Status writePack(const std::string& path, std::span<const Source> sources,
     HEARTH_TRY(writeDeformedMeshes(writer, sources));
     if (!specular.empty())
         HEARTH_TRY(writer.addRecords<SpecularTableRecord>(kChunkSpecular, specular));
+    if (bricks)
+        HEARTH_TRY(writeBricks(writer, *bricks));
     HEARTH_TRY(writePages(writer, sources));
     for (const Source& source : sources)
         HEARTH_TRY(copyChunks(writer, source.textures_part, kChunkImageData, source.offsets.images));
@@ -334,7 +357,7 @@ Status checkWritten(const std::string& path)
 } // namespace
 
 Status linkPack(std::span<const SourceParts> sources, const std::string& output,
-                std::span<const std::string> specular_parts)
+                std::span<const std::string> specular_parts, const std::string& bricks_part)
 {
     std::vector<Source> opened;
     for (const SourceParts& parts : sources)
@@ -344,9 +367,10 @@ Status linkPack(std::span<const SourceParts> sources, const std::string& output,
     }
     HEARTH_TRY(placeSources(opened, output));
     HEARTH_ASSIGN_OR_RETURN(const std::vector<SpecularTableRecord> specular, readSpecular(specular_parts));
+    HEARTH_ASSIGN_OR_RETURN(const std::optional<PackView> bricks, openBricks(bricks_part));
 
     const std::string unchecked = output + ".unchecked-" + std::to_string(::getpid());
-    Status status = writePack(unchecked, opened, specular);
+    Status status = writePack(unchecked, opened, specular, bricks);
     if (status.ok())
         status = checkWritten(unchecked);
     if (status.ok() && ::rename(unchecked.c_str(), output.c_str()) != 0)

@@ -22,11 +22,12 @@ struct SourceParts
 /// Write the pack of all sources, their scenes side by side: the records of each source follow those of the one
 /// before it, with their indices moved. One source is the merge of one. Texels and pages are copied as they are
 /// stored, a piece at a time. Groups of deformed meshes get the spheres of the skinning part.
+/// bricks_part  path of the part whose grid of bricks the pack gets; none where it is empty
 /// specular_parts  those with a table of specular occlusion, of which a pack has one: all must have the same. May be empty
 /// The pack is checked as a whole before it appears under `output`; on an error nothing appears.
 /// errors: those of reading the parts; meaning_reference where parts do not belong together, or tables differ; input_too_large where
 /// the tables grow past 32-bit indices; cannot_write; those of checkPack.
 Status linkPack(std::span<const SourceParts> sources, const std::string& output,
-                std::span<const std::string> specular_parts = {});
+                std::span<const std::string> specular_parts = {}, const std::string& bricks_part = {});
 
 } // namespace hearth::link

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "runtime/c/lights.h"
 #include "runtime/c/shadows.h"
 
 #include "formats/shared/lod_curve.h"
@@ -45,7 +46,7 @@ Status check(const hearth_renderer& renderer, const hearth_frame& frame)
         return usage("depth_scale is not above 0");
     if ((frame.cull_flags & ~uint32_t{HEARTH_CULL_EVERYTHING}) != 0)
         return usage("cull_flags has bits that this version does not know");
-    if (frame.shown > HEARTH_SHOW_SPECULAR_OCCLUSION || frame.shaded_area > HEARTH_SHADE_TILES)
+    if (frame.shown > HEARTH_SHOW_GATHERED || frame.shaded_area > HEARTH_SHADE_TILES)
         return usage("shown or shaded_area has a value that this version does not know");
     if (frame.ambient_occlusion > HEARTH_AMBIENT_OCCLUSION_OFF ||
         frame.specular_occlusion > HEARTH_SPECULAR_OCCLUSION_OFF)
@@ -60,6 +61,8 @@ Status check(const hearth_renderer& renderer, const hearth_frame& frame)
         return usage("poses is NULL");
     if (frame.shadow_sphere_count > 0 && frame.shadow_spheres == nullptr)
         return usage("shadow_spheres is NULL");
+    if (frame.constant_sky > 1)
+        return usage("constant_sky is neither 0 nor 1");
     return success();
 }
 
@@ -75,6 +78,8 @@ Status checkCall(const hearth_scene& scene, const hearth_targets* targets, VkCom
     HEARTH_TRY(check(*scene.renderer, *frame));
     if (frame->shown == HEARTH_SHOW_SHADOW_MAPS && scene.scene->shadows == nullptr)
         return usage("HEARTH_SHOW_SHADOW_MAPS needs a scene with shadows");
+    if (gpu::showsBricks(frame->shown) && scene.scene->bricks == nullptr)
+        return usage("HEARTH_SHOW_BRICKS, _BRICK_LIGHTING and _GATHERED need a scene whose pack has bricks");
     return success();
 }
 
@@ -147,7 +152,7 @@ Status makePoses(hearth_scene& scene, const hearth_frame& frame)
     return success();
 }
 
-/// The moves, poses and shadow spheres are those of the frame's first part.
+/// The moves, poses, lights and shadow spheres are those of the frame's first part.
 Result<gpu::FrameInput> makeInput(const hearth_scene& scene, const gpu::FrameTargets& targets,
                                   const hearth_frame& frame)
 {
@@ -157,10 +162,13 @@ Result<gpu::FrameInput> makeInput(const hearth_scene& scene, const gpu::FrameTar
                                        .depth_scale = frame.depth_scale,
                                        .area = static_cast<gpu::ShadedArea>(frame.shaded_area),
                                        .ambient_occlusion = frame.ambient_occlusion,
-                                       .specular_occlusion = frame.specular_occlusion},
+                                       .specular_occlusion = frame.specular_occlusion,
+                                       .bricks_light = frame.constant_sky == 0},
                            .moves = scene.moves,
                            .poses = scene.poses,
                            .shadow_spheres = scene.shadow_spheres,
+                           .lights = scene.lights,
+                           .emission = scene.emissions,
                            .timestamps = frame.timestamps};
 }
 
@@ -178,6 +186,8 @@ Status beginFrame(hearth_scene& scene, const hearth_frame& frame)
     HEARTH_TRY(checkBegun(scene));
     HEARTH_TRY(makeMoves(scene, frame));
     HEARTH_TRY(makePoses(scene, frame));
+    HEARTH_TRY(makeLights(scene, frame));
+    HEARTH_TRY(makeEmissions(scene, frame));
     return makeShadowSpheres(scene, frame);
 }
 

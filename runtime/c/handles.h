@@ -56,6 +56,8 @@ struct hearth_scene
     std::vector<hearth::gpu::InstanceMove> moves; ///< of the frame that is recorded; kept for its memory
     std::vector<hearth::gpu::InstancePose> poses; ///< the same
     std::vector<hearth::gpu::ShadowSphere> shadow_spheres; ///< the same
+    std::vector<hearth::gpu::LightChange> lights;          ///< the same
+    std::vector<hearth::gpu::EmissionScale> emissions;     ///< the same
 };
 
 struct hearth_targets

@@ -29,7 +29,7 @@
 #endif
 
 /* Major version << 16 | minor version. A library takes callers of its major version and of no later minor version. */
-#define HEARTH_API_VERSION 0x00010003u
+#define HEARTH_API_VERSION 0x00010004u
 
 typedef int32_t hearth_result;
 enum
@@ -394,9 +394,13 @@ enum
     HEARTH_SHOW_BONES = 11,       /* 1.2: main bones of characters */
     /* 1.3: of packs with visibility; dark red where a mesh has none */
     HEARTH_SHOW_AMBIENT_OCCLUSION = 12,
-    HEARTH_SHOW_BENT_NORMAL = 13,       /* axis of the visibility cone */
-    HEARTH_SHOW_APERTURE = 14,          /* its half-angle, white: 90 degrees */
-    HEARTH_SHOW_SPECULAR_OCCLUSION = 15 /* as the eye sees it */
+    HEARTH_SHOW_BENT_NORMAL = 13,        /* axis of the visibility cone */
+    HEARTH_SHOW_APERTURE = 14,           /* its half-angle, white: 90 degrees */
+    HEARTH_SHOW_SPECULAR_OCCLUSION = 15, /* as the eye sees it */
+    /* 1.4: need a scene whose pack has bricks */
+    HEARTH_SHOW_BRICKS = 16,         /* the voxels that a pixel's ray meets first, by their albedo */
+    HEARTH_SHOW_BRICK_LIGHTING = 17, /* the same by the light that they send out */
+    HEARTH_SHOW_GATHERED = 18        /* the light of bricks alone, on white surfaces */
 };
 
 /* How much of the sky's light reaches a surface, in packs with visibility (1.3). */
@@ -428,13 +432,14 @@ enum
 enum
 {
     HEARTH_TIMESTAMP_BEGIN = 0,
-    HEARTH_TIMESTAMP_SHADOWS = 1, /* no time without shadow maps to draw */
+    HEARTH_TIMESTAMP_SHADOWS =
+        1, /* with the light of bricks' faces; no time without shadow maps to draw and bricks */
     HEARTH_TIMESTAMP_CULL = 2,
     HEARTH_TIMESTAMP_EARLY_VISIBILITY = 3, /* it and the two after it: no time without occlusion culling */
     HEARTH_TIMESTAMP_PYRAMID = 4,
     HEARTH_TIMESTAMP_LATE_CULL = 5,
     HEARTH_TIMESTAMP_VISIBILITY = 6,
-    HEARTH_TIMESTAMP_MATERIAL_TILES = 7,
+    HEARTH_TIMESTAMP_MATERIAL_TILES = 7, /* with the gathering of bricks' light */
     HEARTH_TIMESTAMP_MATERIAL_DEPTH = 8,
     HEARTH_TIMESTAMP_SHADING = 9,
     HEARTH_TIMESTAMP_COUNT = 10
@@ -496,6 +501,26 @@ typedef struct hearth_shadow_sphere
         texels; /* of its map each way, rounded down to a power of two; 0: hearth_shadow_options.texels, the most */
 } hearth_shadow_sphere;
 
+/* What a light of the pack is from this frame on (1.4); its type stays. All finite. */
+typedef struct hearth_light_change
+{
+    uint32_t light;
+    float world_from_light[3][4]; /* rows; it shines along -z */
+    float color[3];               /* linear */
+    float intensity;              /* candela; lux of a sun; 0: off */
+    float range;                  /* metres; 0: unlimited */
+    float inner_cone_rad;         /* of a spot */
+    float outer_cone_rad;
+} hearth_light_change;
+
+/* Inside a box of the world the faces of bricks glow `factor` times as bright as the pack says (1.4). */
+typedef struct hearth_emission_scale
+{
+    float box_min[3];
+    float box_max[3];
+    float factor; /* 0 or more */
+} hearth_emission_scale;
+
 typedef struct hearth_frame
 {
     uint32_t struct_size;
@@ -518,14 +543,19 @@ typedef struct hearth_frame
     /* since 1.3 */
     uint32_t ambient_occlusion;  /* HEARTH_AMBIENT_OCCLUSION_* */
     uint32_t specular_occlusion; /* HEARTH_SPECULAR_OCCLUSION_* */
-    uint32_t reserved;           /* 0 */
+    /* since 1.4 */
+    uint32_t constant_sky;                  /* 1: the sky lights all alike, whatever bricks there are; or 0 */
+    const hearth_light_change* lights;      /* read while recording */
+    const hearth_emission_scale* emissions; /* all of this frame; read while recording */
+    uint32_t light_count;
+    uint32_t emission_count; /* up to 8 */
 } hearth_frame;
 
 #define HEARTH_FRAME_INIT                                                                                    \
     {                                                                                                        \
         sizeof(hearth_frame), HEARTH_CULL_EVERYTHING, {{0, 0, 0}, {0, 0, -1}, {0, 1, 0}, 0.8f, 0.01f}, 1,    \
             NULL, 0, 0, NULL, HEARTH_SHOW_FINAL, 1, HEARTH_SHADE_AUTOMATIC, 0, NULL, VK_NULL_HANDLE, NULL,   \
-            0, HEARTH_AMBIENT_OCCLUSION_EXACT, HEARTH_SPECULAR_OCCLUSION_FIT, 0                              \
+            0, HEARTH_AMBIENT_OCCLUSION_EXACT, HEARTH_SPECULAR_OCCLUSION_FIT, 0, NULL, NULL, 0, 0            \
     }
 
 /* ---- Clips (1.2): played on the CPU, for a frame's moves and poses. ---- */

@@ -35,6 +35,10 @@ static_assert(HEARTH_SHOW_BENT_NORMAL == shared::kViewBentNormal);
 static_assert(HEARTH_SHOW_APERTURE == shared::kViewAperture);
 static_assert(HEARTH_SHOW_SPECULAR_OCCLUSION == shared::kViewSpecularOcclusion);
 
+static_assert(HEARTH_SHOW_BRICKS == shared::kViewBricks);
+static_assert(HEARTH_SHOW_BRICK_LIGHTING == shared::kViewBrickLighting);
+static_assert(HEARTH_SHOW_GATHERED == shared::kViewGathered);
+
 static_assert(HEARTH_AMBIENT_OCCLUSION_EXACT == shared::kAmbientOcclusionExact);
 static_assert(HEARTH_AMBIENT_OCCLUSION_SMOOTHSTEP == shared::kAmbientOcclusionSmoothstep);
 static_assert(HEARTH_AMBIENT_OCCLUSION_QUADRATIC == shared::kAmbientOcclusionQuadratic);

@@ -107,12 +107,14 @@ void writeView(const Device& device, VkCommandBuffer commands, const Scene& scen
 
 void CullPass::recordConstants(const Device& device, VkCommandBuffer commands, const Scene& scene,
                                const FrameTargets& targets, const shared::FrameView& view,
-                               std::span<const InstanceMove> moves, std::span<const InstancePose> poses) const
+                               std::span<const InstanceMove> moves, std::span<const InstancePose> poses,
+                               std::span<const LightChange> lights) const
 {
     beginChanges(device, commands);
     writeView(device, commands, scene, targets, view);
     recordMoves(device, commands, scene, moves);
     recordPoses(device, commands, scene, poses);
+    recordLights(device, commands, scene, lights);
     if (scene.stream != nullptr)
         scene.stream->recordChanges(commands, scene.buffers);
     endChanges(device, commands);

@@ -6,6 +6,7 @@
 
 #include "runtime/gpu/frame_targets.h"
 #include "runtime/gpu/instance_motion.h"
+#include "runtime/gpu/light_change.h"
 #include "runtime/gpu/scene.h"
 
 #include <optional>
@@ -24,11 +25,12 @@ public:
     /// The descriptor sets of this pass for a scene.
     Status createSets(const Device& device, Scene& scene) const;
 
-    /// The frame's constants, what moves, and what streaming brought. Outside a render pass; waits for earlier frames of
+    /// The frame's constants, what moves and changes, and what streaming brought. Outside a render pass; waits for earlier frames of
     /// the scene on the same queue.
     void recordConstants(const Device& device, VkCommandBuffer commands, const Scene& scene,
                          const FrameTargets& targets, const shared::FrameView& view,
-                         std::span<const InstanceMove> moves, std::span<const InstancePose> poses) const;
+                         std::span<const InstanceMove> moves, std::span<const InstancePose> poses,
+                         std::span<const LightChange> lights = {}) const;
 
     /// The same frame from elsewhere: other constants, and cleared counters. After recordConstants.
     void recordView(const Device& device, VkCommandBuffer commands, const Scene& scene,

@@ -29,6 +29,7 @@ enum AttachmentBinding : uint32_t
 {
     kAttachmentVisibility = 0,
     kAttachmentTileLists = 1,
+    kAttachmentGathered = 2, ///< what GatherPass left, for pictures with the light of bricks
 };
 
 /// Bindings of the set that the material-tiles pass has as set 1.
@@ -55,6 +56,37 @@ enum OcclusionBinding : uint32_t
     kOcclusionViews = 0,
     kOcclusionPyramid = 1,
     kOcclusionDepth = 2,
+};
+
+/// Bindings of the set of a scene with bricks, which the passes over them have as set 0. Six storage buffers: two are left
+/// to each set 1.
+enum BrickBinding : uint32_t
+{
+    kBrickFrame = 0, ///< the FrameView
+    kBrickView = 1,  ///< shared::BrickView
+    kBrickGroups = 2,
+    kBrickBricks = 3,
+    kBrickOpacity = 4,
+    kBrickSurfaces = 5, ///< of the faces: albedo, emission, normals
+    kBrickLighting = 6,
+    kBrickLights = 7,
+    kBrickBindingCount = 8,
+};
+
+/// Bindings of the set with which points for the gathering are found: set 1, behind the scene.
+enum GatherPointBinding : uint32_t
+{
+    kGatherPointVisibility = 0,
+    kGatherPointPoints = 1,
+};
+
+/// Bindings of the set with which light is gathered: set 1, behind the bricks.
+enum GatherBinding : uint32_t
+{
+    kGatherView = 0,
+    kGatherPoints = 1,
+    kGatherBefore = 2, ///< those of the frame before
+    kGatherTexels = 3, ///< what shading reads
 };
 
 /// Push constants of all drawing pipelines; the visibility pass reads only the bin, casters that and two more.
@@ -93,9 +125,15 @@ struct DrawLayouts
     UniqueSetLayout occlusion;   ///< of the culling and pyramid passes, bindings OcclusionBinding
     UniqueSetLayout tiles;       ///< of the material-tiles pass, bindings TileBinding
     UniqueSetLayout inspection;  ///< bindings InspectionBinding
-    UniquePipelineLayout visibility; ///< sets scene, material, bins
-    UniquePipelineLayout picture;    ///< sets scene, material, attachments
-    UniquePipelineLayout clusters;   ///< of the views of clusters: sets inspection, attachments
+    UniqueSetLayout bricks;      ///< bindings BrickBinding
+    UniqueSetLayout
+        fresh_light; ///< two bindings: light of faces before it is copied to where it is read, places of bricks
+    UniqueSetLayout gather_point;     ///< bindings GatherPointBinding
+    UniqueSetLayout gather;           ///< bindings GatherBinding
+    UniquePipelineLayout visibility;  ///< sets scene, material, bins
+    UniquePipelineLayout picture;     ///< sets scene, material, attachments
+    UniquePipelineLayout clusters;    ///< of the views of clusters: sets inspection, attachments
+    UniquePipelineLayout brick_views; ///< of the views of bricks: set bricks
 
     static Result<DrawLayouts> create(const Device& device);
 };

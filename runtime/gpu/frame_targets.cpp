@@ -127,12 +127,15 @@ Status FrameTargets::createTileLists(const Device& device)
 Status FrameTargets::createSets(const Device& device, const DrawLayouts& layouts)
 {
     HEARTH_ASSIGN_OR_RETURN(texel_sampler_, createTexelSampler(device));
-    const DescriptorPoolSizes sizes{.uniforms = 1, .storages = 4, .textures = 2, .inputs = 1};
+    HEARTH_ASSIGN_OR_RETURN(gather_, GatherTargets::create(device, layouts, arena_, extent_,
+                                                           visibility_.view.get(), texel_sampler_.get()));
+    const DescriptorPoolSizes sizes{.uniforms = 1, .storages = 4, .textures = 3, .inputs = 1};
     HEARTH_ASSIGN_OR_RETURN(pool_, createDescriptorPool(device, 3, sizes));
     HEARTH_ASSIGN_OR_RETURN(set_, allocateSet(device, pool_.get(), layouts.attachments.get()));
     DescriptorWriter(set_)
         .input(kAttachmentVisibility, visibility_.view.get())
         .storage(kAttachmentTileLists, tile_lists_)
+        .texture(kAttachmentGathered, gather_->texels().view.get(), texel_sampler_.get())
         .write(device);
     HEARTH_ASSIGN_OR_RETURN(occlusion_set_, allocateSet(device, pool_.get(), layouts.occlusion.get()));
     DescriptorWriter(occlusion_set_)

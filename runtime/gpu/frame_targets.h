@@ -1,10 +1,14 @@
-// The images of a frame, the depth pyramid that one frame leaves to the next, and room for lists of material tiles.
+// The images of a frame, the depth pyramid and the gathered light that one frame leaves to the next, and room for lists of
+// material tiles.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
 #include "formats/shared/records.h"
 #include "runtime/gpu/draw_layouts.h"
 #include "runtime/gpu/frame_passes.h"
+#include "runtime/gpu/gather_targets.h"
+
+#include <optional>
 
 namespace hearth::gpu
 {
@@ -38,6 +42,10 @@ public:
     const Buffer& tileLists() const { return tile_lists_; }
     VkDescriptorSet tileSet() const { return tile_set_; }
 
+    /// Of scenes with bricks.
+    GatherTargets& gather() { return *gather_; }
+    const GatherTargets& gather() const { return *gather_; }
+
     /// From where the pyramid was drawn: the last frame with occlusion culling. level_count 0: there was none.
     const shared::OcclusionView& pyramidView() const { return pyramid_view_; }
     /// To forget it ({}), or to say that what has been written there was seen from elsewhere, at the same size.
@@ -68,6 +76,7 @@ private:
     VkDescriptorSet occlusion_set_ = VK_NULL_HANDLE;
     VkDescriptorSet tile_set_ = VK_NULL_HANDLE;
     shared::OcclusionView pyramid_view_{};
+    std::optional<GatherTargets> gather_; ///< always, once created
 };
 
 } // namespace hearth::gpu

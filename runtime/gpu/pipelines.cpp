@@ -128,6 +128,15 @@ Result<ComputePipeline> createComputePipeline(const Device& device, std::span<co
     return result;
 }
 
+Result<ComputePipeline> createComputePipeline(const Device& device, std::span<const uint32_t> spirv,
+                                              std::span<const VkDescriptorSetLayout> sets,
+                                              std::span<const uint32_t> constants)
+{
+    ComputePipeline result;
+    HEARTH_TRY(finishComputePipeline(device, spirv, sets, 0, constants, result));
+    return result;
+}
+
 Result<UniquePipeline> createGraphicsPipeline(const Device& device, const GraphicsDescription& description)
 {
     HEARTH_ASSIGN_OR_RETURN(const UniqueShaderModule vertex, createModule(device, description.vertex));
@@ -230,6 +239,12 @@ DescriptorWriter& DescriptorWriter::input(uint32_t binding, VkImageView view)
     return *this;
 }
 
+DescriptorWriter& DescriptorWriter::image(uint32_t binding, VkImageView view)
+{
+    add(binding, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, {}, {VK_NULL_HANDLE, view, VK_IMAGE_LAYOUT_GENERAL});
+    return *this;
+}
+
 void DescriptorWriter::write(const Device& device)
 {
     std::vector<VkWriteDescriptorSet> writes;
@@ -255,7 +270,8 @@ Result<UniqueDescriptorPool> createDescriptorPool(const Device& device, uint32_t
     const VkDescriptorPoolSize all[] = {{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, sizes.uniforms},
                                         {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, sizes.storages},
                                         {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, sizes.textures},
-                                        {VK_DESCRIPTOR_TYPE_INPUT_ATTACHMENT, sizes.inputs}};
+                                        {VK_DESCRIPTOR_TYPE_INPUT_ATTACHMENT, sizes.inputs},
+                                        {VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, sizes.images}};
     std::vector<VkDescriptorPoolSize> used;
     for (const VkDescriptorPoolSize& size : all)
         if (size.descriptorCount > 0)

@@ -41,6 +41,11 @@ Result<ComputePipeline> createComputePipeline(const Device& device, std::span<co
                                               uint32_t push_bytes, VkDescriptorSetLayout shared_set,
                                               std::span<const uint32_t> constants = {});
 
+/// One with shared sets alone: sets[i] is its set i.
+Result<ComputePipeline> createComputePipeline(const Device& device, std::span<const uint32_t> spirv,
+                                              std::span<const VkDescriptorSetLayout> sets,
+                                              std::span<const uint32_t> constants = {});
+
 struct GraphicsDescription
 {
     std::span<const uint32_t> vertex;
@@ -69,6 +74,8 @@ public:
     DescriptorWriter& storage(uint32_t binding, const Buffer& buffer);
     DescriptorWriter& texture(uint32_t binding, VkImageView view, VkSampler sampler);
     DescriptorWriter& input(uint32_t binding, VkImageView view);
+    /// A storage image in VK_IMAGE_LAYOUT_GENERAL.
+    DescriptorWriter& image(uint32_t binding, VkImageView view);
     void write(const Device& device);
 
 private:
@@ -92,6 +99,7 @@ struct DescriptorPoolSizes
     uint32_t storages = 0;
     uint32_t textures = 0;
     uint32_t inputs = 0;
+    uint32_t images = 0; ///< storage images
 };
 Result<UniqueDescriptorPool> createDescriptorPool(const Device& device, uint32_t set_count,
                                                   const DescriptorPoolSizes& sizes);

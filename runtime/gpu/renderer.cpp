@@ -78,8 +78,14 @@ Result<std::unique_ptr<Scene>> Renderer::upload(const formats::PackView& pack, V
             HEARTH_TRY(shadows_->prepareDeformed(device_));
         HEARTH_TRY(shadows_->createMaps(device_, pack, options.shadows, commands, *scene));
     }
+    if (scene->bricks != nullptr && !gather_)
+    {
+        HEARTH_ASSIGN_OR_RETURN(brick_light_, BrickLightPass::create(device_, layouts_));
+        HEARTH_ASSIGN_OR_RETURN(gather_, GatherPass::create(device_, layouts_));
+    }
     for (SceneMaterial& material : scene->materials)
     {
+        material.variant.bricks = scene->bricks != nullptr ? 1 : 0;
         material.variant.shadows = scene->shadows != nullptr ? 1 : 0;
         HEARTH_ASSIGN_OR_RETURN(material.pipelines, shading_.prepare(device_, layouts_, material.variant));
     }
@@ -115,7 +121,7 @@ void Renderer::record(VkCommandBuffer commands, const Scene& scene, FrameTargets
                       const FrameInput& input) const
 {
     recordCull(commands, scene, targets, input);
-    if (shadesTiles(scene, input.shading.area))
+    if (shadesTiles(scene, input.shading.area) || gathers(scene, input.shading))
     {
         recordVisibility(commands, scene, targets, input);
         recordMaterials(commands, scene, targets, input);
@@ -138,7 +144,9 @@ void Renderer::recordCull(VkCommandBuffer commands, const Scene& scene, const Fr
     writeTimestamp(device_, commands, input.timestamps, kTimestampBegin);
     const shared::FrameView view = scene.stream == nullptr ? input.view : scene.stream->scaled(input.view);
     trackShadows(scene, input.moves);
-    cull_.recordConstants(device_, commands, scene, targets, view, input.moves, input.poses);
+    cull_.recordConstants(device_, commands, scene, targets, view, input.moves, input.poses, input.lights);
+    if (scene.bricks != nullptr)
+        recordBrickLight(commands, scene, input);
     if (scene.shadows != nullptr)
         recordShadows(commands, scene, targets, view, input.shadow_spheres);
     writeTimestamp(device_, commands, input.timestamps, kTimestampShadows);
@@ -162,13 +170,18 @@ void Renderer::recordVisibility(VkCommandBuffer commands, const Scene& scene, Fr
     writeTimestamp(device_, commands, input.timestamps, kTimestampVisibility);
 }
 
-void Renderer::recordMaterials(VkCommandBuffer commands, const Scene& scene, const FrameTargets& targets,
+void Renderer::recordMaterials(VkCommandBuffer commands, const Scene& scene, FrameTargets& targets,
                                const FrameInput& input) const
 {
     if (shadesTiles(scene, input.shading.area))
     {
         const DebugLabel label(device_, commands, "material tiles");
         material_tiles_.record(device_, commands, scene, targets);
+    }
+    if (gathers(scene, input.shading))
+    {
+        const DebugLabel label(device_, commands, "gather light");
+        gather_->record(device_, commands, scene, targets, input.view, scene.bricks->quick_frames > 0);
     }
     writeTimestamp(device_, commands, input.timestamps, kTimestampMaterialTiles);
     beginPass(commands, targets, passes_.picture.get());
@@ -202,6 +215,15 @@ void Renderer::recordShadows(VkCommandBuffer commands, const Scene& scene, const
     }
     if (!stale.empty())
         cull_.recordView(device_, commands, scene, targets, view);
+}
+
+/// A share of the faces, where the picture shows what they send out.
+void Renderer::recordBrickLight(VkCommandBuffer commands, const Scene& scene, const FrameInput& input) const
+{
+    if (!input.shading.bricks_light && !showsBricks(input.shading.shown))
+        return;
+    const DebugLabel label(device_, commands, "light bricks");
+    brick_light_->record(device_, commands, scene, !input.lights.empty(), input.emission);
 }
 
 /// After a culling phase of the picture.

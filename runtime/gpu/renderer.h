@@ -4,8 +4,11 @@
 #pragma once
 
 #include "runtime/gpu/bin_pass.h"
+#include "runtime/gpu/brick_light_pass.h"
 #include "runtime/gpu/cull_pass.h"
 #include "runtime/gpu/frame_parts.h"
+#include "runtime/gpu/gather_pass.h"
+#include "runtime/gpu/light_change.h"
 #include "runtime/gpu/material_depth_pass.h"
 #include "runtime/gpu/material_tiles_pass.h"
 #include "runtime/gpu/page_request_pass.h"
@@ -24,13 +27,13 @@ namespace hearth::gpu
 enum FrameTimestamp : uint32_t
 {
     kTimestampBegin,
-    kTimestampShadows,         ///< no time without shadow maps to draw
+    kTimestampShadows,         ///< with the light of bricks' faces; no time without both
     kTimestampCull,            ///< with the skinning of what is found, as the late one
     kTimestampEarlyVisibility, ///< this one and the two after it take no time without occlusion culling
     kTimestampPyramid,
     kTimestampLateCull,
     kTimestampVisibility,
-    kTimestampMaterialTiles, ///< no time without material tiles
+    kTimestampMaterialTiles, ///< with the gathering of bricks' light; no time without both
     kTimestampMaterialDepth,
     kTimestampShading,
     kTimestampCount,
@@ -47,6 +50,10 @@ struct FrameInput
     /// Of a scene with shadows, where they are finer, beside the spheres of its pack: all of this frame, read while
     /// recording.
     std::span<const ShadowSphere> shadow_spheres{};
+    /// From this frame on; read while recording.
+    std::span<const LightChange> lights{};
+    /// Of a scene with bricks, what their faces send out: all of this frame, read while recording.
+    std::span<const EmissionScale> emission{};
     VkQueryPool timestamps = VK_NULL_HANDLE; ///< kTimestampCount queries, reset by the frame; or none
 };
 
@@ -83,7 +90,7 @@ public:
                     const FrameInput& input) const;
     void recordVisibility(VkCommandBuffer commands, const Scene& scene, FrameTargets& targets,
                           const FrameInput& input) const;
-    void recordMaterials(VkCommandBuffer commands, const Scene& scene, const FrameTargets& targets,
+    void recordMaterials(VkCommandBuffer commands, const Scene& scene, FrameTargets& targets,
                          const FrameInput& input) const;
 
     /// The same without drawing: asks for what a frame with this view asks for. For a streamed scene, in place of record.
@@ -99,6 +106,7 @@ private:
     void recordShadows(VkCommandBuffer commands, const Scene& scene, const FrameTargets& targets,
                        const shared::FrameView& view, std::span<const ShadowSphere> spheres) const;
     void recordRequests(VkCommandBuffer commands, const Scene& scene) const;
+    void recordBrickLight(VkCommandBuffer commands, const Scene& scene, const FrameInput& input) const;
     void recordEarly(VkCommandBuffer commands, const Scene& scene, FrameTargets& targets,
                      const FrameInput& input) const;
     void drawVisibility(VkCommandBuffer commands, const Scene& scene, const FrameInput& input) const;
@@ -114,8 +122,10 @@ private:
     CullPass cull_;
     PageRequestPass page_requests_;
     PyramidPass pyramid_;
-    std::optional<ShadowPass> shadows_;    ///< once a scene has them
-    std::optional<SkinningPass> skinning_; ///< once a scene has deformed meshes
+    std::optional<ShadowPass> shadows_;         ///< once a scene has them
+    std::optional<BrickLightPass> brick_light_; ///< once a scene has bricks
+    std::optional<GatherPass> gather_;          ///< the same
+    std::optional<SkinningPass> skinning_;      ///< once a scene has deformed meshes
     BinPass visibility_;
     std::optional<BinPass> overdraw_;
     MaterialTilesPass material_tiles_;

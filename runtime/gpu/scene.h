@@ -3,7 +3,9 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
+#include "formats/shared/shading.h"
 #include "runtime/gpu/draw_layouts.h"
+#include "runtime/gpu/scene_bricks.h"
 #include "runtime/gpu/scene_deformation.h"
 #include "runtime/gpu/scene_layout.h"
 #include "runtime/gpu/scene_stream.h"
@@ -32,6 +34,8 @@ struct SceneOptions
     ShadowOptions shadows{}; ///< none unless max_maps is set (README.md, "Shadows")
 
     DeformationOptions deformation{}; ///< of a scene that has deformed meshes
+
+    BrickOptions bricks{}; ///< of a scene that has them
 };
 
 class SceneShadows;
@@ -65,6 +69,7 @@ struct ShadingVariant
     uint32_t deformed = 0;       ///< 1: it is on deformed meshes
     uint32_t shadows = 0;        ///< 1: lights have shadow maps
     uint32_t sky_visibility = 0; ///< 1: it is on meshes that say what they see of the sky
+    uint32_t bricks = 0;         ///< 1: the scene has bricks
     friend auto operator<=>(const ShadingVariant&, const ShadingVariant&) = default;
 };
 
@@ -72,6 +77,7 @@ struct ShadingVariant
 struct ShadingPipelines
 {
     VkPipeline final_view = VK_NULL_HANDLE;
+    VkPipeline gathered_view = VK_NULL_HANDLE; ///< with the light of bricks, where the scene has them
     VkPipeline inspection = VK_NULL_HANDLE;
 };
 
@@ -107,6 +113,7 @@ struct Scene
     std::unique_ptr<SceneStream> stream;           ///< of a streamed scene
     std::unique_ptr<SceneDeformation> deformation; ///< of a scene with deformed meshes
     std::unique_ptr<SceneShadows> shadows;         ///< of a scene with shadows
+    std::unique_ptr<SceneBricks> bricks;           ///< of a scene that has them
     std::vector<SceneBin> bins;
     std::vector<formats::InstanceRecord> instances; ///< as they were loaded
     uint32_t instance_count = 0;
@@ -116,6 +123,8 @@ struct Scene
     uint32_t used_slices = shared::kPoolSlices; ///< 1 where the first holds all geometry
     Image specular_table;                       ///< empty where the pack has none
     uint32_t specular_spacing = 0;              ///< shared::kSpecularSpacing* of the table
+    std::vector<shared::Light> lights;          ///< those that are drawn, as they were loaded
+    float exposure = 1;                         ///< of all lights
     uint32_t dropped_lights = 0;                ///< lights of the pack beyond shared::kMaxLights
     Box3 bounds;                                ///< world space, empty where there is nothing to draw
 };

@@ -18,21 +18,6 @@ Float3 translationOf(const Affine3& t)
     return {t.m[0][3], t.m[1][3], t.m[2][3]};
 }
 
-shared::Light makeLight(const formats::LightRecord& record)
-{
-    shared::Light light{};
-    light.type = record.type;
-    light.position = translationOf(record.world_from_light);
-    light.direction = normalizeOr(transformVector(record.world_from_light, {0, 0, -1}), {0, -1, 0});
-    light.range = record.range;
-    light.intensity = record.color * record.intensity;
-    // KHR_lights_punctual, "Inner and outer cone angles": linear between the two cosines
-    const float cos_outer = std::cos(record.outer_cone_rad);
-    light.cone_scale = 1.0f / std::max(0.001f, std::cos(record.inner_cone_rad) - cos_outer);
-    light.cone_offset = -cos_outer * light.cone_scale;
-    return light;
-}
-
 /// The sun of scenes without lights.
 shared::Light defaultSun()
 {
@@ -111,6 +96,31 @@ shared::Material makeMaterial(const formats::MaterialRecord& record)
     return material;
 }
 
+shared::Light makeLight(const formats::LightRecord& record)
+{
+    shared::Light light{};
+    light.type = record.type;
+    light.position = translationOf(record.world_from_light);
+    light.direction = normalizeOr(transformVector(record.world_from_light, {0, 0, -1}), {0, -1, 0});
+    light.range = record.range;
+    light.intensity = record.color * record.intensity;
+    // KHR_lights_punctual, "Inner and outer cone angles": linear between the two cosines
+    const float cos_outer = std::cos(record.outer_cone_rad);
+    light.cone_scale = 1.0f / std::max(0.001f, std::cos(record.inner_cone_rad) - cos_outer);
+    light.cone_offset = -cos_outer * light.cone_scale;
+    return light;
+}
+
+float lightExposure(const formats::PackView& pack)
+{
+    const Box3 bounds = sceneBounds(pack);
+    float illuminance = 0;
+    for (const formats::LightRecord& record :
+         pack.lights().first(std::min<size_t>(pack.lights().size(), shared::kMaxLights)))
+        illuminance += illuminanceAt(bounds, makeLight(record));
+    return illuminance > shared::kKeyIlluminance ? shared::kKeyIlluminance / illuminance : 1.0f;
+}
+
 shared::Lighting makeLighting(const formats::PackView& pack)
 {
     shared::Lighting lighting{};
@@ -118,20 +128,12 @@ shared::Lighting makeLighting(const formats::PackView& pack)
     lighting.sky_horizon = shared::kSkyHorizon;
     lighting.sky_ground = shared::kSkyGround;
 
-    const Box3 bounds = sceneBounds(pack);
-    float illuminance = 0;
     for (const formats::LightRecord& record : pack.lights())
-    {
-        if (lighting.light_count == shared::kMaxLights)
-            break;
-        shared::Light& light = lighting.lights[lighting.light_count++];
-        light = makeLight(record);
-        illuminance += illuminanceAt(bounds, light);
-    }
+        if (lighting.light_count < shared::kMaxLights)
+            lighting.lights[lighting.light_count++] = makeLight(record);
     if (lighting.light_count == 0)
         lighting.lights[lighting.light_count++] = defaultSun();
-    const float exposure =
-        illuminance > shared::kKeyIlluminance ? shared::kKeyIlluminance / illuminance : 1.0f;
+    const float exposure = lightExposure(pack);
     assignShadowRows(lighting);
     for (uint32_t i = 0; i < lighting.light_count; ++i)
         lighting.lights[i].intensity = lighting.lights[i].intensity * exposure;

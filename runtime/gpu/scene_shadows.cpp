@@ -57,6 +57,7 @@ Result<std::unique_ptr<SceneShadows>> SceneShadows::create(const Device& device,
     HEARTH_TRY(checkLimits(device, options));
     std::unique_ptr<SceneShadows> shadows(new SceneShadows(device, pack, options));
     SceneShadows& s = *shadows;
+    s.bounds_ = bounds;
     const shared::Lighting lighting = makeLighting(pack);
     s.lights_ = makeCastingLights(lighting, bounds, options.spot_near);
     s.lights_without_row_ = countLights(lighting, formats::LightType::directional) +
@@ -127,6 +128,12 @@ void SceneShadows::track(std::span<const InstanceMove> moves,
 {
     cache_.move(moves);
     cache_.publish(groups);
+}
+
+void SceneShadows::change(uint32_t light, const shared::Light& record)
+{
+    if (record.shadow_row < lights_.size())
+        lights_[record.shadow_row] = makeCastingLight(record, light, bounds_, options_.spot_near);
 }
 
 std::span<const ShadowCache::StaleMap> SceneShadows::planFrame(const shared::FrameView& view,

@@ -33,6 +33,9 @@ public:
     /// What moves and streams in with a frame, whether it is drawn or only prefetched.
     void track(std::span<const InstanceMove> moves, std::span<const pack::ResidentGroups::Change> groups);
 
+    /// A light is another from this frame on; nothing where it casts none.
+    void change(uint32_t light, const shared::Light& record);
+
     /// A new pose, from this frame on.
     void pose(const DeformedInstance& instance, const PosedRows& rows) { cache_.pose(instance, rows); }
 
@@ -72,6 +75,7 @@ private:
     Status createLayer(const Device& device, VkRenderPass render_pass, Layer& layer, uint32_t number) const;
 
     ShadowOptions options_;
+    Box3 bounds_; ///< of the scene
     std::vector<CastingLight> lights_;
     size_t pack_sphere_count_ = 0;
     std::vector<ShadowSphere> spheres_; ///< of the pack, then of the frame

@@ -148,6 +148,8 @@ Status uploadTables(const formats::PackView& pack, const SceneLayout& layout, Up
         HEARTH_TRY(uploader.uploadRecords(scene.deformation->buffer, layout.deformation.words));
 
     const shared::Lighting lighting = makeLighting(pack);
+    scene.lights.assign(lighting.lights, lighting.lights + lighting.light_count);
+    scene.exposure = lightExposure(pack);
     scene.dropped_lights = static_cast<uint32_t>(pack.lights().size() -
                                                  std::min<size_t>(pack.lights().size(), shared::kMaxLights));
     return uploader.upload(b.lighting, std::as_bytes(std::span(&lighting, 1)));
@@ -180,11 +182,11 @@ Status uploadGeometry(const formats::PackView& pack, const SceneLayout& layout, 
 Status createSets(const Device& device, const DrawLayouts& layouts, Scene& scene, uint32_t material_rows)
 {
     // three sets for drawing (one with the shadow maps), six of the culling pass, those of the material tiles and of the
-    // page requests; three more where meshes are deformed; with room for what each binds
-    const DescriptorPoolSizes sizes{.uniforms = 18 + material_rows,
-                                    .storages = 96,
+    // page requests; three more where meshes are deformed, two where there are bricks; with room for what each binds
+    const DescriptorPoolSizes sizes{.uniforms = 20 + material_rows,
+                                    .storages = 104,
                                     .textures = material_rows * shared::kTextureCount + 2};
-    HEARTH_ASSIGN_OR_RETURN(scene.pool, createDescriptorPool(device, 14 + material_rows, sizes));
+    HEARTH_ASSIGN_OR_RETURN(scene.pool, createDescriptorPool(device, 16 + material_rows, sizes));
     HEARTH_ASSIGN_OR_RETURN(scene.draw_set, allocateSet(device, scene.pool.get(), layouts.scene.get()));
     const SceneBuffers& b = scene.buffers;
     DescriptorWriter writer(scene.draw_set);
@@ -307,6 +309,7 @@ Result<std::unique_ptr<Scene>> uploadScene(const Device& device, const DrawLayou
     findSkyVisibility(pack, *scene);
     fillSpareBindings(device, *scene);
     HEARTH_TRY(uploadSpecularTable(device, pack, *scene->staging, *scene));
+    HEARTH_TRY(uploadBricks(device, layouts, pack, options.bricks, *scene->staging, *scene));
     scene->staging->finish();
     scene->bins = std::move(layout.bins);
     if (scene->deformation != nullptr)

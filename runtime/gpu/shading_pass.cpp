@@ -29,6 +29,12 @@ uint32_t deformedVertices(const ShadingVariant& variant)
     return variant.deformed != 0 ? kDeformedInScratch : kRigid;
 }
 
+bool showsDeformed(const Scene& scene)
+{
+    return std::any_of(scene.materials.begin(), scene.materials.end(),
+                       [](const SceneMaterial& m) { return m.variant.deformed != 0; });
+}
+
 uint32_t skyOcclusion(const Scene& scene, const ShadingView& view)
 {
     const bool no_table = view.specular_occlusion == shared::kSpecularOcclusionTable &&
@@ -70,6 +76,8 @@ Result<ShadingPipelines> ShadingPass::prepare(const Device& device, const DrawLa
         maps.depth_compare = VK_COMPARE_OP_LESS; // as clusters_
         HEARTH_ASSIGN_OR_RETURN(shadow_maps, createGraphicsPipeline(device, maps));
     }
+    if (variant.bricks != 0)
+        HEARTH_TRY(prepareBricks(device, layouts, variant));
     const auto [entry, fresh] = variants_.try_emplace(variant);
     Variant& pipelines = entry->second;
     if (fresh)
@@ -81,10 +89,43 @@ Result<ShadingPipelines> ShadingPass::prepare(const Device& device, const DrawLa
                      layouts.picture.get(), render_pass_);
         description.constants = constants;
         HEARTH_ASSIGN_OR_RETURN(pipelines.final_view, createGraphicsPipeline(device, description));
+        if (variant.bricks != 0)
+        {
+            description.fragment = variant.shadows != 0 ? shaders::shading_shadowed_gathered_frag
+                                                        : shaders::shading_gathered_frag;
+            HEARTH_ASSIGN_OR_RETURN(pipelines.gathered_view, createGraphicsPipeline(device, description));
+        }
         description.fragment = shaders::inspect_frag;
         HEARTH_ASSIGN_OR_RETURN(pipelines.inspection, createGraphicsPipeline(device, description));
     }
-    return ShadingPipelines{pipelines.final_view.get(), pipelines.inspection.get()};
+    return ShadingPipelines{pipelines.final_view.get(), pipelines.gathered_view.get(),
+                            pipelines.inspection.get()};
+}
+
+/// The views of bricks and of their light.
+Status ShadingPass::prepareBricks(const Device& device, const DrawLayouts& layouts,
+                                  const ShadingVariant& variant)
+{
+    if (bricks_.get() == VK_NULL_HANDLE)
+    {
+        GraphicsDescription bricks =
+            describe(shaders::inspect_bricks_frag, layouts.brick_views.get(), render_pass_);
+        bricks.vertex = shaders::fullscreen_vert;
+        bricks.depth_compare = VK_COMPARE_OP_ALWAYS;
+        HEARTH_ASSIGN_OR_RETURN(bricks_, createGraphicsPipeline(device, bricks));
+    }
+    UniquePipeline& gathered = gathered_[variant.deformed];
+    if (gathered.get() == VK_NULL_HANDLE)
+    {
+        const uint32_t constants[] = {shared::kPoolSlices, 0, 0, 0, deformedVertices(variant)};
+        GraphicsDescription light =
+            describe(shaders::inspect_gathered_frag, layouts.picture.get(), render_pass_);
+        light.vertex = shaders::fullscreen_vert;
+        light.constants = constants;
+        light.depth_compare = VK_COMPARE_OP_LESS; // as clusters_
+        HEARTH_ASSIGN_OR_RETURN(gathered, createGraphicsPipeline(device, light));
+    }
+    return success();
 }
 
 void ShadingPass::record(const Device& device, VkCommandBuffer commands, const DrawLayouts& layouts,
@@ -95,6 +136,10 @@ void ShadingPass::record(const Device& device, VkCommandBuffer commands, const D
         recordClusters(device, commands, layouts, scene, targets, view);
     else if (view.shown == shared::kViewShadowMaps)
         recordShadowMaps(device, commands, layouts, scene, view);
+    else if (view.shown == shared::kViewBricks || view.shown == shared::kViewBrickLighting)
+        recordBricks(device, commands, layouts, scene, view);
+    else if (view.shown == shared::kViewGathered)
+        recordGathered(device, commands, layouts, scene, view);
     else
         recordMaterials(device, commands, layouts, scene, view);
 }
@@ -139,10 +184,34 @@ void ShadingPass::recordShadowMaps(const Device& device, VkCommandBuffer command
     HEARTH_ASSERT(scene.shadows != nullptr);
     const DrawPush push{.depth = 0, .shown_view = view.shown};
     device.vk.vkCmdPushConstants(commands, layouts.picture.get(), kDrawPushStages, 0, sizeof(push), &push);
-    const bool deformed = std::any_of(scene.materials.begin(), scene.materials.end(),
-                                      [](const SceneMaterial& m) { return m.variant.deformed != 0; });
     device.vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS,
-                                shadow_maps_[deformed ? 1 : 0].get());
+                                shadow_maps_[showsDeformed(scene) ? 1 : 0].get());
+    device.vk.vkCmdDraw(commands, 3, 1, 0, 0);
+}
+
+/// In place of the sky as well.
+void ShadingPass::recordBricks(const Device& device, VkCommandBuffer commands, const DrawLayouts& layouts,
+                               const Scene& scene, const ShadingView& view) const
+{
+    HEARTH_ASSERT(scene.bricks != nullptr);
+    const VkPipelineLayout layout = layouts.brick_views.get();
+    const DrawPush push{.depth = 0, .shown_view = view.shown};
+    device.vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, bricks_.get());
+    device.vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout, 0, 1,
+                                      &scene.bricks->set, 0, nullptr);
+    device.vk.vkCmdPushConstants(commands, layout, kDrawPushStages, 0, sizeof(push), &push);
+    device.vk.vkCmdDraw(commands, 3, 1, 0, 0);
+}
+
+/// With the sets that recordSky has bound.
+void ShadingPass::recordGathered(const Device& device, VkCommandBuffer commands, const DrawLayouts& layouts,
+                                 const Scene& scene, const ShadingView& view) const
+{
+    HEARTH_ASSERT(scene.bricks != nullptr);
+    const DrawPush push{.depth = 0, .shown_view = view.shown};
+    device.vk.vkCmdPushConstants(commands, layouts.picture.get(), kDrawPushStages, 0, sizeof(push), &push);
+    device.vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS,
+                                gathered_[showsDeformed(scene) ? 1 : 0].get());
     device.vk.vkCmdDraw(commands, 3, 1, 0, 0);
 }
 
@@ -159,8 +228,9 @@ void ShadingPass::recordMaterials(const Device& device, VkCommandBuffer commands
     {
         const SceneMaterial& material = scene.materials[row];
         device.vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS,
-                                    view.shown == shared::kViewFinal ? material.pipelines.final_view
-                                                                     : material.pipelines.inspection);
+                                    view.shown != shared::kViewFinal ? material.pipelines.inspection
+                                    : gathers(scene, view)           ? material.pipelines.gathered_view
+                                                                     : material.pipelines.final_view);
         const uint32_t number = row + 1; // 0 is the sky
         const DrawPush push{.depth = static_cast<float>(number) / 65535.0f,
                             .shown_view = view.shown,

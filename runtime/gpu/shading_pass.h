@@ -31,6 +31,7 @@ struct ShadingView
     ShadedArea area = ShadedArea::automatic;
     uint32_t ambient_occlusion = shared::kAmbientOcclusionExact; ///< of meshes with visibility
     uint32_t specular_occlusion = shared::kSpecularOcclusionFit; ///< the same
+    bool bricks_light = true; ///< of scenes with bricks: their light is gathered, else the sky is constant
 };
 
 /// Whether the frame makes lists of tiles before it is shaded.
@@ -38,6 +39,20 @@ inline bool shadesTiles(const Scene& scene, ShadedArea area)
 {
     return area == ShadedArea::tiles ||
            (area == ShadedArea::automatic && scene.materials.size() > kWholePictureMaterials);
+}
+
+/// Whether the picture shows light that is gathered from bricks.
+inline bool gathers(const Scene& scene, const ShadingView& view)
+{
+    return scene.bricks != nullptr &&
+           (view.shown == shared::kViewGathered || (view.shown == shared::kViewFinal && view.bricks_light));
+}
+
+/// Whether the picture needs bricks, which not all scenes have.
+inline bool showsBricks(uint32_t shown)
+{
+    return shown == shared::kViewBricks || shown == shared::kViewBrickLighting ||
+           shown == shared::kViewGathered;
 }
 
 class ShadingPass
@@ -55,9 +70,11 @@ public:
                 const Scene& scene, const FrameTargets& targets, const ShadingView& view) const;
 
 private:
+    Status prepareBricks(const Device& device, const DrawLayouts& layouts, const ShadingVariant& variant);
     struct Variant
     {
         UniquePipeline final_view;
+        UniquePipeline gathered_view;
         UniquePipeline inspection;
     };
     void recordSky(const Device& device, VkCommandBuffer commands, const DrawLayouts& layouts,
@@ -66,6 +83,10 @@ private:
                         const Scene& scene, const FrameTargets& targets, const ShadingView& view) const;
     void recordShadowMaps(const Device& device, VkCommandBuffer commands, const DrawLayouts& layouts,
                           const Scene& scene, const ShadingView& view) const;
+    void recordBricks(const Device& device, VkCommandBuffer commands, const DrawLayouts& layouts,
+                      const Scene& scene, const ShadingView& view) const;
+    void recordGathered(const Device& device, VkCommandBuffer commands, const DrawLayouts& layouts,
+                        const Scene& scene, const ShadingView& view) const;
     void recordMaterials(const Device& device, VkCommandBuffer commands, const DrawLayouts& layouts,
                          const Scene& scene, const ShadingView& view) const;
 
@@ -73,6 +94,8 @@ private:
     UniquePipeline sky_;
     UniquePipeline clusters_;
     UniquePipeline shadow_maps_[2]; ///< once a scene has them: [1] one with deformed meshes
+    UniquePipeline bricks_;         ///< once a scene has them
+    UniquePipeline gathered_[2];    ///< as shadow_maps_, once a scene has bricks
     std::map<ShadingVariant, Variant> variants_;
 };
 

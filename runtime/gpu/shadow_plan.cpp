@@ -133,6 +133,17 @@ void assignShadowRows(shared::Lighting& lighting)
                 light.shadow_row = row++;
 }
 
+CastingLight makeCastingLight(const shared::Light& light, uint32_t number, const Box3& scene, float spot_near)
+{
+    if (isOfType(light, formats::LightType::directional))
+        return {.light = number, .projection = shared::makeSunShadow(light.direction, scene)};
+    const float cos_outer = std::clamp(-light.cone_offset / light.cone_scale, 0.0f, 1.0f);
+    return {.light = number,
+            .projection = shared::makeSpotShadow(light.position, light.direction, spot_near),
+            // a spot that shines nowhere has a map all the same
+            .cone_tangent = std::max(shared::coneTangent(std::acos(cos_outer)), 1e-3f)};
+}
+
 std::vector<CastingLight> makeCastingLights(const shared::Lighting& lighting, const Box3& scene,
                                             float spot_near)
 {
@@ -145,17 +156,7 @@ std::vector<CastingLight> makeCastingLights(const shared::Lighting& lighting, co
         if (light.shadow_row == shared::kNoShadow)
             continue;
         casting.resize(std::max<size_t>(casting.size(), light.shadow_row + 1));
-        CastingLight& entry = casting[light.shadow_row];
-        entry.light = i;
-        if (isOfType(light, formats::LightType::directional))
-        {
-            entry.projection = shared::makeSunShadow(light.direction, scene);
-            continue;
-        }
-        entry.projection = shared::makeSpotShadow(light.position, light.direction, spot_near);
-        const float cos_outer = std::clamp(-light.cone_offset / light.cone_scale, 0.0f, 1.0f);
-        // a spot that shines nowhere has a map all the same
-        entry.cone_tangent = std::max(shared::coneTangent(std::acos(cos_outer)), 1e-3f);
+        casting[light.shadow_row] = makeCastingLight(light, i, scene, spot_near);
     }
     return casting;
 }

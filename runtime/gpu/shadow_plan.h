@@ -60,6 +60,12 @@ std::vector<ShadowSphere> shadowSpheresOf(const formats::PackView& pack);
 /// Give the lights that cast shadows their rows: the suns, then the spots, as many as there are.
 void assignShadowRows(shared::Lighting& lighting);
 
+/// One of them.
+///
+/// number  of the light
+CastingLight makeCastingLight(const shared::Light& light, uint32_t number, const Box3& scene,
+                              float spot_near);
+
 /// The lights that have rows, in the order of the rows.
 ///
 /// scene      box of all casters and receivers, world; of an empty one nothing casts

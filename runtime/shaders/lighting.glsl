@@ -1,5 +1,6 @@
 // What a point of a surface looks like: its material under the lights and the sky. See runtime/gpu/README.md for units
-// and exposure. What of a light reaches the point, `lightShare`, is shadow.glsl's or unshadowed.glsl's.
+// and exposure. What of a light reaches the point, `lightShare`, is shadow.glsl's or unshadowed.glsl's; what its surroundings
+// send, `surroundingLight`, is surrounding_sky.glsl's or surrounding_bricks.glsl's.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 
 layout(set = 0, binding = 8, std140) readonly buffer LightingBlock { Lighting lighting; };
@@ -39,6 +40,9 @@ vec3 irradianceOf(Light light, vec3 position, out vec3 to_light)
     return light.intensity * attenuation;
 }
 
+// Radiance towards the eye, of all but the lights; occlusion: that of the material's texture.
+vec3 surroundingLight(SurfacePoint point, Shading shading, float occlusion);
+
 vec3 lit(SurfacePoint point, SurfaceUvs uvs, vec3 base)
 {
     vec3 normal = shadingNormal(point, uvs);
@@ -63,21 +67,7 @@ vec3 lit(SurfacePoint point, SurfaceUvs uvs, vec3 base)
 
     float occlusion =
         mix(1.0, sampleSurface(uvs, kTextureOcclusion, occlusion_texture).r, material.occlusion_strength);
-    vec2 scale_bias = specularScaleBias(shading.roughness, shading.n_dot_v);
-    vec3 specular = shading.f0 * scale_bias.x + scale_bias.y;
-    vec3 mirror = reflect(-shading.to_eye, normal);
-    vec3 diffuse_sky = (1.0 - specular) * shading.diffuse * skyIrradiance(normal);
-    vec3 specular_sky = specular * skyRadiance(mirror, shading.roughness);
-    if (kSkyVisibility)
-    {
-        // The smaller counts: a texture is usually baked from the same form and would hide the sky twice; what it has beyond
-        // that, fine form that the mesh lacks, is where it says less.
-        SkyView sky = skyView(point, normal);
-        radiance += min(occlusion, diffuseSky(sky)) * diffuse_sky +
-                    min(occlusion, specularSky(sky, shading.roughness, shading.n_dot_v, mirror)) * specular_sky;
-    }
-    else
-        radiance += occlusion * (diffuse_sky + specular_sky);
+    radiance += surroundingLight(point, shading, occlusion);
     return radiance + material.emissive * sampleSurface(uvs, kTextureEmissive, emissive_texture).rgb;
 }
 

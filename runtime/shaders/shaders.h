@@ -23,6 +23,9 @@ extern const std::span<const uint32_t> plan_skinning_comp;
 extern const std::span<const uint32_t> skin_vertices_comp;
 extern const std::span<const uint32_t> pyramid_tiles_comp;
 extern const std::span<const uint32_t> pyramid_top_comp;
+extern const std::span<const uint32_t> light_faces_comp;
+extern const std::span<const uint32_t> gather_points_comp;
+extern const std::span<const uint32_t> gather_rays_comp;
 extern const std::span<const uint32_t> tile_materials_comp;
 extern const std::span<const uint32_t> tile_offsets_comp;
 extern const std::span<const uint32_t> tile_lists_comp;
@@ -41,9 +44,13 @@ extern const std::span<const uint32_t> material_depth_frag;
 extern const std::span<const uint32_t> shaded_area_vert;
 extern const std::span<const uint32_t> shading_frag;
 extern const std::span<const uint32_t> shading_shadowed_frag;
+extern const std::span<const uint32_t> shading_gathered_frag;
+extern const std::span<const uint32_t> shading_shadowed_gathered_frag;
 extern const std::span<const uint32_t> inspect_frag;
 extern const std::span<const uint32_t> inspect_clusters_frag;
 extern const std::span<const uint32_t> inspect_shadows_frag;
+extern const std::span<const uint32_t> inspect_bricks_frag;
+extern const std::span<const uint32_t> inspect_gathered_frag;
 extern const std::span<const uint32_t> sky_frag;
 
 } // namespace hearth::shaders

@@ -10,6 +10,7 @@
 #include "resolve.glsl"
 #include "unshadowed.glsl"
 #include "lighting.glsl"
+#include "surrounding_sky.glsl"
 
 layout(input_attachment_index = 0, set = 2, binding = 0) uniform usubpassInput visibility;
 

@@ -26,7 +26,9 @@ const char* const kDrawHelp =
     "                          characters; grey: none), overdraw (white: 16) or shadow-maps (grey:\n"
     "                          none); of packs with visibility also ao, bent-normal, aperture (white: 90 "
     "degrees),\n"
-    "                          specular-occlusion (dark red: a mesh without)\n"
+    "                          specular-occlusion (dark red: a mesh without); of packs with bricks also "
+    "bricks,\n"
+    "                          brick-lighting (red: unknown), gi (their light alone, on white)\n"
     "      --ambient-occlusion MODE\n"
     "                          of the sky, in packs with visibility: exact (default), smoothstep, quadratic, "
     "off\n"
@@ -34,6 +36,8 @@ const char* const kDrawHelp =
     "                          of the sky's mirror image, the same: fit (default), table (the pack's, else "
     "the fit),\n"
     "                          off\n"
+    "      --gi off|on         the light of bricks, in packs that have them (default: on); off: a constant "
+    "sky\n"
     "      --shadows SETTINGS  off (default), on, or some of maps=N (16 at most), texels=N (1024), kernel=N "
     "(1:\n"
     "                          3x3), bias=B (2: how much coarser than the picture), splits=N (4), near=M, "
@@ -143,6 +147,14 @@ Status parseCull(std::string_view text, FrameSettings& settings)
     return success();
 }
 
+Status parseGi(std::string_view text, FrameSettings& settings)
+{
+    if (text != "on" && text != "off")
+        return usageError("--gi: " + quoted(text) + " is neither off nor on");
+    settings.bricks_light = text == "on";
+    return success();
+}
+
 Status parseErrorPixels(std::string_view text, FrameSettings& settings)
 {
     const auto number = parseNumber<float>(text);
@@ -214,6 +226,7 @@ void addDrawOptions(CommandLine& command_line, DrawOptions& options)
                               return parseChoice("--specular-occlusion", specularOcclusionNames(), text,
                                                  settings.specular_occlusion);
                           });
+    command_line.addValue("--gi", [&](std::string_view text) { return parseGi(text, settings); });
     command_line.addValue(
         "--shaded-area", [&](std::string_view text)
         { return parseChoice("--shaded-area", shadedAreaNames(), text, settings.shaded_area); });
@@ -241,6 +254,14 @@ Status checkDrawOptions(const DrawOptions& options)
 {
     if (options.settings.view == shared::kViewShadowMaps && options.shadows.options.max_maps == 0)
         return usageError("--view shadow-maps needs --shadows");
+    return success();
+}
+
+Status checkPack(const DrawOptions& options, const formats::PackView& pack)
+{
+    if (gpu::showsBricks(options.settings.view) && pack.brickGrid().empty())
+        return Error{Issue::usage, pack.name(), "",
+                     "--view: the pack has no bricks (hearth cook --bricks makes them)"};
     return success();
 }
 

@@ -39,6 +39,9 @@ void addDrawOptions(CommandLine& command_line, DrawOptions& options);
 /// What can only be said once all options are read. errors: usage.
 Status checkDrawOptions(const DrawOptions& options);
 
+/// What depends on the pack. errors: usage.
+Status checkPack(const DrawOptions& options, const formats::PackView& pack);
+
 /// 1 to 10000 frames. errors: usage, naming the option --frames.
 Status parseFrames(std::string_view text, uint32_t& frames);
 

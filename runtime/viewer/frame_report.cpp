@@ -104,6 +104,22 @@ Result<SkinningCounts> readSkinning(VulkanHost& host, const gpu::Renderer& rende
     return SkinningCounts{clusters, std::min(clusters, header.block_count)};
 }
 
+BrickCounts countBricks(const gpu::Scene& scene, const gpu::FrameTargets& targets)
+{
+    HEARTH_ASSERT(scene.bricks != nullptr);
+    const gpu::SceneBricks& bricks = *scene.bricks;
+    BrickCounts counts{.bricks = bricks.grid.brick_count,
+                       .faces = bricks.grid.face_count,
+                       .lit_faces = bricks.share.face_count,
+                       .period = bricks.period,
+                       .rays = bricks.rays,
+                       .tiles = targets.gather().tiles().width * targets.gather().tiles().height};
+    for (const gpu::Buffer* buffer : {&bricks.view, &bricks.groups, &bricks.bricks, &bricks.places,
+                                      &bricks.opacity, &bricks.surfaces, &bricks.lighting, &bricks.fresh})
+        counts.bytes += buffer->size;
+    return counts;
+}
+
 std::array<double, gpu::kTimestampCount> medianPassTimes(const std::vector<std::vector<double>>& frames)
 {
     std::array<double, gpu::kTimestampCount> medians{};
@@ -159,6 +175,14 @@ std::string formatReport(const FrameReport& report, const formats::PackView& pac
     if (report.skinning)
         add("skinning", "{\"clusters\":" + std::to_string(report.skinning->clusters) +
                             ",\"in_scratch\":" + std::to_string(report.skinning->in_scratch) + "}");
+    if (report.bricks)
+        add("bricks", "{\"bytes\":" + std::to_string(report.bricks->bytes) +
+                          ",\"bricks\":" + std::to_string(report.bricks->bricks) +
+                          ",\"faces\":" + std::to_string(report.bricks->faces) +
+                          ",\"lit_faces\":" + std::to_string(report.bricks->lit_faces) +
+                          ",\"period\":" + std::to_string(report.bricks->period) +
+                          ",\"rays\":" + std::to_string(report.bricks->rays) +
+                          ",\"tiles\":" + std::to_string(report.bricks->tiles) + "}");
     add("milliseconds",
         "{\"frame\":" + number(report.milliseconds[0]) +
             ",\"shadows\":" + number(report.milliseconds[gpu::kTimestampShadows]) +

@@ -34,6 +34,18 @@ struct SkinningCounts
 };
 Result<SkinningCounts> readSkinning(VulkanHost& host, const gpu::Renderer& renderer, const gpu::Scene& scene);
 
+/// The light of bricks in the last frame of a scene that has them.
+struct BrickCounts
+{
+    uint64_t bytes = 0; ///< of their buffers on the device
+    uint32_t bricks = 0, faces = 0;
+    uint32_t lit_faces = 0; ///< of these, by the frame
+    uint32_t period = 0;    ///< frames that light all of them
+    uint32_t rays = 0;      ///< of a face that is lit
+    uint32_t tiles = 0;     ///< for which light was gathered
+};
+BrickCounts countBricks(const gpu::Scene& scene, const gpu::FrameTargets& targets);
+
 struct FrameCounts
 {
     uint64_t drawn_clusters = 0, early_clusters = 0, dropped_clusters = 0, drawn_triangles = 0;
@@ -52,6 +64,7 @@ struct FrameReport
     std::vector<StreamCounts> streaming;    ///< the same frames; empty where all is resident
     std::vector<ShadowCounts> shadows;      ///< the same frames; empty where there are none
     std::optional<SkinningCounts> skinning; ///< of the last frame; none where there are no characters
+    std::optional<BrickCounts> bricks;      ///< the same; none where there are none
     std::array<double, gpu::kTimestampCount>
         milliseconds{}; ///< of the pass that ends with the timestamp; [0] is the frame
 };

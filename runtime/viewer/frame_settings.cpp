@@ -24,6 +24,9 @@ std::span<const Named<uint32_t>> viewNames()
         {"bent-normal", shared::kViewBentNormal},
         {"aperture", shared::kViewAperture},
         {"specular-occlusion", shared::kViewSpecularOcclusion},
+        {"bricks", shared::kViewBricks},
+        {"brick-lighting", shared::kViewBrickLighting},
+        {"gi", shared::kViewGathered},
         {"shadow-maps", shared::kViewShadowMaps},
     };
     return kViews;
@@ -77,7 +80,8 @@ gpu::FrameInput makeFrame(const FrameSettings& settings, const shared::Camera& c
                         .depth_scale = length(camera.target - camera.position),
                         .area = settings.shaded_area,
                         .ambient_occlusion = settings.ambient_occlusion,
-                        .specular_occlusion = settings.specular_occlusion}};
+                        .specular_occlusion = settings.specular_occlusion,
+                        .bricks_light = settings.bricks_light}};
 }
 
 } // namespace hearth::viewer

@@ -21,6 +21,7 @@ struct FrameSettings
     uint32_t cull_flags = shared::kCullEverything;
     uint32_t ambient_occlusion = shared::kAmbientOcclusionExact; ///< shared::kAmbientOcclusion*
     uint32_t specular_occlusion = shared::kSpecularOcclusionFit; ///< shared::kSpecularOcclusion*
+    bool bricks_light = true;                                    ///< of packs with bricks
 };
 
 /// A value and what people call it.

@@ -40,4 +40,7 @@ const std::vector<MalformedPack>& malformedDeformations();
 /// Wrong tables of specular occlusion.
 const std::vector<MalformedPack>& malformedSpecularTables();
 
+/// Wrong grids of bricks.
+const std::vector<MalformedPack>& malformedBricks();
+
 } // namespace hearth::test

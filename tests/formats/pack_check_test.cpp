@@ -110,6 +110,7 @@ INSTANTIATE_TEST_SUITE_P(Deformation, MalformedPackTest, testing::ValuesIn(malfo
                          kCaseName);
 INSTANTIATE_TEST_SUITE_P(Specular, MalformedPackTest, testing::ValuesIn(malformedSpecularTables()),
                          kCaseName);
+INSTANTIATE_TEST_SUITE_P(Bricks, MalformedPackTest, testing::ValuesIn(malformedBricks()), kCaseName);
 INSTANTIATE_TEST_SUITE_P(Hierarchy, MalformedPackTest, testing::ValuesIn(malformedHierarchies()), kCaseName);
 
 TEST(MalformedPacks, haveOneForEveryIssueOfMeaning)

@@ -3,6 +3,7 @@
 
 #include "formats/cluster_bounds.h"
 #include "formats/container_reader.h"
+#include "formats/shared/brick_codes.h"
 #include "formats/visibility_code.h"
 
 #include <bit>
@@ -267,6 +268,19 @@ void addSpecularTable(PackModel& pack)
     pack.specular_tables.push_back(table);
 }
 
+/// Two groups along x, three bricks: a row of two voxels in the first, a corner of the grid in the second.
+void addBricks(PackModel& pack)
+{
+    pack.bricks = brickModel({19, 5, 3}, [](uint32_t x, uint32_t y, uint32_t z)
+                             { return y == 4 && z == 2 && (x == 2 || x == 3 || x == 7 || x == 18); });
+    pack.bricks.grid.origin = {-4, 0, -1};
+    pack.bricks.grid.voxel_size = 0.5f;
+    pack.bricks.opacity[1] = 51;
+    pack.bricks.albedo[2] = shared::encodeAlbedo({1, 0.2f, 0});
+    pack.bricks.emission[3] = pack.bricks.lighting[3] = shared::encodeRadiance({4, 2, 0.5f});
+    pack.brick_grids = {pack.bricks.grid};
+}
+
 void addNodes(PackModel& pack)
 {
     NodeRecord node{};
@@ -483,6 +497,14 @@ std::vector<ChunkImage> PackModel::chunks(bool compressed) const
     table(kChunkDeformedClusters, deformed_clusters);
     table(kChunkClusterJoints, cluster_joints);
     table(kChunkSpecular, specular_tables);
+    table(kChunkBrickGrid, brick_grids);
+    table(kChunkBrickGroups, bricks.groups);
+    table(kChunkBricks, bricks.bricks);
+    table(kChunkBrickOpacity, bricks.opacity);
+    table(kChunkBrickAlbedo, bricks.albedo);
+    table(kChunkBrickNormals, bricks.normals);
+    table(kChunkBrickEmission, bricks.emission);
+    table(kChunkBrickLighting, bricks.lighting);
     list.push_back(plainChunk(kChunkPages, 0, 1, page_bytes));
     for (uint32_t i = 0; i < image_data.size(); ++i)
         bytes(kChunkImageData, i, 1, image_data[i]);
@@ -502,6 +524,7 @@ PackModel smallPack()
     addTriangle(pack);
     addBounds(pack);
     addSpecularTable(pack);
+    addBricks(pack);
     pack.sealPages();
     return pack;
 }

@@ -6,6 +6,7 @@
 #include "formats/mesh.h"
 #include "formats/scene.h"
 #include "formats/specular.h"
+#include "tests/formats/brick_model.h"
 #include "tests/formats/container_image.h"
 
 #include <string>
@@ -47,6 +48,8 @@ struct PackModel
     std::vector<uint32_t> cluster_joints;
     std::vector<formats::DeformedGroupRecord> deformed_groups; ///< in parts alone
     std::vector<formats::SpecularTableRecord> specular_tables;
+    std::vector<formats::BrickGridRecord> brick_grids;
+    BrickModel bricks; ///< without its grid, which stands in brick_grids
 
     /// Encode decoded_pages into page_bytes again, and set offset, size and hash of the page records.
     /// The second page is stored as it is, the others by zstd.

@@ -2,6 +2,7 @@
 #include "tests/fuzz/exercise_pack.h"
 
 #include "formats/channel_keys.h"
+#include "formats/shared/brick_march.h"
 #include "runtime/pack/cut.h"
 #include "runtime/pack/pack.h"
 #include "runtime/pack/page_graph.h"
@@ -116,6 +117,29 @@ void useImage(const PackView& view, uint32_t index)
     HEARTH_ASSERT(texels.ok() && texels->bytes().size() == mipOffset(image, image.mip_count));
 }
 
+/// March through the bricks from corner to corner, and read what each face has.
+void useBricks(const PackView& view)
+{
+    const shared::BrickMasks masks{brickGridOf(view.brickGrid()[0]), view.brickGroups(), view.bricks()};
+    const Float3 end{static_cast<float>(masks.grid.voxels_x), static_cast<float>(masks.grid.voxels_y),
+                     static_cast<float>(masks.grid.voxels_z)};
+    const float size = length(end);
+    for (const Float3 corner : {Float3{0, 0, 0}, Float3{end.x, 0, 0}, Float3{0, end.y, 0}, Float3{0, 0, end.z}})
+    {
+        const Float3 way = (end - corner * 2) / size;
+        shared::BrickRay ray = shared::brickRayInVoxels(masks.grid, corner, way, shared::kBrickFar);
+        for (ray = brickMarch(masks, ray); ray.inside != 0; ray = brickMarch(masks, brickPass(masks, ray)))
+        {
+            const BrickRecord& brick = view.bricks()[ray.brick];
+            use(view.brickOpacity()[brickVoxel(brick, ray.bit)]);
+            for (uint32_t face = 0; face < shared::kVoxelFaces; ++face)
+                if (const uint32_t index = brickFace(brick, ray.bit, face); index != shared::kNoFace)
+                    use(uint64_t{view.brickAlbedo()[index]} + view.brickNormals()[index] +
+                        view.brickEmission()[index] + view.brickLighting()[index]);
+        }
+    }
+}
+
 } // namespace
 
 Status exercisePack(std::span<const std::byte> bytes)
@@ -132,6 +156,8 @@ Status exercisePack(std::span<const std::byte> bytes)
     for (const MaterialRecord& material : pack->materials())
         if (material.base_color_texture.image != kNone)
             use(pack->images()[material.base_color_texture.image].width);
+    if (!pack->brickGrid().empty())
+        useBricks(pack.view());
     return success();
 }
 

@@ -163,7 +163,7 @@ TEST_F(CApiTest, otherVersionsAreRefused)
     EXPECT_THAT(message_, HasSubstr("compile with the hearth.h of the library"));
 
     description = c_caller_description(caller_);
-    for (const uint32_t version : {0x00020000u, 0x00010004u, 0u})
+    for (const uint32_t version : {0x00020000u, 0x00010005u, 0u})
     {
         description.api_version = version;
         EXPECT_EQ(hearth_renderer_create(&description, &renderer, message_, sizeof(message_)),

@@ -135,10 +135,13 @@ Picture GpuTest::draw(const gpu::Scene& scene, gpu::FrameTargets& targets, const
                                 .shading = {.shown = options.shown,
                                             .area = options.area,
                                             .ambient_occlusion = options.ambient_occlusion,
-                                            .specular_occlusion = options.specular_occlusion},
+                                            .specular_occlusion = options.specular_occlusion,
+                                            .bricks_light = options.bricks_light},
                                 .moves = options.moves,
                                 .poses = options.poses,
-                                .shadow_spheres = options.shadow_spheres};
+                                .shadow_spheres = options.shadow_spheres,
+                                .lights = options.lights,
+                                .emission = options.emission};
     const Status status = host().run(
         [&](VkCommandBuffer commands)
         {

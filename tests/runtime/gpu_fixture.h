@@ -47,6 +47,9 @@ struct DrawOptions
     std::span<const gpu::InstanceMove> moves{};
     std::span<const gpu::InstancePose> poses{};
     std::span<const gpu::ShadowSphere> shadow_spheres{};
+    std::span<const gpu::LightChange> lights{};
+    std::span<const gpu::EmissionScale> emission{};
+    bool bricks_light = true;
 };
 
 /// Skips where there is no device; fails where the validation layers say anything, in any test.

@@ -38,13 +38,6 @@ TEST(ViewOptions, nameAClipAndAMomentOfIt)
     EXPECT_EQ(standing->animation.seconds, -0.5);
 }
 
-TEST(ViewNames, endWithTheOneThatNeedsShadows)
-{
-    // the panel leaves the last one out where there are none
-    for (const viewer::Named<uint32_t>& view : viewer::viewNames())
-        EXPECT_EQ(view.value == shared::kViewShadowMaps, &view == &viewer::viewNames().back()) << view.name;
-}
-
 TEST(ViewOptions, mistakesAreNamed)
 {
     const auto expectUsage = [](std::vector<const char*> arguments, const std::string& mention)

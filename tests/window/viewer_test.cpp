@@ -121,6 +121,8 @@ TEST_F(WindowTest, showsEveryView)
 {
     for (const viewer::Named<uint32_t>& view : viewer::viewNames())
     {
+        if (gpu::showsBricks(view.value)) // the pack has none
+            continue;
         settings().frame.view = view.value;
         EXPECT_EQ(play(2), 2u) << view.name;
     }

@@ -115,6 +115,17 @@ public:
         return success();
     }
 
+    /// Lets the light of bricks settle, where the picture shows it.
+    Status settle(const shared::Camera& camera)
+    {
+        if (scene_.bricks == nullptr || !(settings_.bricks_light || gpu::showsBricks(settings_.view)))
+            return success();
+        for (uint32_t i = 0; i < options_.gi_frames; ++i)
+            HEARTH_TRY(draw(camera, 0));
+        times_.clear();
+        return success();
+    }
+
     Status draw(const shared::Camera& camera, size_t number)
     {
         gpu::FrameInput frame = frameOf(camera);
@@ -181,20 +192,21 @@ public:
     {
         if (options_.stats.empty())
             return success();
-        const FrameReport report{.device = host_.deviceName(),
-                                 .width = targets_.extent().width,
-                                 .height = targets_.extent().height,
-                                 .error_pixels = options_.settings.error_pixels,
-                                 .scene_bytes =
-                                     scene_.arena.allocatedBytes() +
-                                     (scene_.stream == nullptr ? 0 : scene_.stream->allocatedBytes()),
-                                 .target_bytes = targets_.allocatedBytes(),
-                                 .dropped_lights = scene_.dropped_lights,
-                                 .frames = frames_,
-                                 .streaming = streaming_,
-                                 .shadows = shadows_,
-                                 .skinning = skinning_,
-                                 .milliseconds = medianPassTimes(times_)};
+        const FrameReport report{
+            .device = host_.deviceName(),
+            .width = targets_.extent().width,
+            .height = targets_.extent().height,
+            .error_pixels = options_.settings.error_pixels,
+            .scene_bytes = scene_.arena.allocatedBytes() +
+                           (scene_.stream == nullptr ? 0 : scene_.stream->allocatedBytes()),
+            .target_bytes = targets_.allocatedBytes(),
+            .dropped_lights = scene_.dropped_lights,
+            .frames = frames_,
+            .streaming = streaming_,
+            .shadows = shadows_,
+            .skinning = skinning_,
+            .bricks = scene_.bricks == nullptr ? std::nullopt : std::optional(countBricks(scene_, targets_)),
+            .milliseconds = medianPassTimes(times_)};
         const std::string text = formatReport(report, pack_);
         return writeFile(options_.stats, std::as_bytes(std::span(text)));
     }
@@ -282,6 +294,7 @@ gpu::SceneOptions sceneOptions(const RenderOptions& options, const formats::Pack
 
 Status drawPack(const RenderOptions& options, const formats::PackView& pack, VulkanHost& host)
 {
+    HEARTH_TRY(checkPack(options, pack));
     HEARTH_ASSIGN_OR_RETURN(Animation animation, Animation::create(options.animation, pack));
     animation.goTo(0);
     HEARTH_ASSIGN_OR_RETURN(const std::vector<shared::Camera> cameras,
@@ -307,6 +320,7 @@ Status drawPack(const RenderOptions& options, const formats::PackView& pack, Vul
     Run run(options, pack, animation, host, *renderer, *scene, targets, timestamps);
     if (scene->stream != nullptr && options.camera_path.empty())
         HEARTH_TRY(run.prefetch(cameras.front()));
+    HEARTH_TRY(run.settle(cameras.front()));
     for (size_t i = 0; i < cameras.size(); ++i)
     {
         HEARTH_TRY(run.draw(cameras[i], i));

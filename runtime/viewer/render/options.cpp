@@ -29,6 +29,15 @@ Status parsePyramid(std::string_view text, RenderOptions& options)
     return success();
 }
 
+Status parseGiFrames(std::string_view text, RenderOptions& options)
+{
+    const auto number = parseNumber<uint32_t>(text);
+    if (!number || *number > 10000)
+        return usageError("--gi-frames: " + quoted(text) + " is not a number from 0 to 10000");
+    options.gi_frames = *number;
+    return success();
+}
+
 Status parseSamples(std::string_view text, RenderOptions& options)
 {
     if (text != "1" && text != "4")
@@ -57,6 +66,10 @@ std::string renderHelp()
            "      --samples N         1, or 4 for a smoother picture\n"
            "      --stats FILE        counts and times of the passes as JSON\n"
            "      --frames N          draw N times; the times are medians\n"
+           "      --gi-frames N       in packs with bricks, frames before the first picture, in which their "
+           "light "
+           "settles;\n"
+           "                          default 32\n"
            "      --dump-visibility FILE\n"
            "                          what each pixel shows: \"HVIS\", then 32-bit words: width, height, "
            "slot count;\n"
@@ -85,6 +98,7 @@ Result<RenderOptions> parseRenderOptions(std::span<const char* const> arguments)
     command_line.addText("--stats", options.stats);
     command_line.addValue("--frames",
                           [&](std::string_view text) { return parseFrames(text, options.frames); });
+    command_line.addValue("--gi-frames", [&](std::string_view text) { return parseGiFrames(text, options); });
     command_line.addText("--dump-visibility", options.visibility);
     command_line.addValue("--hzb", [&](std::string_view text) { return parsePyramid(text, options); });
     HEARTH_TRY(command_line.parse(arguments, options.pack));

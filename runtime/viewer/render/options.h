@@ -23,6 +23,7 @@ struct RenderOptions : DrawOptions
     AnimationSettings animation;
     uint32_t samples = 1;
     uint32_t frames = 1;
+    uint32_t gi_frames = 32; ///< of a pack with bricks, before the first picture
     PyramidStart pyramid = PyramidStart::previous;
     uint32_t noise_seed = 0;
     std::string stats;

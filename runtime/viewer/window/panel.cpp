@@ -152,9 +152,14 @@ void Panel::build(ViewSettings& settings, const PanelFacts& facts)
 
 void Panel::buildPicture(FrameSettings& settings, const gpu::Scene& scene)
 {
-    // the last one shows shadow maps
-    chooseNamed("View", viewNames().first(viewNames().size() - (scene.shadows != nullptr ? 0 : 1)),
-                settings.view);
+    std::vector<Named<uint32_t>> views;
+    for (const Named<uint32_t>& view : viewNames())
+        if ((scene.shadows != nullptr || view.value != shared::kViewShadowMaps) &&
+            (scene.bricks != nullptr || !gpu::showsBricks(view.value)))
+            views.push_back(view);
+    chooseNamed("View", std::span<const Named<uint32_t>>(views), settings.view);
+    if (scene.bricks != nullptr)
+        ImGui::Checkbox("Light of bricks", &settings.bricks_light);
     ImGui::SliderFloat("Error, pixels", &settings.error_pixels, 0, kMostError, "%.2f",
                        ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
     chooseNamed("Shaded area", shadedAreaNames(), settings.shaded_area);

@@ -107,6 +107,7 @@ Viewer::Viewer(const ViewOptions& options, const formats::PackView& pack, Playba
 
 Result<std::unique_ptr<Viewer>> Viewer::create(const ViewOptions& options, const formats::PackView& pack)
 {
+    HEARTH_TRY(checkPack(options, pack));
     HEARTH_ASSIGN_OR_RETURN(const std::optional<pack::ClipTime> clip, findClip(options.animation, pack));
     Playback playback(clipDurations(pack), clip);
     pack::PosePlayer player(pack);

@@ -9,6 +9,7 @@
 #include "runtime/shaders/surface_point.glsl"
 #include "runtime/shaders/unshadowed.glsl"
 #include "runtime/shaders/lighting.glsl"
+#include "runtime/shaders/surrounding_sky.glsl"
 
 layout(location = 0) in vec3 in_position;
 layout(location = 1) in vec3 in_normal;

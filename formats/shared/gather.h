@@ -1,0 +1,83 @@
+// Light that is gathered for the picture: once for each tile of 8 x 8 pixels, at one of its points. What the passes that
+// find the points, gather and shade agree on, written once for C++ and GLSL. See runtime/gpu/README.md, "The light of bricks".
+//
+// The light that falls on a point is kept as cosine-weighted moments of the radiance over the hemisphere of its normal n:
+// the mean m0, which is irradiance / pi, and the mean of radiance times direction, of which the part across n is m1. For
+// radiance that is linear in the direction, L0 + dot(L1, d), the part of L1 across n is 4 m1, so that irradiance / pi at
+// another normal is m0 + 8 / 3 dot(m1, normal), and the radiance itself m0 + 4 dot(m1, d) (the part of L1 along n is taken
+// for none: what it does at n itself is in m0).
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#ifndef HEARTH_SHARED_GATHER_H
+#define HEARTH_SHARED_GATHER_H
+
+#include "formats/shared/language.h"
+
+HEARTH_SHARED_BEGIN
+
+/// Side of a tile.
+HEARTH_CONSTANT uint kGatherPixels = 8;
+
+/// Rays of a point a frame, and frames after which their directions come again.
+HEARTH_CONSTANT uint kGatherRays = 16;
+HEARTH_CONSTANT uint kGatherFrames = 16;
+
+/// Of these so many more about the mirror's direction, for smooth surfaces: a cone of this tangent, that of a GGX lobe of
+/// roughness kGatherLobe.
+HEARTH_CONSTANT uint kGatherMirrorRays = 4;
+HEARTH_CONSTANT float kGatherLobe = 0.4f;
+HEARTH_CONSTANT float kGatherLobeTangent = 0.16f;
+
+/// Frames whose mean the lobe shows: it follows the eye.
+HEARTH_CONSTANT float kGatherMirrorMemory = 8.0f;
+
+/// Points of a workgroup.
+HEARTH_CONSTANT uint kGatherGroupPoints = 4;
+
+/// Frames whose mean a point shows, about: at rest, and after light has changed.
+HEARTH_CONSTANT float kGatherMemory = 32.0f;
+HEARTH_CONSTANT float kGatherShortMemory = 4.0f;
+
+/// What a tile knows. count 0: it shows nothing but sky.
+struct GatherPoint
+{
+    Float3 position; ///< relative to the eye of its frame
+    float count;     ///< frames that it has gathered, up to the memory
+    Float3 normal;   ///< unit, world axes
+    float sky;       ///< share of its rays that met no brick
+    Float3 mean;     ///< m0, linear colour
+    float reserved;
+    Float4 red; ///< m1 of each colour, world axes; w: radiance of the mirror's lobe
+    Float4 green;
+    Float4 blue;
+};
+
+/// The tiles of a frame, and how those of the frame before were seen.
+struct GatherView
+{
+    Float4 clip_x; ///< of the frame before, as FrameView
+    Float4 clip_y;
+    Float4 clip_w;
+    Float3 eye_step; ///< from the eye of the frame before to this one's, metres
+    float memory;    ///< frames: kGatherMemory, or fewer
+    Float3 eye;      ///< from the grid's origin, metres
+    uint frame;      ///< counts up
+    uint tiles_x;
+    uint tiles_y;
+    uint known;       ///< 0: nothing is known of a frame before
+    float tile_angle; ///< metres that a tile covers at a distance of one metre
+};
+
+HEARTH_FUNCTION uint gatherTiles(uint pixels)
+{
+    return (pixels + kGatherPixels - 1u) / kGatherPixels;
+}
+
+HEARTH_SHARED_END
+
+#ifdef __cplusplus
+// sizes as std430 and std140 lay them out
+static_assert(sizeof(hearth::shared::GatherPoint) == 96);
+static_assert(sizeof(hearth::shared::GatherView) == 96);
+#endif
+
+#endif

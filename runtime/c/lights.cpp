@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "runtime/c/lights.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hearth::c
+{
+
+Status makeLights(hearth_scene& scene, const hearth_frame& frame)
+{
+    if (frame.light_count > 0 && frame.lights == nullptr)
+        return usage("lights is NULL");
+    scene.lights.clear();
+    for (uint32_t i = 0; i < frame.light_count; ++i)
+    {
+        const hearth_light_change& change = frame.lights[i];
+        formats::LightRecord record{};
+        if (change.light < scene.scene->lights.size())
+            record.type = scene.scene->lights[change.light].type;
+        static_assert(sizeof(record.world_from_light.m) == sizeof(change.world_from_light));
+        std::copy_n(&change.world_from_light[0][0], 12, &record.world_from_light.m[0][0]);
+        record.color = {change.color[0], change.color[1], change.color[2]};
+        record.intensity = change.intensity;
+        record.range = change.range;
+        record.inner_cone_rad = change.inner_cone_rad;
+        record.outer_cone_rad = change.outer_cone_rad;
+        HEARTH_ASSIGN_OR_RETURN(const gpu::LightChange made,
+                                gpu::changeLight(*scene.scene, change.light, record));
+        scene.lights.push_back(made);
+    }
+    return success();
+}
+
+Status makeEmissions(hearth_scene& scene, const hearth_frame& frame)
+{
+    if (frame.emission_count > 0 && frame.emissions == nullptr)
+        return usage("emissions is NULL");
+    if (frame.emission_count > shared::kMaxEmissionBoxes)
+        return usage("emission_count is above " + std::to_string(shared::kMaxEmissionBoxes));
+    scene.emissions.clear();
+    for (uint32_t i = 0; i < frame.emission_count; ++i)
+    {
+        const hearth_emission_scale& e = frame.emissions[i];
+        const float values[] = {e.box_min[0], e.box_min[1], e.box_min[2], e.box_max[0],
+                                e.box_max[1], e.box_max[2], e.factor};
+        if (!std::all_of(std::begin(values), std::end(values), [](float v) { return std::isfinite(v); }) ||
+            e.factor < 0)
+            return usage("emission " + std::to_string(i) + " is not finite with a factor from 0");
+        scene.emissions.push_back(
+            {.box = {{e.box_min[0], e.box_min[1], e.box_min[2]}, {e.box_max[0], e.box_max[1], e.box_max[2]}},
+             .factor = e.factor});
+    }
+    return success();
+}
+
+} // namespace hearth::c

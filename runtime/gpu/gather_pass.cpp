@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "runtime/gpu/gather_pass.h"
+
+#include "runtime/shaders/shaders.h"
+
+namespace hearth::gpu
+{
+
+namespace
+{
+
+constexpr uint32_t kPointGroupTiles = 8; // each way, as gather_points.comp has it
+
+void bind(const Device& device, VkCommandBuffer commands, const ComputePipeline& pipeline,
+          VkDescriptorSet first, VkDescriptorSet second)
+{
+    const VkDescriptorSet sets[] = {first, second};
+    device.vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.pipeline.get());
+    device.vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.layout.get(), 0, 2,
+                                      sets, 0, nullptr);
+}
+
+void transition(const Device& device, VkCommandBuffer commands, const Image& image, VkImageLayout from,
+                VkImageLayout to, VkAccessFlags written, VkAccessFlags read, VkPipelineStageFlags from_stage,
+                VkPipelineStageFlags to_stage)
+{
+    VkImageMemoryBarrier info{};
+    info.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER;
+    info.srcAccessMask = written;
+    info.dstAccessMask = read;
+    info.oldLayout = from;
+    info.newLayout = to;
+    info.srcQueueFamilyIndex = info.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
+    info.image = image.handle.get();
+    info.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
+    device.vk.vkCmdPipelineBarrier(commands, from_stage, to_stage, 0, 0, nullptr, 0, nullptr, 1, &info);
+}
+
+bool hasDeformed(const Scene& scene)
+{
+    return scene.deformation != nullptr;
+}
+
+} // namespace
+
+Result<GatherPass> GatherPass::create(const Device& device, const DrawLayouts& layouts)
+{
+    GatherPass pass;
+    const VkDescriptorSetLayout point_sets[] = {layouts.scene.get(), layouts.gather_point.get()};
+    for (const size_t slices : {size_t{0}, size_t{1}})
+        for (const size_t deformed : {size_t{0}, size_t{1}})
+        {
+            const uint32_t constants[] = {slices == 0 ? 1 : shared::kPoolSlices, 0, 0, 0,
+                                          deformed == 0 ? kRigid : kDeformedInScratch};
+            HEARTH_ASSIGN_OR_RETURN(
+                pass.points_[slices][deformed],
+                createComputePipeline(device, shaders::gather_points_comp, point_sets, constants));
+        }
+    const VkDescriptorSetLayout ray_sets[] = {layouts.bricks.get(), layouts.gather.get()};
+    HEARTH_ASSIGN_OR_RETURN(pass.rays_, createComputePipeline(device, shaders::gather_rays_comp, ray_sets));
+    return pass;
+}
+
+void GatherPass::record(const Device& device, VkCommandBuffer commands, const Scene& scene,
+                        FrameTargets& targets, const shared::FrameView& view, bool light_changes) const
+{
+    constexpr VkPipelineStageFlags kCompute = VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT;
+    GatherTargets& gather = targets.gather();
+    const shared::GatherView told = gather.beginFrame(view, scene.bricks->grid.origin, light_changes);
+    const auto [tiles_x, tiles_y] = gather.tiles();
+    // behind the gathering and shading of the frame before
+    transition(device, commands, gather.texels(), VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_GENERAL, 0,
+               VK_ACCESS_SHADER_WRITE_BIT, kCompute | VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT, kCompute);
+    barrier(device, commands, kCompute | VK_PIPELINE_STAGE_TRANSFER_BIT,
+            VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT,
+            kCompute | VK_PIPELINE_STAGE_TRANSFER_BIT,
+            VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT);
+    device.vk.vkCmdUpdateBuffer(commands, gather.view().handle.get(), 0, sizeof(told), &told);
+    barrier(device, commands, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT, kCompute,
+            VK_ACCESS_UNIFORM_READ_BIT);
+
+    bind(device, commands, points_[scene.used_slices == 1 ? 0 : 1][hasDeformed(scene) ? 1 : 0],
+         scene.draw_set, gather.pointSet());
+    device.vk.vkCmdDispatch(commands, (tiles_x + kPointGroupTiles - 1) / kPointGroupTiles,
+                            (tiles_y + kPointGroupTiles - 1) / kPointGroupTiles, 1);
+    barrier(device, commands, kCompute, VK_ACCESS_SHADER_WRITE_BIT, kCompute,
+            VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT);
+    bind(device, commands, rays_, scene.bricks->set, gather.gatherSet());
+    device.vk.vkCmdDispatch(commands, (tiles_x + shared::kGatherGroupPoints - 1) / shared::kGatherGroupPoints,
+                            tiles_y, 1);
+    barrier(device, commands, kCompute, VK_ACCESS_SHADER_WRITE_BIT, VK_PIPELINE_STAGE_TRANSFER_BIT,
+            VK_ACCESS_TRANSFER_READ_BIT);
+    transition(device, commands, gather.texels(), VK_IMAGE_LAYOUT_GENERAL,
+               VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, VK_ACCESS_SHADER_WRITE_BIT,
+               VK_ACCESS_SHADER_READ_BIT, kCompute, VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT);
+}
+
+} // namespace hearth::gpu

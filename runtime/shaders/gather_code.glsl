@@ -1,0 +1,56 @@
+// How what was gathered for a tile is handed to shading: two texels of 128 bits. Needs formats/shared/gather.h.
+// Also formats/shared/brick_codes.h.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+
+struct GatherTexels
+{
+    uvec4 mean;    // mean and share of sky as halves, normal, where the plane of the point lies
+    uvec4 moments; // along the two axes of gatherAxes, of red, green and blue, as halves; the lobe as R11G11B10F
+};
+
+vec2 gatherOctahedral(vec3 n)
+{
+    n /= abs(n.x) + abs(n.y) + abs(n.z);
+    return n.z >= 0.0 ? n.xy : (1.0 - abs(n.yx)) * vec2(n.x < 0.0 ? -1.0 : 1.0, n.y < 0.0 ? -1.0 : 1.0);
+}
+
+vec3 gatherNormal(uint code)
+{
+    vec2 p = unpackSnorm2x16(code);
+    vec3 n = vec3(p, 1.0 - abs(p.x) - abs(p.y));
+    if (n.z < 0.0)
+        n.xy = (1.0 - abs(p.yx)) * vec2(p.x < 0.0 ? -1.0 : 1.0, p.y < 0.0 ? -1.0 : 1.0);
+    return normalize(n);
+}
+
+// Two unit vectors across a normal. T. Duff et al., "Building an orthonormal basis, revisited", 2017.
+void gatherAxes(vec3 n, out vec3 first, out vec3 second)
+{
+    float side = n.z < 0.0 ? -1.0 : 1.0;
+    float a = -1.0 / (side + n.z);
+    float b = n.x * n.y * a;
+    first = vec3(1.0 + side * n.x * n.x * a, side * b, -side * n.x);
+    second = vec3(b, side + n.y * n.y * a, -n.y);
+}
+
+// The plane's distance from the eye; infinite where the tile shows nothing but sky.
+const uint kNoPlane = 0x7F800000u;
+
+GatherTexels encodeGathered(GatherPoint point)
+{
+    const float most = 65000.0; // halves have infinities
+    uint normal_code = packSnorm2x16(gatherOctahedral(point.normal));
+    vec3 normal = gatherNormal(normal_code);
+    vec3 first, second;
+    gatherAxes(normal, first, second);
+    vec4 mean = min(vec4(point.mean, point.sky), vec4(most));
+    vec2 red = clamp(vec2(dot(first, point.red.xyz), dot(second, point.red.xyz)), -most, most);
+    vec2 green = clamp(vec2(dot(first, point.green.xyz), dot(second, point.green.xyz)), -most, most);
+    vec2 blue = clamp(vec2(dot(first, point.blue.xyz), dot(second, point.blue.xyz)), -most, most);
+    GatherTexels texels;
+    texels.mean = uvec4(packHalf2x16(mean.xy), packHalf2x16(mean.zw), normal_code,
+                        point.count > 0.0 ? floatBitsToUint(dot(normal, point.position)) : kNoPlane);
+    texels.moments = uvec4(packHalf2x16(red), packHalf2x16(green), packHalf2x16(blue),
+                          encodeRadiance(vec3(point.red.w, point.green.w, point.blue.w)));
+    return texels;
+}

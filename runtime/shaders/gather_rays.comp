@@ -1,0 +1,215 @@
+// Gathers the light of bricks: a thread a ray, kGatherRays of them for a point. Sums are taken in the order of the rays.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#include "bricks.glsl"
+#include "formats/shared/gather.h"
+#include "gather_code.glsl"
+
+layout(local_size_x = 16, local_size_y = 4) in; // kGatherRays, kGatherGroupPoints
+
+layout(set = 1, binding = 0, std140) uniform Gather { GatherView gather; };
+layout(set = 1, binding = 1, std430) buffer GatherPoints { GatherPoint gather_points[]; };
+layout(set = 1, binding = 2, std430) readonly buffer GatherBefore { GatherPoint points_before[]; };
+layout(set = 1, binding = 3, rgba32ui) uniform writeonly uimage2D gather_texels;
+
+// A ray's light, and how much of it is the sky's; its direction.
+shared vec4 ray_light[kGatherGroupPoints][kGatherRays];
+shared vec3 ray_direction[kGatherGroupPoints][kGatherRays];
+shared vec3 mirror_light[kGatherGroupPoints][kGatherMirrorRays];
+shared BrickStart starts[kGatherGroupPoints];
+
+// As brickRayRadiance, with the share that passes all bricks.
+vec4 rayLight(vec3 place, vec3 direction)
+{
+    BrickGrid grid = brick_view.grid;
+    vec3 radiance = vec3(0.0);
+    float through = 1.0;
+    BrickRay ray = brickMarch(grid, brickRayInVoxels(grid, place, direction, kBrickFar));
+    while (ray.inside != 0u)
+    {
+        Brick brick = brickAt(grid, ray.brick);
+        float opacity = brickOpacityAt(grid, brickVoxel(brick, ray.bit));
+        uint face = brickFace(brick, ray.bit, ray.face);
+        if (face != kNoFace)
+            radiance += brickRadianceAt(grid, face) * (through * opacity);
+        through *= 1.0 - opacity;
+        if (through < kBrickLeastThrough)
+            return vec4(radiance, 0.0);
+        ray = brickMarch(grid, brickPass(grid, ray));
+    }
+    return vec4(radiance + brickSkyRadiance(brickSky(), direction) * through, through);
+}
+
+// Of the cone about the mirror's direction, never below the surface.
+vec3 mirrorDirection(GatherPoint point, uint index)
+{
+    vec3 mirror = reflect(normalize(point.position), point.normal);
+    // by the cosine about the mirror, drawn together to the cone
+    vec3 about = brickRayDirection(mirror, index * kGatherFrames + gather.frame % kGatherFrames,
+                                   kGatherMirrorRays * kGatherFrames, 0u);
+    vec3 direction = mirror + (about - mirror * dot(mirror, about)) * kGatherLobeTangent;
+    float below = dot(direction, point.normal);
+    return normalize(direction - point.normal * (2.0 * min(below, 0.0)));
+}
+
+// The mean over the rays of a frame.
+GatherPoint meanOf(GatherPoint point, uint row)
+{
+    for (uint i = 0u; i < kGatherRays; ++i)
+    {
+        vec4 light = ray_light[row][i];
+        vec3 across = ray_direction[row][i] - point.normal * dot(point.normal, ray_direction[row][i]);
+        point.mean += light.rgb;
+        point.sky += light.a;
+        point.red.xyz += across * light.r;
+        point.green.xyz += across * light.g;
+        point.blue.xyz += across * light.b;
+    }
+    float share = 1.0 / float(kGatherRays);
+    vec3 lobe = vec3(0.0);
+    for (uint i = 0u; i < kGatherMirrorRays; ++i)
+        lobe += mirror_light[row][i];
+    lobe /= float(kGatherMirrorRays);
+    point.mean *= share;
+    point.sky *= share;
+    point.red *= share;
+    point.green *= share;
+    point.blue *= share;
+    point.red.w = lobe.r;
+    point.green.w = lobe.g;
+    point.blue.w = lobe.b;
+    return point;
+}
+
+void add(inout GatherPoint sum, GatherPoint p, float weight)
+{
+    sum.count += p.count * weight;
+    sum.mean += p.mean * weight;
+    sum.sky += p.sky * weight;
+    sum.red += p.red * weight;
+    sum.green += p.green * weight;
+    sum.blue += p.blue * weight;
+}
+
+// How much what was known at `before` says about a point, both relative to the eye of now: it lies in the plane of the
+// point, within a quarter of a tile, and looks the same way.
+float likeness(GatherPoint point, GatherPoint before, float reach)
+{
+    vec3 apart = before.position - gather.eye_step - point.position;
+    float off_plane = abs(dot(point.normal, apart));
+    float alike = dot(point.normal, before.normal);
+    return before.count > 0.0 && off_plane < 0.25 * reach && alike > 0.9 && dot(apart, apart) < 4.0 * reach * reach ? 1.0 : 0.0;
+}
+
+// What the frame before knew at the place of a point. count 0: nothing.
+GatherPoint knownBefore(GatherPoint point)
+{
+    GatherPoint known = point;
+    known.count = known.sky = 0.0;
+    known.mean = vec3(0.0);
+    known.red = known.green = known.blue = vec4(0.0);
+    if (gather.known == 0u)
+        return known;
+    vec3 place = point.position + gather.eye_step;
+    float w = dot(gather.clip_w.xyz, place);
+    if (w < view.z_near)
+        return known;
+    vec2 ndc = vec2(dot(gather.clip_x.xyz, place), dot(gather.clip_y.xyz, place)) / w;
+    // texels of tiles: a point stands for the middle of its own
+    vec2 at = (ndc * 0.5 + 0.5) * vec2(view.width, view.height) / float(kGatherPixels) - 0.5;
+    // where nothing moves the tile itself, exactly
+    at = mix(at, round(at), lessThan(abs(at - round(at)), vec2(0.35)));
+    vec2 low = floor(at);
+    vec2 part = at - low;
+    float reach = max(w, view.z_near) * gather.tile_angle;
+    float sum = 0.0;
+    for (uint i = 0u; i < 4u; ++i)
+    {
+        vec2 corner = vec2(i & 1u, i >> 1);
+        vec2 texel = low + corner;
+        vec2 weights = mix(1.0 - part, part, corner);
+        if (any(lessThan(texel, vec2(0.0))) || texel.x >= float(gather.tiles_x) || texel.y >= float(gather.tiles_y))
+            continue;
+        GatherPoint before = points_before[uint(texel.y) * gather.tiles_x + uint(texel.x)];
+        float weight = weights.x * weights.y * likeness(point, before, reach);
+        if (weight > 0.0)
+            add(known, before, weight);
+        sum += weight;
+    }
+    if (sum < 0.05)
+    {
+        known.count = 0.0;
+        return known;
+    }
+    float scale = 1.0 / sum;
+    known.count *= scale;
+    known.mean *= scale;
+    known.sky *= scale;
+    known.red *= scale;
+    known.green *= scale;
+    known.blue *= scale;
+    return known;
+}
+
+// What is known goes on, with this frame as the next of its frames.
+GatherPoint goOn(GatherPoint fresh, GatherPoint known)
+{
+    float count = min(known.count + 1.0, gather.memory);
+    float share = 1.0 / count;
+    float mirror_share = 1.0 / min(count, kGatherMirrorMemory);
+    fresh.mean = mix(known.mean, fresh.mean, share);
+    fresh.sky = mix(known.sky, fresh.sky, share);
+    vec4 shares = vec4(vec3(share), mirror_share);
+    fresh.red = mix(known.red, fresh.red, shares);
+    fresh.green = mix(known.green, fresh.green, shares);
+    fresh.blue = mix(known.blue, fresh.blue, shares);
+    fresh.count = count;
+    return fresh;
+}
+
+void store(GatherPoint point, uvec2 tile)
+{
+    GatherTexels texels = encodeGathered(point);
+    imageStore(gather_texels, ivec2(tile.x * 2u, tile.y), texels.mean);
+    imageStore(gather_texels, ivec2(tile.x * 2u + 1u, tile.y), texels.moments);
+}
+
+void main()
+{
+    uvec2 tile = uvec2(gl_WorkGroupID.x * kGatherGroupPoints + gl_LocalInvocationID.y, gl_WorkGroupID.y);
+    uint row = gl_LocalInvocationID.y;
+    uint index = gl_LocalInvocationID.x;
+    bool inside = tile.x < gather.tiles_x;
+    uint number = tile.y * gather.tiles_x + tile.x;
+    GatherPoint point;
+    point.count = 0.0;
+    if (inside)
+        point = gather_points[number];
+    bool seen = inside && point.count > 0.0;
+    BrickGrid grid = brick_view.grid;
+    if (seen && index == 0u)
+        starts[row] = brickSurfaceStart(grid, (gather.eye + point.position) / grid.voxel_size, point.normal);
+    barrier();
+    if (seen)
+    {
+        BrickStart start = starts[row];
+        // of a spiral of all rays of a cycle every kGatherFrames-th: each frame covers the hemisphere evenly
+        vec3 direction = brickRayDirection(start.normal, index * kGatherFrames + gather.frame % kGatherFrames,
+                                           kGatherRays * kGatherFrames, brickHash(number));
+        ray_direction[row][index] = direction;
+        ray_light[row][index] = start.buried != 0u ? vec4(0.0) : rayLight(start.place, direction);
+        if (index < kGatherMirrorRays)
+            mirror_light[row][index] =
+                start.buried != 0u ? vec3(0.0) : rayLight(start.place, mirrorDirection(point, index)).rgb;
+    }
+    barrier();
+    if (!inside || index != 0u)
+        return;
+    if (seen)
+    {
+        point = goOn(meanOf(point, row), knownBefore(point));
+        gather_points[number] = point;
+    }
+    store(point, tile);
+}

@@ -1,0 +1,577 @@
+// The march against an exhaustive slab test in doubles over all solid voxels.
+//
+// A float ray may be off by a rounding of its largest coordinate. So a voxel made smaller by that much must be met if the
+// exact ray meets it, one made larger may be: of what must be met nothing may be missed or come late, and what is found must
+// be such that it may be met, by a face through which it may be entered, there.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "tests/formats/brick_model.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <optional>
+#include <random>
+#include <sstream>
+
+namespace hearth::test
+{
+
+using namespace shared;
+
+namespace
+{
+
+using Cell = std::array<uint32_t, 3>;
+using Point = std::array<double, 3>;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+struct Ray
+{
+    Float3 origin;
+    Float3 direction;
+    float far = kBrickFar;
+};
+
+struct Scene
+{
+    Cell voxels{};
+    std::vector<Cell> solid;
+    BrickModel model;
+};
+
+Scene makeScene(Cell voxels, std::vector<Cell> solid)
+{
+    Scene scene{voxels, std::move(solid), {}};
+    std::vector<uint8_t> filled(size_t{voxels[0]} * voxels[1] * voxels[2]);
+    const auto at = [&](uint32_t x, uint32_t y, uint32_t z)
+    { return x + size_t{voxels[0]} * (y + size_t{voxels[1]} * z); };
+    for (const Cell& cell : scene.solid)
+        filled[at(cell[0], cell[1], cell[2])] = 1;
+    scene.model =
+        brickModel(voxels, [&](uint32_t x, uint32_t y, uint32_t z) { return filled[at(x, y, z)] != 0; });
+    return scene;
+}
+
+/// A few blocks and many single voxels; about `count` in all.
+Scene randomScene(Cell voxels, uint32_t count, std::mt19937& random)
+{
+    std::vector<Cell> solid;
+    while (solid.size() < count)
+    {
+        Cell cell{};
+        for (size_t axis = 0; axis < 3; ++axis)
+            cell[axis] = static_cast<uint32_t>(random() % voxels[axis]);
+        const uint32_t block = random() % 8 == 0 ? 1 + static_cast<uint32_t>(random() % 3) : 1;
+        for (uint32_t i = 0; i < block * block * block; ++i)
+        {
+            const Cell part{cell[0] + i % block, cell[1] + i / block % block, cell[2] + i / block / block};
+            if (part[0] < voxels[0] && part[1] < voxels[1] && part[2] < voxels[2])
+                solid.push_back(part);
+        }
+    }
+    std::sort(solid.begin(), solid.end());
+    solid.erase(std::unique(solid.begin(), solid.end()), solid.end());
+    return makeScene(voxels, std::move(solid));
+}
+
+// ------------------------------------------------------------------------------------------------ the oracle
+
+/// Where a ray is inside a box along one axis, and of all axes together.
+struct Chord
+{
+    double in = -kInfinity;
+    double out = kInfinity;
+
+    /// Touched alone is not met.
+    bool met() const { return in < out; }
+};
+
+class Oracle
+{
+public:
+    Oracle(const Scene& scene, const Ray& ray)
+        : scene_(scene),
+          origin_{double{ray.origin.x}, double{ray.origin.y}, double{ray.origin.z}},
+          direction_{double{ray.direction.x}, double{ray.direction.y}, double{ray.direction.z}},
+          far_(double{ray.far})
+    {
+        double largest = 0;
+        for (size_t axis = 0; axis < 3; ++axis)
+        {
+            inverse_[axis] = 1 / direction_[axis];
+            largest = std::max({largest, std::abs(origin_[axis]), static_cast<double>(scene.voxels[axis])});
+        }
+        slack_ = largest * 0x1p-21;
+        slack_t_ = slack_ / length();
+    }
+
+    double slack() const { return slack_t_; }
+    double far() const { return far_; }
+
+    /// Of a voxel whose faces are `grown` farther out; from the ray's origin on.
+    Chord chord(const Cell& cell, double grown) const
+    {
+        Chord chord{0, kInfinity};
+        for (size_t axis = 0; axis < 3; ++axis)
+        {
+            const Chord along = slab(axis, cell[axis] - grown, cell[axis] + 1 + grown);
+            chord.in = std::max(chord.in, along.in);
+            chord.out = std::min(chord.out, along.out);
+        }
+        return chord;
+    }
+    Chord mostChord(const Cell& cell) const { return chord(cell, slack_); }
+    Chord leastChord(const Cell& cell) const { return chord(cell, -slack_); }
+
+    /// Where the first voxel is entered that must be met; infinity without one.
+    double firstThatMustBe() const
+    {
+        double first = kInfinity;
+        for (const Cell& cell : scene_.solid)
+        {
+            const Chord least = leastChord(cell);
+            first = least.met() ? std::min(first, least.in) : first;
+        }
+        return first;
+    }
+
+    /// Whether a voxel that may be met may be entered by this face.
+    bool mayEnterBy(const Cell& cell, uint32_t face) const
+    {
+        if (face == kNoFace)
+        {
+            bool inside = true;
+            for (size_t axis = 0; axis < 3; ++axis)
+                inside = inside && origin_[axis] >= cell[axis] - slack_ &&
+                         origin_[axis] <= cell[axis] + 1 + slack_;
+            return inside;
+        }
+        const size_t through = face / 2;
+        if (direction_[through] == 0 || (face % 2 == 0) != (direction_[through] > 0))
+            return false;
+        const auto entersAt = [&](size_t axis, double earlier)
+        {
+            const bool up = direction_[axis] > 0;
+            const double plane = up ? cell[axis] - earlier : cell[axis] + 1 + earlier;
+            return direction_[axis] == 0 ? -kInfinity : (plane - origin_[axis]) * inverse_[axis];
+        };
+        double last = 0;
+        for (size_t axis = 0; axis < 3; ++axis)
+            last = std::max(last, entersAt(axis, slack_));
+        return entersAt(through, -slack_) >= last;
+    }
+
+    /// Voxels that a ray crosses on its way through the grid up to t, touched ones counted.
+    double cellsCrossed(double t) const
+    {
+        double in = 0, out = t;
+        for (size_t axis = 0; axis < 3; ++axis)
+        {
+            const Chord along = slab(axis, 0, scene_.voxels[axis]);
+            in = std::max(in, along.in);
+            out = std::min(out, along.out);
+        }
+        double cells = 1;
+        for (size_t axis = 0; axis < 3; ++axis)
+        {
+            const double from = origin_[axis] + in * direction_[axis];
+            const double to = origin_[axis] + out * direction_[axis];
+            cells +=
+                std::floor(std::max(from, to) + 2 * slack_) - std::floor(std::min(from, to) - 2 * slack_);
+        }
+        return cells;
+    }
+
+private:
+    double length() const { return std::hypot(direction_[0], direction_[1], direction_[2]); }
+
+    Chord slab(size_t axis, double low, double high) const
+    {
+        if (direction_[axis] == 0)
+        {
+            const bool inside = origin_[axis] > low && origin_[axis] < high;
+            return inside ? Chord{} : Chord{kInfinity, -kInfinity};
+        }
+        const double a = (low - origin_[axis]) * inverse_[axis];
+        const double b = (high - origin_[axis]) * inverse_[axis];
+        return {std::min(a, b), std::max(a, b)};
+    }
+
+    const Scene& scene_;
+    Point origin_;
+    Point direction_;
+    Point inverse_{};
+    double far_;
+    double slack_ = 0;   ///< voxels
+    double slack_t_ = 0; ///< the same along the ray
+};
+
+Cell cellOf(const BrickRay& ray)
+{
+    return {static_cast<uint32_t>(ray.x), static_cast<uint32_t>(ray.y), static_cast<uint32_t>(ray.z)};
+}
+
+/// What is wrong with the answer, or nothing.
+std::optional<std::string> faultOf(const Scene& scene, const Ray& ray, const BrickRay& found)
+{
+    const Oracle oracle(scene, ray);
+    const double first = oracle.firstThatMustBe();
+    const double end = found.inside ? double{found.start_t} + double{found.t} : oracle.far();
+    if (found.steps > oracle.cellsCrossed(end + oracle.slack()))
+        return "more steps than voxels crossed";
+    if (!found.inside)
+        return first < oracle.far() - oracle.slack() ? std::optional("misses a voxel") : std::nullopt;
+
+    const Cell cell = cellOf(found);
+    if (!std::binary_search(scene.solid.begin(), scene.solid.end(), cell))
+        return "the voxel is not solid";
+    const Chord most = oracle.mostChord(cell), least = oracle.leastChord(cell);
+    if (!most.met())
+        return "the ray does not meet the voxel";
+    if (first < most.in)
+        return "comes late";
+    const double t = double{found.start_t} + double{found.t};
+    if (t < most.in - oracle.slack() || t > (least.met() ? least.in : most.out) + oracle.slack())
+        return "enters the voxel elsewhere";
+    if (t > oracle.far() + oracle.slack())
+        return "goes too far";
+    if (!oracle.mayEnterBy(cell, found.face))
+        return "enters by another face";
+    if (found.face == kNoFace && t != 0)
+        return "starts inside, but not at once";
+    return std::nullopt;
+}
+
+// ------------------------------------------------------------------------------------------------ the rays
+
+class RayMaker
+{
+public:
+    RayMaker(const Scene& scene, std::mt19937& random) : scene_(scene), random_(random) {}
+
+    Ray next()
+    {
+        Ray ray = make();
+        if (random_() % 8 == 0)
+            ray.far = static_cast<float>(uniform(0.1, 60));
+        return ray;
+    }
+
+private:
+    Ray make()
+    {
+        switch (random_() % 10)
+        {
+        case 0:
+            return {inBox(0), direction()};
+        case 1:
+            return towards(inBox(40), inBox(0));
+        case 2:
+            return towards(inBox(20000), inBox(0));
+        case 3: // from inside a solid voxel
+            return {inVoxel(), direction()};
+        case 4: // through corners, edges and the middles of faces exactly
+            return {onLattice(), alongLattice()};
+        case 5: // from a face, the ray along it or not
+            return {onFace(), flattened(direction(), 0)};
+        case 6: // along one plane or two, nearly or wholly
+            return {random_() % 2 == 0 ? inBox(10) : onFace(), flattened(direction(), tiny())};
+        case 7: // along an axis
+            return {random_() % 2 == 0 ? inBox(3) : onLattice(), alongAxis()};
+        case 8: // towards a corner or an edge's middle
+            return towards(inBox(20), onLattice());
+        default: // from one corner to another
+            return towards(onLattice(), onLattice());
+        }
+    }
+
+    double uniform(double low, double high)
+    {
+        return std::uniform_real_distribution<double>(low, high)(random_);
+    }
+
+    Float3 inBox(double margin)
+    {
+        Float3 p;
+        for (int axis = 0; axis < 3; ++axis)
+            p[axis] = static_cast<float>(uniform(-margin, scene_.voxels[static_cast<size_t>(axis)] + margin));
+        return p;
+    }
+
+    Cell solidVoxel() { return scene_.solid[random_() % scene_.solid.size()]; }
+
+    Float3 inVoxel()
+    {
+        const Cell cell = solidVoxel();
+        Float3 p;
+        for (int axis = 0; axis < 3; ++axis)
+            p[axis] = static_cast<float>(cell[static_cast<size_t>(axis)] + uniform(0, 1));
+        return p;
+    }
+
+    /// A multiple of a half, on or beside a solid voxel.
+    Float3 onLattice()
+    {
+        const Cell cell = solidVoxel();
+        Float3 p;
+        for (int axis = 0; axis < 3; ++axis)
+            p[axis] = static_cast<float>(cell[static_cast<size_t>(axis)]) +
+                      0.5f * static_cast<float>(random_() % 10) - 2;
+        return p;
+    }
+
+    Float3 onFace()
+    {
+        Float3 p = inVoxel();
+        const int axis = static_cast<int>(random_() % 3);
+        p[axis] = std::floor(p[axis]) + static_cast<float>(random_() % 2);
+        return p;
+    }
+
+    Float3 direction()
+    {
+        const double z = uniform(-1, 1), angle = uniform(0, 2 * std::numbers::pi), r = std::sqrt(1 - z * z);
+        return {static_cast<float>(r * std::cos(angle)), static_cast<float>(r * std::sin(angle)),
+                static_cast<float>(z)};
+    }
+
+    Float3 alongAxis()
+    {
+        Float3 d{random_() % 2 == 0 ? 0.0f : -0.0f, random_() % 2 == 0 ? 0.0f : -0.0f, 0};
+        d[static_cast<int>(random_() % 3)] = random_() % 2 == 0 ? 1.0f : -1.0f;
+        return d;
+    }
+
+    /// Components alike: their planes are met at once.
+    Float3 alongLattice()
+    {
+        Float3 d;
+        for (int axis = 0; axis < 3; ++axis)
+            d[axis] = static_cast<float>(random_() % 3) - 1;
+        const float size = length(d);
+        return size > 0 ? d / size : alongAxis();
+    }
+
+    float tiny()
+    {
+        constexpr float kTiny[] = {1e-6f,  1e-12f, 1e-20f, 1e-30f,  1.1754944e-38f, 1e-42f,
+                                   1e-45f, 0.0f,   -1e-7f, -1e-25f, -1e-41f,        -0.0f};
+        return kTiny[random_() % std::size(kTiny)];
+    }
+
+    Float3 flattened(Float3 d, float along)
+    {
+        d[static_cast<int>(random_() % 3)] = along;
+        const float size = length(d);
+        return size > 1e-3f ? Float3{d.x / size, d.y / size, d.z / size} : alongAxis();
+    }
+
+    Ray towards(Float3 from, Float3 to)
+    {
+        const Float3 d = to - from;
+        const float size = length(d);
+        return {from, size > 1e-3f ? d / size : alongAxis()};
+    }
+
+    const Scene& scene_;
+    std::mt19937& random_;
+};
+
+std::string describe(const Ray& ray, const BrickRay& found)
+{
+    std::ostringstream text;
+    text.precision(9);
+    text << "from " << ray.origin.x << " " << ray.origin.y << " " << ray.origin.z << " along "
+         << ray.direction.x << " " << ray.direction.y << " " << ray.direction.z << " to " << ray.far
+         << ": inside " << found.inside << " voxel " << found.x << " " << found.y << " " << found.z
+         << " face " << int(found.face) << " t " << found.start_t << " + " << found.t << " steps "
+         << found.steps;
+    return text.str();
+}
+
+constexpr uint32_t kRays = 1000000;
+
+} // namespace
+
+TEST(BrickMarch, findsWhatAnExhaustiveSearchFinds)
+{
+    std::mt19937 random(1);
+    constexpr Cell kGrids[] = {{40, 40, 40}, {5, 7, 9},    {64, 16, 32}, {1, 1, 1},
+                               {100, 3, 50}, {17, 33, 15}, {4, 90, 4},   {23, 23, 23},
+                               {48, 2, 2},   {31, 31, 65}, {16, 16, 16}, {12, 80, 30}};
+    constexpr uint32_t kCounts[] = {1, 6, 25, 70, 150};
+    constexpr uint32_t kScenes = 50;
+    uint32_t hits = 0, ends = 0;
+    for (uint32_t i = 0; i < kScenes; ++i)
+    {
+        const Scene scene =
+            randomScene(kGrids[i % std::size(kGrids)], kCounts[i % std::size(kCounts)], random);
+        const BrickMasks masks = scene.model.masks();
+        RayMaker rays(scene, random);
+        for (uint32_t r = 0; r < kRays / kScenes; ++r)
+        {
+            const Ray ray = rays.next();
+            const BrickRay found =
+                brickMarch(masks, brickRayInVoxels(masks.grid, ray.origin, ray.direction, ray.far));
+            const auto fault = faultOf(scene, ray, found);
+            ASSERT_FALSE(fault) << *fault << " in scene " << i << ": " << describe(ray, found);
+            hits += found.inside;
+            ends += found.inside && found.face == kNoFace ? 1 : 0;
+        }
+    }
+    // the rays meet something often enough, and start inside often enough
+    EXPECT_GT(hits, kRays / 4);
+    EXPECT_GT(ends, kRays / 20);
+}
+
+TEST(BrickMarch, passesThroughAllThatTheRayMeets)
+{
+    std::mt19937 random(2);
+    for (uint32_t i = 0; i < 20; ++i)
+    {
+        const Scene scene = randomScene({37, 20, 50}, 400, random);
+        const BrickMasks masks = scene.model.masks();
+        RayMaker rays(scene, random);
+        for (uint32_t r = 0; r < 500; ++r)
+        {
+            const Ray ray = rays.next();
+            const Oracle oracle(scene, ray);
+            std::vector<Cell> met;
+            float t = 0;
+            for (BrickRay at =
+                     brickMarch(masks, brickRayInVoxels(masks.grid, ray.origin, ray.direction, ray.far));
+                 at.inside; at = brickMarch(masks, brickPass(masks, at)))
+            {
+                met.push_back(cellOf(at));
+                EXPECT_TRUE(oracle.mostChord(met.back()).met()) << describe(ray, at);
+                EXPECT_GE(at.t, t) << describe(ray, at);
+                t = at.t;
+                ASSERT_LE(met.size(), scene.solid.size());
+            }
+            std::sort(met.begin(), met.end());
+            EXPECT_TRUE(std::adjacent_find(met.begin(), met.end()) == met.end());
+            for (const Cell& cell : scene.solid)
+            {
+                const Chord least = oracle.leastChord(cell);
+                if (least.met() && least.in < oracle.far() - oracle.slack())
+                    EXPECT_TRUE(std::binary_search(met.begin(), met.end(), cell))
+                        << cell[0] << " " << cell[1] << " " << cell[2];
+            }
+        }
+    }
+}
+
+TEST(BrickMarch, endsWhateverTheRayIs)
+{
+    std::mt19937 random(3);
+    const Scene scene = randomScene({50, 20, 33}, 40, random);
+    const BrickMasks masks = scene.model.masks();
+    for (uint32_t i = 0; i < 100000; ++i)
+    {
+        Ray ray;
+        for (int axis = 0; axis < 3; ++axis)
+        {
+            const float any = std::bit_cast<float>(static_cast<uint32_t>(random()));
+            ray.direction[axis] = std::isfinite(any) ? any : 0;
+            ray.origin[axis] = static_cast<float>(random() % 60) - 5;
+        }
+        const BrickRay found =
+            brickMarch(masks, brickRayInVoxels(masks.grid, ray.origin, ray.direction, kBrickFar));
+        ASSERT_LE(found.steps, 50u + 20 + 33) << describe(ray, found);
+    }
+}
+
+TEST(BrickMarch, letsNothingThroughBetweenVoxelsWithACommonEdge)
+{
+    // a slanted wall without thickness: voxels x = y, each beside the next along an edge alone
+    const BrickModel wall = brickModel({48, 48, 4}, [](uint32_t x, uint32_t y, uint32_t) { return x == y; });
+    const BrickMasks masks = wall.masks();
+    std::mt19937 random(4);
+    const auto place = [&] { return 2 + static_cast<float>(random() % 177) * 0.25f; };
+    for (uint32_t i = 0; i < 100000; ++i)
+    {
+        const float x = place(), y = place(), to_x = place(), to_y = place();
+        const bool crosses = (x < y - 1 && to_x > to_y + 1) || (x > y + 1 && to_x < to_y - 1);
+        if (!crosses)
+            continue;
+        const Float3 from{x, y, 2}, way{to_x - x, to_y - y, 0.25f * static_cast<float>(random() % 3)};
+        const float size = length(way);
+        const BrickRay found = brickMarch(masks, brickRayInVoxels(masks.grid, from, way / size, size));
+        ASSERT_TRUE(found.inside) << describe({from, way / size, size}, found);
+    }
+}
+
+namespace
+{
+
+BrickRay marchIn(const BrickModel& model, Float3 origin, Float3 direction, float far = kBrickFar)
+{
+    const BrickMasks masks = model.masks();
+    return brickMarch(masks, brickRay(masks.grid, origin, direction, far));
+}
+
+} // namespace
+
+TEST(BrickMarch, measuresInMetresFromTheGridsOrigin)
+{
+    BrickModel model = brickModel({20, 20, 20}, [](uint32_t x, uint32_t, uint32_t) { return x == 17; });
+    model.grid.origin = {-8, 100, 4};
+    model.grid.voxel_size = 0.5f;
+    const BrickRay found = marchIn(model, {-10, 105, 8}, {1, 0, 0});
+    ASSERT_TRUE(found.inside);
+    EXPECT_EQ(cellOf(found), (Cell{17, 10, 8}));
+    EXPECT_EQ(found.face, 0u);
+    EXPECT_EQ(brickDistance(model.masks().grid, found), 2 + 17 * 0.5f);
+    EXPECT_TRUE(marchIn(model, {-10, 105, 8}, {1, 0, 0}, 10.5f).inside);
+    EXPECT_FALSE(marchIn(model, {-10, 105, 8}, {1, 0, 0}, 10.49f).inside);
+}
+
+TEST(BrickMarch, takesAFaceForWhatLiesBehindIt)
+{
+    const BrickModel model =
+        brickModel({8, 8, 8}, [](uint32_t x, uint32_t y, uint32_t z) { return x == 3 && y == 3 && z == 3; });
+    // into the voxel: by that face, at once
+    BrickRay found = marchIn(model, {3, 3.5f, 3.5f}, {1, 0, 0});
+    EXPECT_TRUE(found.inside && found.face == 0 && found.t == 0);
+    found = marchIn(model, {3.5f, 4, 3.5f}, {0, -1, 0});
+    EXPECT_TRUE(found.inside && found.face == 3 && found.t == 0);
+    // away from it: not at all
+    EXPECT_FALSE(marchIn(model, {4, 3.5f, 3.5f}, {1, 0, 0}).inside);
+    EXPECT_FALSE(marchIn(model, {3.5f, 3.5f, 3}, {0, 0, -1}).inside);
+    // along it: in the voxel above
+    EXPECT_TRUE(marchIn(model, {3, 0, 3.5f}, {0, 1, 0}).inside);
+    EXPECT_FALSE(marchIn(model, {4, 0, 3.5f}, {0, 1, 0}).inside);
+    found = marchIn(model, {3.25f, 3.5f, 3.5f}, {1, 0, 0});
+    EXPECT_TRUE(found.inside && found.face == kNoFace && found.t == 0);
+}
+
+TEST(BrickMarch, findsTheFaceOfAVoxel)
+{
+    std::mt19937 random(5);
+    const Scene scene = randomScene({20, 20, 20}, 1500, random);
+    const BrickMasks masks = scene.model.masks();
+    uint32_t faces = 0, voxels = 0;
+    for (const Brick& brick : masks.bricks)
+        for (uint32_t face = 0; face < kVoxelFaces; ++face)
+            for (uint32_t bit = 0; bit < 64; ++bit)
+            {
+                voxels += face == 0 && maskHas(brick.voxel_mask_low, brick.voxel_mask_high, bit) ? 1 : 0;
+                const uint32_t index = brickFace(brick, bit, face);
+                if (index == kNoFace)
+                    continue;
+                // in their order, none left out, and with the normal of the face
+                ASSERT_EQ(index, faces++);
+                const float along = scene.model.normals[index] == scene.model.normals[0] ? 1 : 0;
+                EXPECT_EQ(along, face == 0 ? 1 : 0);
+                EXPECT_LT(brickVoxel(brick, bit), scene.solid.size());
+            }
+    EXPECT_EQ(faces, scene.model.albedo.size());
+    EXPECT_EQ(voxels, scene.solid.size());
+    EXPECT_EQ(brickFace(masks.bricks[0], 0, kNoFace), kNoFace);
+}
+
+} // namespace hearth::test
