@@ -118,6 +118,7 @@ void addOptions(CLI::App& app, Arguments& arguments)
         ->type_name("X,Y,Z");
     app.add_option("--memory", arguments.settings.memory,
                    "bytes that the grid may take on the GPU, 20971520 by default; farther bricks are dropped")
+        ->check(CLI::Range(uint64_t{1}, uint64_t{1} << 40).description(""))
         ->type_name("BYTES");
     app.add_option("--error", arguments.settings.error_share,
                    "how far clusters may be off, in voxels; 0.25 by default, 0: the finest triangles")
