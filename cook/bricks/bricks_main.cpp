@@ -1,6 +1,7 @@
-// hearth-bricks: makes the bricks of one or more sources.
+// hearth-bricks: makes the bricks of one or more sources, or marches rays through those of a file.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/bricks/grid_part.h"
+#include "cook/bricks/march_rows.h"
 #include "cook/tools/open_part.h"
 #include "cook/tools/whole_file.h"
 #include "formats/program.h"
@@ -20,8 +21,9 @@ using namespace hearth::bricks;
 
 struct Arguments
 {
-    std::vector<std::string> parts;
+    std::vector<std::string> inputs; ///< parts, or with `rays` the file that is marched through
     std::string output;
+    std::string rays;
     std::string statistics;
     double voxel_size = 0;
     std::vector<double> min, max;
@@ -64,7 +66,7 @@ void warn(const GridStatistics& statistics, const std::string& output)
 
 Status cook(const Arguments& arguments)
 {
-    HEARTH_ASSIGN_OR_RETURN(const std::vector<SourceParts> sources, openSources(arguments.parts));
+    HEARTH_ASSIGN_OR_RETURN(const std::vector<SourceParts> sources, openSources(arguments.inputs));
     HEARTH_ASSIGN_OR_RETURN(const StaticScene scene, staticScene(sources));
     HEARTH_ASSIGN_OR_RETURN(const CookedGrid grid, cookGrid(scene, arguments.settings));
     HEARTH_TRY(writeGridPart(arguments.output, grid));
@@ -82,11 +84,13 @@ int run(const Arguments& arguments)
     if (arguments.jobs > 0)
         limit = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism,
                                                       arguments.jobs);
-    const Status cooked = cook(arguments);
-    if (cooked.ok())
+    const Status done = arguments.rays.empty()
+                            ? cook(arguments)
+                            : marchFile(arguments.inputs[0], arguments.rays, arguments.output);
+    if (done.ok())
         return 0;
-    std::fprintf(stderr, "%s\n", formatMessage(cooked.error()).c_str());
-    return exitCode(cooked.error());
+    std::fprintf(stderr, "%s\n", formatMessage(done.error()).c_str());
+    return exitCode(done.error());
 }
 
 Double3 point(const std::vector<double>& values)
@@ -96,8 +100,17 @@ Double3 point(const std::vector<double>& values)
 
 void addOptions(CLI::App& app, Arguments& arguments)
 {
-    app.add_option("PARTS", arguments.parts, "import, clusters and textures part of each source")->required();
-    app.add_option("-o,--output", arguments.output, "bricks part to write")->required();
+    app.add_option("PARTS", arguments.inputs,
+                   "import, clusters and textures part of each source; with --march one pack or bricks part")
+        ->required();
+    app.add_option("-o,--output", arguments.output,
+                   "bricks part to write; with --march the CSV file, - is standard output")
+        ->required();
+    app.add_option(
+        "--march", arguments.rays,
+        "CSV file of origin_x,origin_y,origin_z,direction_x,direction_y,direction_z in metres: write "
+        "hit,x,y,z,face,t for each ray: 1, the first solid voxel, the face by which it is entered (none "
+        "where the ray starts inside) and the distance in metres; 0,,,,, where it meets none");
     app.add_option(
         "--voxel-size", arguments.voxel_size,
         "metres; by default 512 voxels along the longest side, 0.1 m at least where that makes 64, and "
@@ -110,14 +123,14 @@ void addOptions(CLI::App& app, Arguments& arguments)
     app.add_option_function<std::vector<double>>(
            "--seed", [&arguments](const std::vector<double>& values) { arguments.seeds.push_back(values); },
            "a place that is seen from, as cameras are: what is sealed off from all of them has no faces; may "
-           "be "
-           "given again")
+           "be given again")
         ->delimiter(',')
         ->expected(3)
         ->trigger_on_parse()
         ->type_name("X,Y,Z");
     app.add_option("--memory", arguments.settings.memory,
                    "bytes that the grid may take on the GPU, 20971520 by default; farther bricks are dropped")
+        ->check(CLI::Range(uint64_t{1}, uint64_t{1} << 40).description(""))
         ->type_name("BYTES");
     app.add_option("--error", arguments.settings.error_share,
                    "how far clusters may be off, in voxels; 0.25 by default, 0: the finest triangles")
@@ -126,22 +139,26 @@ void addOptions(CLI::App& app, Arguments& arguments)
                    "write what became of the scene as JSON, and print the memory; - is standard output");
     app.add_option("-j,--jobs", arguments.jobs, "threads to use; the result does not depend on it");
     app.footer(
-        "Example: hearth-bricks room.import.part room.clusters.part room.textures.part -o room.bricks.part "
-        "--voxel-size 0.1\n"
+        "Examples:\n"
+        "  hearth-bricks room.import.part room.clusters.part room.textures.part -o room.bricks.part\n"
+        "  hearth-bricks village.hearth --march rays.csv -o hits.csv\n"
         "Exit codes: 0 done, 2 usage, 65 malformed input, 66 input missing, 70 internal, 73 cannot write, "
         "74 I/O");
 }
 
 int program(int argc, char** argv)
 {
-    CLI::App app("Makes the bricks that light is marched through, of all that stands still.",
+    CLI::App app("Makes the bricks that light is marched through, of all that stands still; or marches rays "
+                 "through them.",
                  "hearth-bricks");
     Arguments arguments;
     addOptions(app, arguments);
     try
     {
         app.parse(argc, argv);
-        if (arguments.parts.size() % 3 != 0)
+        if (!arguments.rays.empty() && arguments.inputs.size() != 1)
+            throw CLI::ValidationError("--march", "one pack or bricks part is needed");
+        if (arguments.rays.empty() && arguments.inputs.size() % 3 != 0)
             throw CLI::ValidationError("PARTS", "three parts are needed for each source");
     }
     catch (const CLI::ParseError& error)

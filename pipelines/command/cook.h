@@ -22,6 +22,13 @@ struct VisibilityOptions
     bool refine = false; ///< cones by nine harmonics
 };
 
+/// What hearth-bricks is told; else it decides itself.
+struct BrickOptions
+{
+    std::optional<double> voxel_size;     ///< metres
+    std::optional<uint64_t> memory_bytes; ///< of the GPU
+};
+
 struct CookOptions
 {
     std::vector<std::string> sources;
@@ -34,12 +41,14 @@ struct CookOptions
     std::string profile;                         ///< TOML file that the cookers read; empty: none
     std::string report_file;                     ///< empty: none
     std::optional<VisibilityOptions> visibility; ///< none: vertices do not say what they see
+    std::optional<BrickOptions> bricks;          ///< none: the pack has no grid of bricks
 };
 
 /// One cooker's run.
 struct StageRecord
 {
-    std::string stage; ///< "import", "clusters", "textures", "skinning", "visibility", "specular", "link"
+    std::string
+        stage; ///< "import", "clusters", "textures", "skinning", "visibility", "specular", "bricks", "link"
     size_t source = 0; ///< index of the source; their number for what is not of one source
     double seconds = 0;
     double cpu_seconds = 0;
@@ -62,6 +71,7 @@ struct CookOutcome
     std::vector<StageRecord> stages;             ///< in the order of the plan, those that ended well
     std::vector<std::string> cluster_statistics; ///< of each source, JSON of hearth-clusters; for the report
     std::vector<VisibilityReport> visibility;    ///< of each source, where visibility was baked
+    std::string brick_statistics;                ///< JSON of hearth-bricks; for the report
     double seconds = 0;
     uint64_t output_bytes = 0;
 };
