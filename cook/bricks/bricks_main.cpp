@@ -1,11 +1,17 @@
-// hearth-bricks: marches rays through the bricks of a pack or part.
+// hearth-bricks: makes the bricks of one or more sources, and marches rays through what it made.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/bricks/grid_part.h"
 #include "cook/bricks/march_rows.h"
+#include "cook/tools/open_part.h"
+#include "cook/tools/whole_file.h"
 #include "formats/program.h"
 
 #include <CLI/CLI.hpp>
 
 #include <cstdio>
+#include <memory>
+
+#include <tbb/global_control.h>
 
 namespace
 {
@@ -15,50 +21,162 @@ using namespace hearth::bricks;
 
 struct Arguments
 {
-    std::string input;
+    std::vector<std::string> parts;
     std::string output;
     std::string rays;
+    std::string statistics;
+    double voxel_size = 0;
+    std::vector<double> min, max;
+    std::vector<std::vector<double>> seeds;
+    GridSettings settings;
+    size_t jobs = 0;
 };
+
+Result<std::vector<SourceParts>> openSources(const std::vector<std::string>& paths)
+{
+    std::vector<SourceParts> sources;
+    for (size_t i = 0; i + 2 < paths.size(); i += 3)
+    {
+        HEARTH_ASSIGN_OR_RETURN(formats::PackView scene, tools::openPart(paths[i]));
+        HEARTH_ASSIGN_OR_RETURN(formats::PackView clusters, tools::openPart(paths[i + 1]));
+        HEARTH_ASSIGN_OR_RETURN(formats::PackView textures, tools::openPart(paths[i + 2]));
+        sources.push_back({std::move(scene), std::move(clusters), std::move(textures)});
+    }
+    return sources;
+}
+
+/// One line of what was left out or dropped, for those who did not ask for it.
+void warn(const GridStatistics& statistics, const std::string& output)
+{
+    const auto print = [&](const std::string& detail) {
+        std::fprintf(stderr, "%s\n", formatMessage({Issue::dropped, output, "", detail}).c_str());
+    };
+    if (statistics.left_out.animated + statistics.left_out.deformed > 0)
+        print(std::to_string(statistics.left_out.animated) + " moving and " +
+              std::to_string(statistics.left_out.deformed) + " deformed instances have no bricks");
+    if (statistics.dropped.bricks > 0)
+    {
+        char distance[32];
+        std::snprintf(distance, sizeof(distance), "%.4g", statistics.dropped.from_distance);
+        print(std::to_string(statistics.dropped.bricks) + " of " +
+              std::to_string(statistics.dropped.bricks + statistics.bricks) +
+              " bricks do not fit the memory: those from " + distance + " m on from what matters");
+    }
+}
+
+Status cook(const Arguments& arguments)
+{
+    HEARTH_ASSIGN_OR_RETURN(const std::vector<SourceParts> sources, openSources(arguments.parts));
+    HEARTH_ASSIGN_OR_RETURN(const StaticScene scene, staticScene(sources));
+    HEARTH_ASSIGN_OR_RETURN(const CookedGrid grid, cookGrid(scene, arguments.settings));
+    HEARTH_TRY(writeGridPart(arguments.output, grid));
+    warn(grid.statistics, arguments.output);
+    if (arguments.statistics.empty())
+        return success();
+    if (arguments.statistics != "-")
+        HEARTH_TRY(tools::writeText("-", memoryText(grid.statistics)));
+    return tools::writeText(arguments.statistics, statisticsJson(grid.statistics));
+}
 
 int run(const Arguments& arguments)
 {
-    const Status done = marchFile(arguments.input, arguments.rays, arguments.output);
+    std::unique_ptr<tbb::global_control> limit;
+    if (arguments.jobs > 0)
+        limit = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism,
+                                                      arguments.jobs);
+    const Status done = arguments.rays.empty()
+                            ? cook(arguments)
+                            : marchFile(arguments.parts[0], arguments.rays, arguments.output);
     if (done.ok())
         return 0;
     std::fprintf(stderr, "%s\n", formatMessage(done.error()).c_str());
     return exitCode(done.error());
 }
 
+Double3 point(const std::vector<double>& values)
+{
+    return {values[0], values[1], values[2]};
+}
+
 void addOptions(CLI::App& app, Arguments& arguments)
 {
-    app.add_option("FILE", arguments.input, "pack or bricks part")->required();
-    app.add_option(
-           "--march", arguments.rays,
-           "CSV file of origin_x,origin_y,origin_z,direction_x,direction_y,direction_z in metres: write "
-           "hit,x,y,z,face,t for each ray: 1, the first solid voxel, the face by which it is entered (none "
-           "where "
-           "the ray starts inside) and the distance in metres; 0,,,,, where it meets none")
+    app.add_option("PARTS", arguments.parts,
+                   "import, clusters and textures part of each source; with --march: a pack or bricks part")
         ->required();
-    app.add_option("-o,--output", arguments.output, "CSV file to write; - is standard output")->required();
+    app.add_option("-o,--output", arguments.output,
+                   "bricks part to write; with --march: the CSV file, - is standard output")
+        ->required();
+    app.add_option(
+        "--voxel-size", arguments.voxel_size,
+        "metres; by default 512 voxels along the longest side, 0.1 m at least where that makes 64, and "
+        "more where the memory asks for it");
+    const auto addPoint = [&](const char* name, std::vector<double>& values, const char* what)
+    { app.add_option(name, values, what)->delimiter(',')->expected(3)->type_name("X,Y,Z"); };
+    addPoint("--min", arguments.min,
+             "least corner of the grid, metres; by default around all that stands still");
+    addPoint("--max", arguments.max, "its greatest corner");
+    app.add_option_function<std::vector<double>>(
+           "--seed", [&arguments](const std::vector<double>& values) { arguments.seeds.push_back(values); },
+           "a place that is seen from, as cameras are: what is sealed off from all of them has no faces; may "
+           "be "
+           "given again")
+        ->delimiter(',')
+        ->expected(3)
+        ->trigger_on_parse()
+        ->type_name("X,Y,Z");
+    app.add_option("--memory", arguments.settings.memory,
+                   "bytes that the grid may take on the GPU, 20971520 by default; farther bricks are dropped")
+        ->type_name("BYTES");
+    app.add_option("--error", arguments.settings.error_share,
+                   "how far clusters may be off, in voxels; 0.25 by default, 0: the finest triangles")
+        ->check(CLI::Range(0.0, 16.0).description(""));
+    app.add_option("--stats", arguments.statistics,
+                   "write what became of the scene as JSON, and print the memory; - is standard output");
+    app.add_option("-j,--jobs", arguments.jobs, "threads to use; the result does not depend on it");
+    const auto of_cooking = {"--voxel-size", "--min",   "--max",   "--seed",
+                             "--memory",     "--error", "--stats", "--jobs"};
+    CLI::Option* march = app.add_option(
+        "--march", arguments.rays,
+        "CSV file of origin_x,origin_y,origin_z,direction_x,direction_y,direction_z in metres: write "
+        "hit,x,y,z,face,t for each ray: 1, the first solid voxel, the face by which it is entered (none "
+        "where the ray "
+        "starts inside) and the distance in metres; 0,,,,, where it meets none");
+    for (const char* option : of_cooking)
+        march->excludes(app.get_option(option));
     app.footer(
-        "Example: hearth-bricks village.hearth --march rays.csv -o hits.csv\n"
+        "Example: hearth-bricks room.import.part room.clusters.part room.textures.part -o room.bricks.part "
+        "--voxel-size 0.1\n"
+        "         hearth-bricks room.bricks.part --march rays.csv -o hits.csv\n"
         "Exit codes: 0 done, 2 usage, 65 malformed input, 66 input missing, 70 internal, 73 cannot write, "
         "74 I/O");
 }
 
 int program(int argc, char** argv)
 {
-    CLI::App app("Marches rays through bricks.");
+    CLI::App app("Makes the bricks that light is marched through, of all that stands still.",
+                 "hearth-bricks");
     Arguments arguments;
     addOptions(app, arguments);
     try
     {
         app.parse(argc, argv);
+        if (!arguments.rays.empty() && arguments.parts.size() != 1)
+            throw CLI::ValidationError("--march", "one file is marched through");
+        if (arguments.rays.empty() && arguments.parts.size() % 3 != 0)
+            throw CLI::ValidationError("PARTS", "three parts are needed for each source");
     }
     catch (const CLI::ParseError& error)
     {
         return app.exit(error) == 0 ? 0 : 2;
     }
+    if (app.count("--voxel-size") > 0)
+        arguments.settings.voxel_size = arguments.voxel_size;
+    if (!arguments.min.empty())
+        arguments.settings.min = point(arguments.min);
+    if (!arguments.max.empty())
+        arguments.settings.max = point(arguments.max);
+    for (const std::vector<double>& seed : arguments.seeds)
+        arguments.settings.seeds.push_back(narrow(point(seed)));
     return run(arguments);
 }
 

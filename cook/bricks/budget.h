@@ -1,0 +1,37 @@
+// Keeps a grid within its memory: the bricks that matter least go first.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "cook/bricks/visible_faces.h"
+
+namespace hearth::bricks
+{
+
+/// What did not fit.
+struct Dropped
+{
+    uint64_t bricks = 0;
+    uint64_t voxels = 0;
+    double from_distance = 0; ///< metres from the nearest focus: everything farther away was dropped
+};
+
+/// A grid whose faces are known.
+struct FacedGrid
+{
+    SolidGrid solid;
+    std::vector<uint8_t> faces;
+    SeenSpaces seen;
+    Dropped dropped;
+
+    BrickBytes bytes() const;
+};
+
+/// Find spaces and faces of a grid whose opacities hideSheets has set; where its tables would take more than `memory`
+/// bytes, drop the bricks that are farthest from all foci, and find them anew: where bricks went there is open space.
+///
+/// seen_points  places that are seen, world space
+/// foci         what matters, world space, one at least
+FacedGrid withinBudget(SolidGrid solid, std::span<const Float3> seen_points, std::span<const Float3> foci,
+                       uint64_t memory);
+
+} // namespace hearth::bricks
