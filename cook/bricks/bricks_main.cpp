@@ -107,11 +107,6 @@ void addOptions(CLI::App& app, Arguments& arguments)
                    "bricks part to write; with --march the CSV file, - is standard output")
         ->required();
     app.add_option(
-        "--march", arguments.rays,
-        "CSV file of origin_x,origin_y,origin_z,direction_x,direction_y,direction_z in metres: write "
-        "hit,x,y,z,face,t for each ray: 1, the first solid voxel, the face by which it is entered (none "
-        "where the ray starts inside) and the distance in metres; 0,,,,, where it meets none");
-    app.add_option(
         "--voxel-size", arguments.voxel_size,
         "metres; by default 512 voxels along the longest side, 0.1 m at least where that makes 64, and "
         "more where the memory asks for it");
@@ -138,6 +133,16 @@ void addOptions(CLI::App& app, Arguments& arguments)
     app.add_option("--stats", arguments.statistics,
                    "write what became of the scene as JSON, and print the memory; - is standard output");
     app.add_option("-j,--jobs", arguments.jobs, "threads to use; the result does not depend on it");
+    const auto of_cooking = {"--voxel-size", "--min",   "--max",   "--seed",
+                             "--memory",     "--error", "--stats", "--jobs"};
+    CLI::Option* march = app.add_option(
+        "--march", arguments.rays,
+        "CSV file of origin_x,origin_y,origin_z,direction_x,direction_y,direction_z in metres: write "
+        "hit,x,y,z,face,t for each ray: 1, the first solid voxel, the face by which it is entered (none "
+        "where the ray "
+        "starts inside) and the distance in metres; 0,,,,, where it meets none");
+    for (const char* option : of_cooking)
+        march->excludes(app.get_option(option));
     app.footer(
         "Examples:\n"
         "  hearth-bricks room.import.part room.clusters.part room.textures.part -o room.bricks.part\n"
