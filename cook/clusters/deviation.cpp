@@ -106,6 +106,7 @@ public:
           simplified_(simplified),
           after_(after),
           positions_before_(positionsOfCorners(group, group.corners)),
+          moved_(movedPositions()),
           changed_(changedTriangles()),
           map_(group, simplified, positions_before_, after, points, changed_),
           index_before_(positions_before_, group.positions),
@@ -133,12 +134,20 @@ public:
     }
 
 private:
+    std::vector<uint8_t> movedPositions() const
+    {
+        std::vector<uint8_t> moved(simplified_.placement.remade);
+        for (uint32_t position = 0; position < moved.size(); ++position)
+            moved[position] |= simplified_.target_of_position[position] != position ? 1 : 0;
+        return moved;
+    }
+
     std::vector<uint8_t> changedTriangles() const
     {
         std::vector<uint8_t> changed(group_.triangleCount(), 1);
-        for (const uint32_t source : simplified_.source_triangle)
-            if (!movedCorner(source))
-                changed[source] = 0;
+        for (const size_t source : simplified_.source_triangle)
+            changed[source] =
+                static_cast<uint8_t>(moved(source * 3) | moved(source * 3 + 1) | moved(source * 3 + 2));
         return changed;
     }
 
@@ -147,33 +156,30 @@ private:
         return simplified_.target_of_position[positions_before_[corner]];
     }
 
-    bool movedCorner(size_t triangle) const
-    {
-        return moved(triangle * 3) || moved(triangle * 3 + 1) || moved(triangle * 3 + 2);
-    }
-
-    bool moved(size_t corner) const
-    {
-        const uint32_t target = targetOf(corner);
-        return target != positions_before_[corner] || simplified_.placement.remade[target] != 0;
-    }
+    uint8_t moved(size_t corner) const { return moved_[positions_before_[corner]]; }
 
     /// Calls visit(total) for all that changed, as the map has it, and that are not below `least`, which is at least 0.
     /// Few are: that is the one branch.
     template <typename Visit>
     void forEachTotal(const float& least, Visit visit) const
     {
-        const auto select = [](bool changed, float upper) { return changed ? upper : -1.0f; };
+        const auto upperOf = [](uint8_t changed, bool known, float sum)
+        {
+            const float upper = known ? sum : kInfinity;
+            return changed != 0 ? upper : -1.0f;
+        };
         for (uint32_t t = 0; t < changed_.size(); ++t)
-            if (const float upper =
-                    select(changed_[t] != 0, map_.maps(t) ? group_.errors[t] + map_.farOf(t) : kInfinity);
-                upper >= least)
+        {
+            const float upper = upperOf(changed_[t], map_.maps(t), group_.errors[t] + map_.farOf(t));
+            if (upper >= least)
                 visit(Total{upper, t, true});
+        }
         for (uint32_t t = 0; t < sums_.size(); ++t)
-            if (const float upper = select(changed_[simplified_.source_triangle[t]] != 0,
-                                           map_.covers(t) ? sums_[t] : kInfinity);
-                upper >= least)
+        {
+            const float upper = upperOf(changed_[simplified_.source_triangle[t]], map_.covers(t), sums_[t]);
+            if (upper >= least)
                 visit(Total{upper, t, false});
+        }
     }
 
     /// Largest first: once one needs no closer look, neither do the others. The largest of all rules most of them out.
@@ -240,7 +246,7 @@ private:
         if (map_.maps(t))
             map_.forEachFacetOf(t, [&](uint32_t facet) { likely_after_.add(facet); });
         for (size_t corner = size_t{t} * 3; corner < size_t{t} * 3 + 3; ++corner)
-            if (const uint32_t target = targetOf(corner); target != kPruned && moved(corner))
+            if (const uint32_t target = targetOf(corner); target != kPruned && moved(corner) != 0)
                 likely_after_.addAround(after_, target);
         if (likely_after_.facets().empty())
             addNeighboursInOrder(t);
@@ -257,7 +263,7 @@ private:
         likely_before_.clear();
         const size_t source = simplified_.source_triangle[t];
         for (size_t corner = source * 3; corner < source * 3 + 3; ++corner)
-            if (moved(corner))
+            if (moved(corner) != 0)
                 likely_before_.addAround(map_.twinsBefore(), static_cast<uint32_t>(corner));
         for (const uint32_t facet : likely_before_.facets())
             carried = std::max(carried, group_.errors[facet]);
@@ -289,6 +295,7 @@ private:
     const Simplified& simplified_;
     const Surface& after_;
     std::vector<uint32_t> positions_before_; ///< three for each triangle
+    std::vector<uint8_t> moved_;             ///< for each position: it is not where it was
     std::vector<uint8_t> changed_;           ///< for each triangle before: it is not there any more as it was
     SurfaceMap map_;
     FacetIndex index_before_;

@@ -90,8 +90,8 @@ private:
                 uint32_t& count = count_at_[end];
                 if (count < Arriving::kPlaces)
                 {
-                    // one that rises does not count, and is a branch that could not be foretold
-                    arriving_[end].start[count] = start | (0u - static_cast<uint32_t>(start < end));
+                    // one that rises does not count: the next takes its place
+                    arriving_[end].start[count] = start;
                     arriving_[end].side[count] = side;
                 }
                 else if (start > end)
@@ -99,6 +99,10 @@ private:
                 count += start > end ? 1 : 0;
             }
         rising_.resize(rising_count);
+        // and behind the last is none
+        for (size_t position = 0; position < count_at_.size(); ++position)
+            if (const uint32_t count = count_at_[position]; count < Arriving::kPlaces)
+                arriving_[position].start[count] = kNoSide;
     }
 
     void findTwin(uint32_t side)

@@ -143,7 +143,7 @@ uint32_t SideWays::commonFacet(const Image& a, const Image& b) const
 void SideWays::cross(uint32_t side, Way& way)
 {
     const Meeting meeting = meet(from_, to_, after_.places[side], after_.places[nextSide(side)]);
-    crossings_.push_back({side, twins_[side], meeting.t, meeting.far});
+    crossings_.push_back({{side, twins_[side]}, meeting.t, meeting.far});
     way.far = std::max(way.far, meeting.far);
 }
 

@@ -45,10 +45,12 @@ struct Image
 /// Where a way goes from facet to facet.
 struct Crossing
 {
-    uint32_t leaving;  ///< side of the facet before
-    uint32_t entering; ///< its twin, side of the facet behind
-    float t;           ///< from the start (0) to the end (1) of the side that is left
-    float far;         ///< distance from the point that goes there
+    std::array<uint32_t, 2> sides; ///< of the facet before, and its twin of the facet behind
+    float t;                       ///< from the start (0) to the end (1) of the side that is left
+    float far;                     ///< distance from the point that goes there
+
+    uint32_t leaving() const { return sides[0]; }
+    uint32_t entering() const { return sides[1]; }
 };
 
 /// From the image of where a side starts to that of where it ends.

@@ -27,7 +27,7 @@ constexpr size_t kBinCount = 32;
 
 // Nodes above this are cut at the median of their longest side: where the top cuts go does not change the clusters
 // measurably, and a histogram of one axis costs a third of the full search.
-constexpr size_t kMedianOnly = 32768;
+constexpr size_t kMedianOnly = 4096;
 
 // Nodes up to this size are taken to be alike all over in how many vertices their triangles share.
 constexpr size_t kEvenNode = 2048;
@@ -156,13 +156,12 @@ public:
         // an axis too short for floats has one bin
         for (size_t axis = 0; axis < 3; ++axis)
             if (half_sides_[axis] > 1e-35f)
-                scale_[axis] = kBinCount / half_sides_[axis];
+                scale_[axis] = kAllBins / half_sides_[axis];
     }
 
     LaneMask operator()(const SplitItem& item) const
     {
-        const Lanes bin = (centerLanes(item) * allLanes(0.5f) - half_low_) * scale_;
-        return __builtin_convertvector(minimum(bin, allLanes(kBinCount - 1)), LaneMask);
+        return __builtin_convertvector((centerLanes(item) * allLanes(0.5f) - half_low_) * scale_, LaneMask);
     }
 
     size_t longestAxis() const
@@ -172,6 +171,9 @@ public:
     }
 
 private:
+    // a little less than kBinCount, so that what is at the far end is in the last bin, however it is rounded
+    static constexpr float kAllBins = kBinCount * (1 - 1e-6f);
+
     Lanes half_low_, half_sides_;
     Lanes scale_{};
 };

@@ -122,13 +122,16 @@ bool SurfaceMap::mapTriangle(uint32_t t)
 
 void SurfaceMap::follow(const Way& way, bool backwards)
 {
+    // forwards or backwards without a branch, which could not be foretold
     const auto crossings = ways_.crossingsOf(way);
-    if (backwards)
-        for (size_t i = crossings.size(); i-- > 0;)
-            fill_.cross(crossings[i].entering, crossings[i].leaving, 1 - crossings[i].t);
-    else
-        for (const Crossing& crossing : crossings)
-            fill_.cross(crossing.leaving, crossing.entering, crossing.t);
+    const size_t back = backwards ? 1 : 0;
+    const float start = static_cast<float>(back), direction = 1 - 2 * start;
+    const Crossing* crossing = crossings.data() + back * (crossings.size() - 1);
+    for (size_t left = crossings.size(); left > 0; --left)
+    {
+        fill_.cross(crossing->sides[back], crossing->sides[1 - back], start + direction * crossing->t);
+        crossing += 1 - 2 * static_cast<ptrdiff_t>(back);
+    }
 }
 
 /// From facet to facet on the spot.
@@ -165,8 +168,8 @@ std::vector<float> SurfaceMap::sumsOver(std::span<const float> carried) const
         give(way.from, most + ways_.imageOf(positions_[way.side]).far);
         for (const Crossing& crossing : ways_.crossingsOf(way))
         {
-            give(crossing.leaving / 3, most + crossing.far);
-            give(crossing.entering / 3, most + crossing.far);
+            give(crossing.leaving() / 3, most + crossing.far);
+            give(crossing.entering() / 3, most + crossing.far);
         }
         give(way.to, most + ways_.imageOf(positions_[nextSide(way.side)]).far);
     }
@@ -211,9 +214,9 @@ void SurfaceMap::openAlong(uint32_t side)
     InFacet point = ways_.pointIn(facet, ways_.imageOf(positions_[side]));
     for (const Crossing& crossing : ways_.crossingsOf(way))
     {
-        openBetween(facet, point, onSide(crossing.leaving, crossing.t));
-        facet = crossing.entering / 3;
-        point = onSide(crossing.entering, 1 - crossing.t);
+        openBetween(facet, point, onSide(crossing.leaving(), crossing.t));
+        facet = crossing.entering() / 3;
+        point = onSide(crossing.entering(), 1 - crossing.t);
     }
     openBetween(facet, point, ways_.pointIn(facet, ways_.imageOf(positions_[nextSide(side)])));
 }

@@ -53,7 +53,7 @@ public:
             const Way& way = ways_.wayOf(std::min(side, twins_[side]));
             visit(way.from);
             for (const Crossing& crossing : ways_.crossingsOf(way))
-                visit(crossing.entering / 3);
+                visit(crossing.entering() / 3);
         }
     }
 
