@@ -33,20 +33,24 @@ HEARTH_CONSTANT float kGatherMirrorMemory = 8.0f;
 /// Points of a workgroup.
 HEARTH_CONSTANT uint kGatherGroupPoints = 4;
 
+/// Tiles across a block of tiles whose rays together cover the hemisphere evenly, and tiles to each side that are smoothed over.
+HEARTH_CONSTANT uint kGatherBlock = 4;
+HEARTH_CONSTANT int kGatherReach = 3;
+
 /// Frames whose mean a point shows, about: at rest, and after light has changed.
 HEARTH_CONSTANT float kGatherMemory = 32.0f;
 HEARTH_CONSTANT float kGatherShortMemory = 4.0f;
 
-/// What a tile knows. count 0: it shows nothing but sky.
+/// What a tile knows.
 struct GatherPoint
 {
     Float3 position; ///< relative to the eye of its frame
-    float count;     ///< frames that it has gathered, up to the memory
-    Float3 normal;   ///< unit, world axes
-    float sky;       ///< share of its rays that met no brick
-    Float3 mean;     ///< m0, linear colour
-    float reserved;
-    Float4 red; ///< m1 of each colour, world axes; w: radiance of the mirror's lobe
+    float count;   ///< frames that it has gathered, up to the memory; 0: its point is shut in between bricks
+    Float3 normal; ///< unit, world axes
+    float sky;     ///< share of its rays that met no brick
+    Float3 mean;   ///< m0, linear colour
+    float seen;    ///< 0: the tile shows nothing but sky, 1: a surface
+    Float4 red;    ///< m1 of each colour, world axes; w: radiance of the mirror's lobe
     Float4 green;
     Float4 blue;
 };

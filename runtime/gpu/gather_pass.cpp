@@ -9,15 +9,14 @@ namespace hearth::gpu
 namespace
 {
 
-constexpr uint32_t kPointGroupTiles = 8; // each way, as gather_points.comp has it
+constexpr uint32_t kGroupTiles = 8; // each way, as gather_points.comp and gather_smooth.comp have it
 
 void bind(const Device& device, VkCommandBuffer commands, const ComputePipeline& pipeline,
-          VkDescriptorSet first, VkDescriptorSet second)
+          std::initializer_list<VkDescriptorSet> sets)
 {
-    const VkDescriptorSet sets[] = {first, second};
     device.vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.pipeline.get());
-    device.vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.layout.get(), 0, 2,
-                                      sets, 0, nullptr);
+    device.vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.layout.get(), 0,
+                                      static_cast<uint32_t>(sets.size()), sets.begin(), 0, nullptr);
 }
 
 void transition(const Device& device, VkCommandBuffer commands, const Image& image, VkImageLayout from,
@@ -34,11 +33,6 @@ void transition(const Device& device, VkCommandBuffer commands, const Image& ima
     info.image = image.handle.get();
     info.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
     device.vk.vkCmdPipelineBarrier(commands, from_stage, to_stage, 0, 0, nullptr, 0, nullptr, 1, &info);
-}
-
-bool hasDeformed(const Scene& scene)
-{
-    return scene.deformation != nullptr;
 }
 
 } // namespace
@@ -58,6 +52,9 @@ Result<GatherPass> GatherPass::create(const Device& device, const DrawLayouts& l
         }
     const VkDescriptorSetLayout ray_sets[] = {layouts.bricks.get(), layouts.gather.get()};
     HEARTH_ASSIGN_OR_RETURN(pass.rays_, createComputePipeline(device, shaders::gather_rays_comp, ray_sets));
+    const VkDescriptorSetLayout smooth_sets[] = {layouts.gather.get()};
+    HEARTH_ASSIGN_OR_RETURN(pass.smooth_,
+                            createComputePipeline(device, shaders::gather_smooth_comp, smooth_sets));
     return pass;
 }
 
@@ -79,17 +76,24 @@ void GatherPass::record(const Device& device, VkCommandBuffer commands, const Sc
     barrier(device, commands, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT, kCompute,
             VK_ACCESS_UNIFORM_READ_BIT);
 
-    bind(device, commands, points_[scene.used_slices == 1 ? 0 : 1][hasDeformed(scene) ? 1 : 0],
-         scene.draw_set, gather.pointSet());
-    device.vk.vkCmdDispatch(commands, (tiles_x + kPointGroupTiles - 1) / kPointGroupTiles,
-                            (tiles_y + kPointGroupTiles - 1) / kPointGroupTiles, 1);
-    barrier(device, commands, kCompute, VK_ACCESS_SHADER_WRITE_BIT, kCompute,
-            VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT);
-    bind(device, commands, rays_, scene.bricks->set, gather.gatherSet());
+    const uint32_t groups_x = (tiles_x + kGroupTiles - 1) / kGroupTiles,
+                   groups_y = (tiles_y + kGroupTiles - 1) / kGroupTiles;
+    const auto wait = [&]
+    {
+        barrier(device, commands, kCompute, VK_ACCESS_SHADER_WRITE_BIT,
+                kCompute | VK_PIPELINE_STAGE_TRANSFER_BIT,
+                VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_READ_BIT);
+    };
+    bind(device, commands, points_[scene.used_slices == 1 ? 0 : 1][scene.deformation != nullptr ? 1 : 0],
+         {scene.draw_set, gather.pointSet()});
+    device.vk.vkCmdDispatch(commands, groups_x, groups_y, 1);
+    wait();
+    bind(device, commands, rays_, {scene.bricks->set, gather.gatherSet()});
     device.vk.vkCmdDispatch(commands, (tiles_x + shared::kGatherGroupPoints - 1) / shared::kGatherGroupPoints,
                             tiles_y, 1);
-    barrier(device, commands, kCompute, VK_ACCESS_SHADER_WRITE_BIT, VK_PIPELINE_STAGE_TRANSFER_BIT,
-            VK_ACCESS_TRANSFER_READ_BIT);
+    wait();
+    bind(device, commands, smooth_, {gather.gatherSet()});
+    device.vk.vkCmdDispatch(commands, groups_x, groups_y, 1);
     transition(device, commands, gather.texels(), VK_IMAGE_LAYOUT_GENERAL,
                VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, VK_ACCESS_SHADER_WRITE_BIT,
                VK_ACCESS_SHADER_READ_BIT, kCompute, VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT);

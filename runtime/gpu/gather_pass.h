@@ -1,5 +1,5 @@
 // Gathers the light of bricks for the surfaces of a picture: finds a point in each tile of 8 x 8 pixels, sends rays from it,
-// and goes on with what the frame before found there. See README.md, "The light of bricks".
+// goes on with what the frame before found there, and smooths over tiles. See README.md, "The light of bricks".
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -24,6 +24,7 @@ public:
 private:
     ComputePipeline points_[2][2]; ///< [slices of the geometry pool: 1 or all][with deformed meshes]
     ComputePipeline rays_;
+    ComputePipeline smooth_;
 };
 
 } // namespace hearth::gpu

@@ -33,7 +33,7 @@ void gatherAxes(vec3 n, out vec3 first, out vec3 second)
     second = vec3(b, side + n.y * n.y * a, -n.y);
 }
 
-// The plane's distance from the eye; infinite where the tile shows nothing but sky.
+// The plane's distance from the eye; infinite where nothing is known: the tile shows nothing but sky.
 const uint kNoPlane = 0x7F800000u;
 
 GatherTexels encodeGathered(GatherPoint point)
@@ -49,7 +49,7 @@ GatherTexels encodeGathered(GatherPoint point)
     vec2 blue = clamp(vec2(dot(first, point.blue.xyz), dot(second, point.blue.xyz)), -most, most);
     GatherTexels texels;
     texels.mean = uvec4(packHalf2x16(mean.xy), packHalf2x16(mean.zw), normal_code,
-                        point.count > 0.0 ? floatBitsToUint(dot(normal, point.position)) : kNoPlane);
+                        point.seen > 0.0 ? floatBitsToUint(dot(normal, point.position)) : kNoPlane);
     texels.moments = uvec4(packHalf2x16(red), packHalf2x16(green), packHalf2x16(blue),
                           encodeRadiance(vec3(point.red.w, point.green.w, point.blue.w)));
     return texels;

@@ -39,14 +39,13 @@ void main()
     point.normal = vec3(0.0, 1.0, 0.0);
     point.sky = 0.0;
     point.mean = vec3(0.0);
-    point.reserved = 0.0;
+    point.seen = id != kNothingVisible ? 1.0 : 0.0;
     point.red = point.green = point.blue = vec4(0.0);
     if (id != kNothingVisible)
     {
         Surface s = resolveSurface(id, vec2(pixel) + 0.5);
         point.position = s.position;
         point.normal = smoothNormal(s) * (s.front ? 1.0 : -1.0);
-        point.count = 1.0;
     }
     gather_points[tile.y * tiles.x + tile.x] = point;
 }

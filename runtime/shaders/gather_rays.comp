@@ -4,14 +4,12 @@
 #extension GL_GOOGLE_include_directive : require
 #include "bricks.glsl"
 #include "formats/shared/gather.h"
-#include "gather_code.glsl"
 
 layout(local_size_x = 16, local_size_y = 4) in; // kGatherRays, kGatherGroupPoints
 
 layout(set = 1, binding = 0, std140) uniform Gather { GatherView gather; };
 layout(set = 1, binding = 1, std430) buffer GatherPoints { GatherPoint gather_points[]; };
 layout(set = 1, binding = 2, std430) readonly buffer GatherBefore { GatherPoint points_before[]; };
-layout(set = 1, binding = 3, rgba32ui) uniform writeonly uimage2D gather_texels;
 
 // A ray's light, and how much of it is the sky's; its direction.
 shared vec4 ray_light[kGatherGroupPoints][kGatherRays];
@@ -168,11 +166,43 @@ GatherPoint goOn(GatherPoint fresh, GatherPoint known)
     return fresh;
 }
 
-void store(GatherPoint point, uvec2 tile)
+// A point between bricks that shut it in: the middle of the nearest voxel of air on its side, of two the first one.
+BrickStart nearestAir(BrickStart start)
 {
-    GatherTexels texels = encodeGathered(point);
-    imageStore(gather_texels, ivec2(tile.x * 2u, tile.y), texels.mean);
-    imageStore(gather_texels, ivec2(tile.x * 2u + 1u, tile.y), texels.moments);
+    BrickGrid grid = brick_view.grid;
+    vec3 low = floor(start.place);
+    float nearest = kBrickFar;
+    vec3 found = start.place;
+    for (int i = 0; i < 125; ++i)
+    {
+        vec3 middle = low + vec3(i % 5 - 2, i / 5 % 5 - 2, i / 25 - 2) + 0.5;
+        vec3 way = middle - start.place;
+        float distance2 = dot(way, way);
+        if (dot(way, start.normal) > 0.25 && distance2 < nearest && !brickSolid(grid, int(middle.x), int(middle.y), int(middle.z)))
+        {
+            nearest = distance2;
+            found = middle;
+        }
+    }
+    start.place = found;
+    start.buried = nearest < kBrickFar ? 0u : 1u;
+    return start;
+}
+
+BrickStart startOf(GatherPoint point)
+{
+    BrickGrid grid = brick_view.grid;
+    BrickStart start = brickSurfaceStart(grid, (gather.eye + point.position) / grid.voxel_size, point.normal);
+    return start.buried != 0u ? nearestAir(start) : start;
+}
+
+// Which tile of its block one is, so that neighbours are far apart in the order: bits of a Bayer matrix.
+uint placeInBlock(uvec2 tile)
+{
+    uint x = tile.x & 3u;
+    uint y = tile.y & 3u;
+    uint d = x ^ y;
+    return (d & 1u) << 3 | (y & 1u) << 2 | (d & 2u) | y >> 1;
 }
 
 void main()
@@ -183,33 +213,29 @@ void main()
     bool inside = tile.x < gather.tiles_x;
     uint number = tile.y * gather.tiles_x + tile.x;
     GatherPoint point;
-    point.count = 0.0;
+    point.seen = 0.0;
     if (inside)
         point = gather_points[number];
-    bool seen = inside && point.count > 0.0;
-    BrickGrid grid = brick_view.grid;
+    bool seen = point.seen > 0.0;
     if (seen && index == 0u)
-        starts[row] = brickSurfaceStart(grid, (gather.eye + point.position) / grid.voxel_size, point.normal);
+        starts[row] = startOf(point);
     barrier();
-    if (seen)
+    bool open = seen && starts[row].buried == 0u;
+    if (open)
     {
         BrickStart start = starts[row];
-        // of a spiral of all rays of a cycle every kGatherFrames-th: each frame covers the hemisphere evenly
-        vec3 direction = brickRayDirection(start.normal, index * kGatherFrames + gather.frame % kGatherFrames,
-                                           kGatherRays * kGatherFrames, brickHash(number));
+        // of a spiral of all rays of a block and a cycle: each tile in each frame covers the hemisphere evenly, and together
+        // they do so more finely
+        uint tiles = kGatherBlock * kGatherBlock;
+        vec3 direction =
+            brickRayDirection(start.normal, (index * kGatherFrames + gather.frame % kGatherFrames) * tiles + placeInBlock(tile),
+                              kGatherRays * kGatherFrames * tiles, 0u);
         ray_direction[row][index] = direction;
-        ray_light[row][index] = start.buried != 0u ? vec4(0.0) : rayLight(start.place, direction);
+        ray_light[row][index] = rayLight(start.place, direction);
         if (index < kGatherMirrorRays)
-            mirror_light[row][index] =
-                start.buried != 0u ? vec3(0.0) : rayLight(start.place, mirrorDirection(point, index)).rgb;
+            mirror_light[row][index] = rayLight(start.place, mirrorDirection(point, index)).rgb;
     }
     barrier();
-    if (!inside || index != 0u)
-        return;
-    if (seen)
-    {
-        point = goOn(meanOf(point, row), knownBefore(point));
-        gather_points[number] = point;
-    }
-    store(point, tile);
+    if (open && index == 0u)
+        gather_points[number] = goOn(meanOf(point, row), knownBefore(point));
 }

@@ -26,6 +26,7 @@ extern const std::span<const uint32_t> pyramid_top_comp;
 extern const std::span<const uint32_t> light_faces_comp;
 extern const std::span<const uint32_t> gather_points_comp;
 extern const std::span<const uint32_t> gather_rays_comp;
+extern const std::span<const uint32_t> gather_smooth_comp;
 extern const std::span<const uint32_t> tile_materials_comp;
 extern const std::span<const uint32_t> tile_offsets_comp;
 extern const std::span<const uint32_t> tile_lists_comp;
