@@ -1,6 +1,7 @@
-// hearth-bricks: makes the bricks of one or more sources.
+// hearth-bricks: makes the bricks of one or more sources, and marches rays through what it made.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/bricks/bake.h"
+#include "cook/bricks/march_rows.h"
 #include "cook/tools/open_part.h"
 #include "cook/tools/whole_file.h"
 #include "formats/program.h"
@@ -22,6 +23,7 @@ struct Arguments
 {
     std::vector<std::string> parts;
     std::string output;
+    std::string rays;
     std::string statistics;
     double voxel_size = 0;
     std::vector<double> min, max;
@@ -85,11 +87,13 @@ int run(const Arguments& arguments)
     if (arguments.jobs > 0)
         limit = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism,
                                                       arguments.jobs);
-    const Status cooked = cook(arguments);
-    if (cooked.ok())
+    const Status done = arguments.rays.empty()
+                            ? cook(arguments)
+                            : marchFile(arguments.parts[0], arguments.rays, arguments.output);
+    if (done.ok())
         return 0;
-    std::fprintf(stderr, "%s\n", formatMessage(cooked.error()).c_str());
-    return exitCode(cooked.error());
+    std::fprintf(stderr, "%s\n", formatMessage(done.error()).c_str());
+    return exitCode(done.error());
 }
 
 Double3 point(const std::vector<double>& values)
@@ -99,8 +103,12 @@ Double3 point(const std::vector<double>& values)
 
 void addOptions(CLI::App& app, Arguments& arguments)
 {
-    app.add_option("PARTS", arguments.parts, "import, clusters and textures part of each source")->required();
-    app.add_option("-o,--output", arguments.output, "bricks part to write")->required();
+    app.add_option("PARTS", arguments.parts,
+                   "import, clusters and textures part of each source; with --march: a pack or bricks part")
+        ->required();
+    app.add_option("-o,--output", arguments.output,
+                   "bricks part to write; with --march: the CSV file, - is standard output")
+        ->required();
     app.add_option(
         "--voxel-size", arguments.voxel_size,
         "metres; by default 512 voxels along the longest side, 0.1 m at least where that makes 64, and "
@@ -134,9 +142,20 @@ void addOptions(CLI::App& app, Arguments& arguments)
     app.add_option("--stats", arguments.statistics,
                    "write what became of the scene as JSON, and print the memory; - is standard output");
     app.add_option("-j,--jobs", arguments.jobs, "threads to use; the result does not depend on it");
+    const auto of_cooking = {"--voxel-size", "--min",   "--max",   "--seed",
+                             "--memory",     "--error", "--stats", "--jobs"};
+    CLI::Option* march = app.add_option(
+        "--march", arguments.rays,
+        "CSV file of origin_x,origin_y,origin_z,direction_x,direction_y,direction_z in metres: write "
+        "hit,x,y,z,face,t for each ray: 1, the first solid voxel, the face by which it is entered (none "
+        "where the ray "
+        "starts inside) and the distance in metres; 0,,,,, where it meets none");
+    for (const char* option : of_cooking)
+        march->excludes(app.get_option(option));
     app.footer(
         "Example: hearth-bricks room.import.part room.clusters.part room.textures.part -o room.bricks.part "
         "--voxel-size 0.1\n"
+        "         hearth-bricks room.bricks.part --march rays.csv -o hits.csv\n"
         "Exit codes: 0 done, 2 usage, 65 malformed input, 66 input missing, 70 internal, 73 cannot write, "
         "74 I/O");
 }
@@ -150,7 +169,9 @@ int program(int argc, char** argv)
     try
     {
         app.parse(argc, argv);
-        if (arguments.parts.size() % 3 != 0)
+        if (!arguments.rays.empty() && arguments.parts.size() != 1)
+            throw CLI::ValidationError("--march", "one file is marched through");
+        if (arguments.rays.empty() && arguments.parts.size() % 3 != 0)
             throw CLI::ValidationError("PARTS", "three parts are needed for each source");
     }
     catch (const CLI::ParseError& error)

@@ -27,8 +27,10 @@ struct FacedGrid
 };
 
 /// Find spaces and faces of a grid whose opacities hideSheets has set; where its tables would take more than `memory`
-/// bytes, drop the bricks that are farthest from all foci, and find them anew: where bricks went there is open space.
+/// bytes, drop the bricks that are farthest from all foci. What is left keeps its faces, and gets none where it now ends: to
+/// what looks from there it is dark, and the insides of walls stay closed.
 ///
+/// memory       at least what the groups take
 /// seen_points  places that are seen, world space
 /// foci         what matters, world space, one at least
 FacedGrid withinBudget(SolidGrid solid, std::span<const Float3> seen_points, std::span<const Float3> foci,

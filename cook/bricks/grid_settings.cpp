@@ -133,9 +133,10 @@ Result<GridFrame> frameOf(const GridSettings& settings, const Box3& box, double 
     }
     const uint64_t groups = frame.groupCount() * sizeof(formats::BrickGroupRecord);
     if (groups > settings.memory)
-        return usage("--memory", std::to_string(settings.memory) +
-                                     " bytes are less than the empty grid takes, " + std::to_string(groups) +
-                                     ": give more, a larger --voxel-size or a smaller extent (--min, --max)");
+        return usage("memory of bricks",
+                     std::to_string(settings.memory) + " bytes are less than the empty grid takes, " +
+                         std::to_string(groups) +
+                         ": give more, a larger --voxel-size or a smaller extent (--min, --max)");
     return frame;
 }
 
