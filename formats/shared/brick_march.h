@@ -140,8 +140,11 @@ HEARTH_FUNCTION BrickRay brickRayInVoxels(HEARTH_IN(BrickGrid) grid, Float3 orig
     start_z = enter > 0.0f && in_z == enter ? (up_z ? 0.0f : most.z) : start_z;
     ray.start = Float3(start_x, start_y, start_z);
     ray.start_t = enter;
-    HEARTH_PRECISE float rest = leave - enter;
-    ray.end = rest;
+    HEARTH_PRECISE float end_x = ((up_x ? most.x : 0.0f) - start_x) * ray.inverse.x;
+    HEARTH_PRECISE float end_y = ((up_y ? most.y : 0.0f) - start_y) * ray.inverse.y;
+    HEARTH_PRECISE float end_z = ((up_z ? most.z : 0.0f) - start_z) * ray.inverse.z;
+    HEARTH_PRECISE float rest = far - enter;
+    ray.end = min(min(end_x, end_y), min(end_z, rest));
     ray.t = 0.0f;
     // false where anything is not a number, too
     ray.inside = leave > enter ? 1u : 0u;
@@ -181,14 +184,14 @@ HEARTH_FUNCTION float brickDistance(HEARTH_IN(BrickGrid) grid, HEARTH_IN(BrickRa
 
 /// Leave the cell of `edge` voxels each way (1, 4 or 16) that the voxel lies in. Only the coordinate that is crossed is set;
 /// the others stay where they were in the cell: brickCatchUp moves them.
-HEARTH_FUNCTION BrickRay brickLeave(HEARTH_IN(BrickGrid) grid, BrickRay ray, int edge)
+HEARTH_FUNCTION BrickRay brickLeave(BrickRay ray, int edge)
 {
-    bool up_x = ray.inverse.x > 0.0f;
-    bool up_y = ray.inverse.y > 0.0f;
-    bool up_z = ray.inverse.z > 0.0f;
-    int plane_x = (ray.x & -edge) + (up_x ? edge : 0);
-    int plane_y = (ray.y & -edge) + (up_y ? edge : 0);
-    int plane_z = (ray.z & -edge) + (up_z ? edge : 0);
+    int up_x = ray.inverse.x > 0.0f ? -1 : 0;
+    int up_y = ray.inverse.y > 0.0f ? -1 : 0;
+    int up_z = ray.inverse.z > 0.0f ? -1 : 0;
+    int plane_x = (ray.x & -edge) + (edge & up_x);
+    int plane_y = (ray.y & -edge) + (edge & up_y);
+    int plane_z = (ray.z & -edge) + (edge & up_z);
     HEARTH_PRECISE float t_x = (float(plane_x) - ray.start.x) * ray.inverse.x;
     HEARTH_PRECISE float t_y = (float(plane_y) - ray.start.y) * ray.inverse.y;
     HEARTH_PRECISE float t_z = (float(plane_z) - ray.start.z) * ray.inverse.z;
@@ -196,15 +199,14 @@ HEARTH_FUNCTION BrickRay brickLeave(HEARTH_IN(BrickGrid) grid, BrickRay ray, int
     bool over_x = t_x == t;
     bool over_y = !over_x && t_y == t;
     bool over_z = !(over_x || over_y);
-    ray.x = over_x ? (up_x ? plane_x : plane_x - 1) : ray.x;
-    ray.y = over_y ? (up_y ? plane_y : plane_y - 1) : ray.y;
-    ray.z = over_z ? (up_z ? plane_z : plane_z - 1) : ray.z;
-    ray.face = over_x ? (up_x ? 0u : 1u) : over_y ? (up_y ? 2u : 3u) : (up_z ? 4u : 5u);
+    ray.x = over_x ? plane_x + ~up_x : ray.x;
+    ray.y = over_y ? plane_y + ~up_y : ray.y;
+    ray.z = over_z ? plane_z + ~up_z : ray.z;
+    ray.face = over_x ? uint(1 + up_x) : over_y ? uint(3 + up_y) : uint(5 + up_z);
     // rounding may put a plane a little before where the ray is
     ray.t = max(ray.t, t);
     ++ray.steps;
-    bool within = uint(ray.x) < grid.voxels_x && uint(ray.y) < grid.voxels_y && uint(ray.z) < grid.voxels_z;
-    ray.inside = within && ray.t <= ray.end ? 1u : 0u;
+    ray.inside = ray.t < ray.end ? 1u : 0u;
     return ray;
 }
 
@@ -244,41 +246,54 @@ HEARTH_FUNCTION BrickRay brickMarch(HEARTH_IN(BrickMasks) masks, BrickRay ray)
     int known = 1; // edge of the cell that the ray's voxel is known to lie in: its place there may be an old one
     while (ray.inside != 0u)
     {
-        int edge = 16;
         BrickGroup group = brickGroupAt(
             masks, uint(ray.x >> 4) + groups_x * uint(ray.y >> 4) + groups_xy * uint(ray.z >> 4));
-        if ((group.brick_mask_low | group.brick_mask_high) != 0u)
+        if ((group.brick_mask_low | group.brick_mask_high) == 0u)
         {
-            edge = 4;
-            if (known == 16)
-            {
-                ray = brickCatchUp(ray, 16);
-                known = 1;
-            }
-            uint brick_bit = brickBit(uint(ray.x >> 2), uint(ray.y >> 2), uint(ray.z >> 2));
-            if (maskHas(group.brick_mask_low, group.brick_mask_high, brick_bit))
-            {
-                edge = 1;
-                if (known == 4)
-                    ray = brickCatchUp(ray, 4);
-                ray.brick = group.first_brick +
-                            maskCountBelow(group.brick_mask_low, group.brick_mask_high, brick_bit);
-                ray.bit = brickBit(uint(ray.x), uint(ray.y), uint(ray.z));
-                Brick brick = brickAt(masks, ray.brick);
-                if (maskHas(brick.voxel_mask_low, brick.voxel_mask_high, ray.bit))
-                    return ray;
-            }
+            known = 16;
+            ray = brickLeave(ray, 16);
+            continue;
         }
-        ray = brickLeave(grid, ray, edge);
-        known = edge;
+        if (known == 16)
+        {
+            known = 1;
+            ray = brickCatchUp(ray, 16);
+        }
+        uint brick_bit = brickBit(uint(ray.x >> 2), uint(ray.y >> 2), uint(ray.z >> 2));
+        if (!maskHas(group.brick_mask_low, group.brick_mask_high, brick_bit))
+        {
+            known = 4;
+            ray = brickLeave(ray, 4);
+            continue;
+        }
+        if (known == 4)
+        {
+            known = 1;
+            ray = brickCatchUp(ray, 4);
+        }
+        ray.brick =
+            group.first_brick + maskCountBelow(group.brick_mask_low, group.brick_mask_high, brick_bit);
+        Brick brick = brickAt(masks, ray.brick);
+        uint low = brick.voxel_mask_low;
+        uint high = brick.voxel_mask_high;
+        uint x = uint(ray.x);
+        uint y = uint(ray.y);
+        uint z = uint(ray.z);
+        while (ray.inside != 0u && ((uint(ray.x) ^ x) | (uint(ray.y) ^ y) | (uint(ray.z) ^ z)) < 4u)
+        {
+            ray.bit = brickBit(uint(ray.x), uint(ray.y), uint(ray.z));
+            if (maskHas(low, high, ray.bit))
+                return ray;
+            ray = brickLeave(ray, 1);
+        }
     }
     return ray;
 }
 
 /// The ray in the voxel after its own: how light goes on through one that is not opaque.
-HEARTH_FUNCTION BrickRay brickPass(HEARTH_IN(BrickMasks) masks, BrickRay ray)
+HEARTH_FUNCTION BrickRay brickPass(HEARTH_IN(BrickMasks), BrickRay ray)
 {
-    return brickLeave(brickGridOf(masks), ray, 1);
+    return brickLeave(ray, 1);
 }
 
 HEARTH_SHARED_END
