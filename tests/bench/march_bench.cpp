@@ -24,7 +24,7 @@ struct Ray
 struct Terrain
 {
     static constexpr uint32_t kAcross = 512;
-    static constexpr uint32_t kUp = 128;
+    static constexpr uint32_t kUp = 96;
     test::BrickModel model;
     std::vector<Ray> rays;
 
