@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/specular/report.h"
 
+#include "cook/specular/astc.h"
 #include "cook/specular/older_ways.h"
 #include "formats/assert.h"
 
@@ -91,6 +92,11 @@ public:
         TableValues values = cookTable(settings);
         if (rounded)
             values = unpackTable(packTable(values, settings));
+        return lookedUp(values, spacing);
+    }
+
+    Values lookedUp(const TableValues& values, SpecularSpacing spacing) const
+    {
         return of([&](const Configuration& c) { return double{tableOcclusion(c, values, spacing)}; });
     }
 
@@ -190,6 +196,22 @@ void compareInterpolations(const Contest& contest, double lambda, std::vector<Er
     list.push_back(errorsOf("four dimensions", contest.tableViewKept(), contest.idealViewKept()));
 }
 
+/// The table itself as a texture: its nodes, and what is looked up in it.
+void compareAstc(const Contest& contest, const Values& exact, const TableSettings& settings,
+                 Comparison& comparison)
+{
+    const TableValues values = cookTable(settings);
+    for (const uint32_t block : kAstcBlocks)
+    {
+        const AstcTable astc = encodeAstc(values, block);
+        const std::string name = fmt::format("ASTC, {0} x {0}, {1} bytes", block, astc.blocks.size());
+        comparison.astc.push_back(
+            errorsOf(name, {astc.decoded.begin(), astc.decoded.end()}, {values.begin(), values.end()}));
+        comparison.ways.push_back(
+            errorsOf("the table as " + name, contest.lookedUp(astc.decoded, settings.spacing), exact));
+    }
+}
+
 /// Some nodes of the table again, by a quadrature whose error is far below what is asked of the table.
 void measureNodes(const TableSettings& settings, Comparison& comparison)
 {
@@ -254,7 +276,9 @@ Comparison compare(const TableSettings& settings, size_t configuration_count, ui
     comparison.settings = settings;
     comparison.configuration_count = configuration_count;
     const Contest contest(randomConfigurations(configuration_count, seed), settings);
-    compareWays(contest, contest.exact(), settings.normal_lambda, comparison.ways);
+    const Values exact = contest.exact();
+    compareWays(contest, exact, settings.normal_lambda, comparison.ways);
+    compareAstc(contest, exact, settings, comparison);
     compareInterpolations(contest, settings.normal_lambda, comparison.interpolations);
     measureNodes(settings, comparison);
     return comparison;
@@ -266,6 +290,7 @@ std::string comparisonText(const Comparison& comparison)
                        comparison.configuration_count, nameOf(comparison.settings.masking),
                        nameOf(comparison.settings.spacing)) +
            tableText("against the exact value", comparison.ways) + "\n" +
+           tableText("nodes of textures, against the table", comparison.astc) + "\n" +
            tableText("interpolation: against what the nodes are taken from", comparison.interpolations) +
            fmt::format("\nnodes against a finer quadrature, before rounding: rms {:.1e}, max {:.1e}\n",
                        comparison.quadrature_rms, comparison.quadrature_largest);
@@ -280,6 +305,7 @@ std::string comparisonJson(const Comparison& comparison, double cook_seconds)
                                           {"cook_seconds", cook_seconds},
                                           {"configurations", comparison.configuration_count},
                                           {"ways", tableJson(comparison.ways)},
+                                          {"astc", tableJson(comparison.astc)},
                                           {"interpolation", tableJson(comparison.interpolations)},
                                           {"nodes_rms", comparison.quadrature_rms},
                                           {"nodes_max", comparison.quadrature_largest}};

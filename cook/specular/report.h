@@ -25,6 +25,7 @@ struct Comparison
     TableSettings settings;
     size_t configuration_count = 0;
     std::vector<ErrorFigures> ways;           ///< against the exact value of the five numbers
+    std::vector<ErrorFigures> astc;           ///< nodes as read from ASTC textures, against the table
     std::vector<ErrorFigures> interpolations; ///< of tables without rounding, against what they interpolate
     double quadrature_rms = 0; ///< the table's nodes against a quadrature of four times as many points
     double quadrature_largest = 0;

@@ -1,5 +1,6 @@
 // hearth-specular: cooks the table of specular occlusion, and measures it and the fit.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/specular/astc.h"
 #include "cook/specular/fit.h"
 #include "cook/specular/report.h"
 #include "cook/specular/rows.h"
@@ -28,6 +29,8 @@ struct Arguments
     std::string output;
     std::string rows;
     std::string report;
+    std::string astc;
+    uint32_t astc_block = 6;
     bool fit = false;
     TableSettings settings;
     size_t configurations = 1000;
@@ -72,6 +75,13 @@ Status writePart(const Arguments& arguments, const TableValues& values)
     return writer.finish();
 }
 
+Status writeAstc(const Arguments& arguments, const TableValues& values)
+{
+    HEARTH_ASSIGN_OR_RETURN(tools::WholeFile file, tools::WholeFile::create(arguments.astc));
+    file.write(astcFile(encodeAstc(values, arguments.astc_block)));
+    return file.finish();
+}
+
 Status cook(const Arguments& arguments)
 {
     const auto start = std::chrono::steady_clock::now();
@@ -79,6 +89,8 @@ Status cook(const Arguments& arguments)
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     if (!arguments.output.empty())
         HEARTH_TRY(writePart(arguments, values));
+    if (!arguments.astc.empty())
+        HEARTH_TRY(writeAstc(arguments, values));
     if (arguments.report.empty())
         return success();
     const Comparison comparison = compare(arguments.settings, arguments.configurations, arguments.seed);
@@ -112,8 +124,11 @@ std::string faultOf(const Arguments& arguments)
         return "--evaluate and --fit do not go together";
     if (!arguments.rows.empty() && arguments.output.empty())
         return "--evaluate needs -o";
-    if (arguments.rows.empty() && !arguments.fit && arguments.output.empty() && arguments.report.empty())
-        return "-o, --report or --fit is needed";
+    if (!arguments.astc.empty() && (!arguments.rows.empty() || arguments.fit))
+        return "--astc goes with neither --evaluate nor --fit";
+    if (arguments.rows.empty() && !arguments.fit && arguments.output.empty() && arguments.report.empty() &&
+        arguments.astc.empty())
+        return "-o, --astc, --report or --fit is needed";
     return {};
 }
 
@@ -136,6 +151,13 @@ void addOptions(CLI::App& app, Arguments& arguments)
                    "nodes between reflection vector and axis: cosine (the default) or half-sine")
         ->transform(CLI::CheckedTransformer(spacings).description(""))
         ->type_name("NAME");
+    auto* astc =
+        app.add_option("--astc", arguments.astc, "write the table as an .astc texture of 256 x 16, too");
+    app.add_option("--astc-block", arguments.astc_block,
+                   "texels of its blocks along both axes: 4, 6 (the default) or 8")
+        ->check(CLI::IsMember(kAstcBlocks).description(""))
+        ->type_name("N")
+        ->needs(astc);
     app.add_option(
         "--report", arguments.report,
         "compare table, fit and what others do with the exact values: print it, and write JSON; - is "

@@ -56,6 +56,7 @@ struct Arguments
     uint32_t rays_per_sample = 0;
     float distance = 0;
     float power = 0;
+    std::vector<std::string> poses;
     bool refine_cones = false;
     size_t jobs = 0;
 
@@ -69,6 +70,8 @@ struct Arguments
             settings.rays.distance = distance;
         settings.rays.power = power;
         settings.alone = occluders == "asset";
+        for (const std::string& text : poses)
+            settings.poses.push_back(visibility::parseClipTimes(text).value_or(visibility::ClipTimes{}));
         settings.refine_cones = refine_cones;
         settings.estimate_error = !statistics.empty();
         return settings;
@@ -193,6 +196,20 @@ int program(int argc, char** argv)
                    "visibility of what is t metres away is (t / distance)^power; 0, the default: nothing")
         ->check(CLI::Range(0.0, 16.0).description(""))
         ->needs(distance);
+    app.add_option("--poses", arguments.poses,
+                   "CLIP[@SECONDS,...]: deformed meshes are baked in these poses instead of the bind pose, "
+                   "four evenly "
+                   "over the clip where no times are given; several clips: once each")
+        ->allow_extra_args(false)
+        ->check(
+            [](const std::string& text)
+            {
+                return visibility::parseClipTimes(text)
+                           ? ""
+                           : "--poses: \"" + text + "\" has no list of seconds after its @";
+            },
+            "")
+        ->type_name("TEXT");
     app.add_flag("--refine-cones", arguments.refine_cones,
                  "fit cones to nine harmonics instead of four moments; --stats says what that gained");
     app.add_option("-j,--jobs", arguments.jobs, "threads to use; the result does not depend on it");

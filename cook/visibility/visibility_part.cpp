@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <bit>
 #include <chrono>
+#include <deque>
 #include <nlohmann/json.hpp>
 #include <numbers>
 
@@ -76,6 +77,7 @@ public:
     Result<std::optional<std::vector<MeshStatistics>>> run()
     {
         HEARTH_ASSIGN_OR_RETURN(transforms_, transformsOf(scene_, part_));
+        HEARTH_ASSIGN_OR_RETURN(poses_, posesOf(scene_, settings_.poses));
         Occluders world;
         if (!settings_.alone)
             HEARTH_TRY(gather(world));
@@ -129,20 +131,18 @@ private:
         MeshStatistics statistics;
         statistics.mesh = mesh;
         statistics.name = part_.text(pages.record().name);
-        statistics.pose = deformed ? "bind" : "rest";
         statistics.levels = static_cast<uint32_t>(levels.size());
 
-        Occluders itself;
+        std::deque<Occluders> itself;
+        std::vector<Place> places;
         if (alone)
         {
-            const Affine3 identity;
-            HEARTH_TRY(addMesh(itself, masks_, pages, finest, {&identity, 1}));
-            itself.finish();
+            HEARTH_ASSIGN_OR_RETURN(places, alonePlaces(pages, finest, statistics, itself));
         }
+        else
+            places = chosen(world, transforms_[mesh], statistics);
         const auto start = std::chrono::steady_clock::now();
         const std::vector<SurfaceSample> samples = samplesOf(finest);
-        const std::vector<Place> places =
-            alone ? std::vector<Place>{{&itself, {}, {}}} : chosen(world, transforms_[mesh], statistics);
         const std::optional<SampledMoments> seen = trace(finest, samples, places, statistics);
         if (!seen)
             return std::optional<MeshStatistics>();
@@ -167,12 +167,44 @@ private:
         return surfaceSamples(finest.positions, corners, settings);
     }
 
+    /// One mesh, as it is or in each of its poses.
+    Result<std::vector<Place>> alonePlaces(const MeshPages& pages, const LevelArrays& finest,
+                                           MeshStatistics& statistics, std::deque<Occluders>& itself)
+    {
+        std::vector<Place> places;
+        const Affine3 identity;
+        const auto add = [&](std::string name, const LevelArrays& level, std::vector<Float3> posed) -> Status
+        {
+            Occluders& occluders = itself.emplace_back();
+            HEARTH_TRY(addMesh(occluders, masks_, pages, level, {&identity, 1}));
+            occluders.finish();
+            places.push_back({&occluders, identity, std::move(posed)});
+            statistics.poses.push_back(std::move(name));
+            return success();
+        };
+        const bool deformed = isDeformed(pages.record());
+        if (deformed)
+            for (const NamedPose& pose : poses_)
+            {
+                LevelArrays level = finest;
+                level.positions = posedPositions(scene_, pages, finest, statistics.mesh, pose.pose);
+                if (level.positions.empty())
+                    continue;
+                std::vector<Float3> posed = level.positions;
+                HEARTH_TRY(add(pose.name, level, std::move(posed)));
+            }
+        if (places.empty())
+            HEARTH_TRY(add(deformed ? "bind" : "rest", finest, {}));
+        return places;
+    }
+
     /// A power of two of them, so that they can share a sample's rays evenly.
     std::vector<Place> chosen(const Occluders& world, const std::vector<Affine3>& transforms,
                               MeshStatistics& statistics) const
     {
         const size_t most = std::min(kMostInstances, size_t{settings_.rays.rays_per_sample});
         const size_t count = std::min(std::bit_ceil(transforms.size()), std::bit_floor(most));
+        statistics.poses = {"rest"};
         std::vector<Place> some;
         for (size_t i = 0; i < count; ++i)
             some.push_back({&world, transforms[i * transforms.size() / count], {}});
@@ -180,13 +212,13 @@ private:
         return some;
     }
 
-    /// Instances take their share of every sample's rays.
+    /// Instances take their share of every sample's rays; poses have all of them each.
     std::optional<SampledMoments> trace(const LevelArrays& finest, std::span<const SurfaceSample> samples,
                                         std::span<const Place> places, MeshStatistics& statistics)
     {
         RaySettings rays = settings_.rays;
-        rays.rays_per_sample /=
-            std::max(statistics.instances > 0 ? static_cast<uint32_t>(places.size()) : 1u, 1u);
+        if (statistics.instances > 0)
+            rays.rays_per_sample /= static_cast<uint32_t>(places.size());
         rays.seed += statistics.mesh; // meshes that lie on each other have no noise in common
         auto seen = sampledMoments(finest.mesh().mesh, samples, places, rays, settings_.refine_cones,
                                    [&](size_t place, uint64_t done, uint64_t total)
@@ -285,6 +317,7 @@ private:
     const BakeObserver& observe_;
     SceneMasks masks_;
     std::vector<std::vector<Affine3>> transforms_;
+    std::vector<NamedPose> poses_;
     std::vector<std::vector<uint32_t>> codes_;
     double share_before_ = 0;
     double share_of_mesh_ = 0;
@@ -296,7 +329,7 @@ nlohmann::ordered_json jsonOf(const MeshStatistics& mesh)
     nlohmann::ordered_json json{
         {"mesh", mesh.mesh},
         {"name", mesh.name},
-        {"pose", mesh.pose},
+        {"poses", mesh.poses},
         {"instances", mesh.instances},
         {"levels", mesh.levels},
         {"samples", mesh.samples},

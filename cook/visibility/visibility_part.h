@@ -3,6 +3,7 @@
 #pragma once
 
 #include "cook/visibility/level_fit.h"
+#include "cook/visibility/poses.h"
 #include "cook/visibility/rays.h"
 #include "cook/visibility/refined_levels.h"
 #include "formats/pack_view.h"
@@ -22,8 +23,9 @@ struct BakeSettings
     /// Rays meet the mesh alone, in its own space, instead of all instances of the scene in the world.
     bool alone = false;
     LevelFitSettings fit;
-    bool refine_cones = false;   ///< nine harmonics instead of four moments: refined_levels.h
-    bool estimate_error = false; ///< fill MeshStatistics::ao_error, for two more fits
+    std::vector<ClipTimes> poses; ///< deformed meshes have the mean over these; none: the bind pose
+    bool refine_cones = false;    ///< nine harmonics instead of four moments: refined_levels.h
+    bool estimate_error = false;  ///< fill MeshStatistics::ao_error, for two more fits
 };
 
 /// What became of one mesh.
@@ -31,7 +33,8 @@ struct MeshStatistics
 {
     uint32_t mesh = 0;
     std::string name;
-    std::string pose;       ///< "rest", or "bind": a deformed mesh, alone whatever the settings
+    /// "rest"; of a deformed mesh, which is alone whatever the settings: "bind", or the names of its poses
+    std::vector<std::string> poses;
     uint32_t instances = 0; ///< whose surroundings are averaged; 0: alone
     uint32_t levels = 0;
     uint64_t samples = 0;

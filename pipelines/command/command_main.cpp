@@ -101,6 +101,11 @@ void addCook(CLI::App& app, Work& run)
                      "visibility of what is t metres away is (t / distance)^power; nothing by default")
         ->check(CLI::Range(0.0, 16.0))
         ->needs(distance);
+    verb->add_option("--visibility-poses", options->baked.poses,
+                     "CLIP[@SECONDS,...]: bake deformed meshes in these poses, not in the bind pose; once "
+                     "for each clip")
+        ->allow_extra_args(false)
+        ->needs(visibility);
     verb->add_flag("--visibility-refine", options->baked.refine,
                    "cones by nine harmonics instead of four moments; the report says what that gained")
         ->needs(visibility);

@@ -71,6 +71,8 @@ std::vector<std::string> visibilityFlags(const VisibilityOptions& options)
     if (options.distance > 0)
         flags.insert(flags.end(), {"--distance", fmt::format("{}", options.distance), "--power",
                                    fmt::format("{}", options.power)});
+    for (const std::string& pose : options.poses)
+        flags.insert(flags.end(), {"--poses", pose});
     if (options.refine)
         flags.emplace_back("--refine-cones");
     return flags;

@@ -17,9 +17,10 @@ struct VisibilityOptions
 {
     std::string quality = "default";
     std::string occluders = "scene";
-    double distance = 0; ///< metres; 0: no limit
-    double power = 0;    ///< with a distance only
-    bool refine = false; ///< cones by nine harmonics
+    double distance = 0;            ///< metres; 0: no limit
+    double power = 0;               ///< with a distance only
+    std::vector<std::string> poses; ///< "CLIP[@SECONDS,...]": of deformed meshes; none: the bind pose
+    bool refine = false;            ///< cones by nine harmonics
 };
 
 /// What hearth-bricks is told; else it decides itself.

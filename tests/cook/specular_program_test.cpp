@@ -79,6 +79,22 @@ TEST_F(SpecularProgram, writesTheSameBytesWithAnyNumberOfThreads)
     EXPECT_EQ(folder.read("one.part"), folder.read("four.part"));
 }
 
+TEST_F(SpecularProgram, writesTheTableAsATexture)
+{
+    const std::pair<const char*, size_t> blocks[] = {{"4", 64 * 4}, {"6", 43 * 3}, {"8", 32 * 2}};
+    for (const auto& [block, count] : blocks)
+    {
+        ASSERT_EQ(specular({"--astc", "a.astc", "--astc-block", block}).exit_code, 0);
+        const std::string file = folder.read("a.astc");
+        ASSERT_EQ(file.size(), 16 + 16 * count);
+        EXPECT_EQ(file.substr(0, 4), "\x13\xAB\xA1\x5C");
+        EXPECT_EQ(file.substr(7, 9), std::string("\0\1\0\x10\0\0\1\0\0", 9)) << "256 x 16 x 1";
+    }
+    EXPECT_EQ(specular({"--astc", "a.astc", "--astc-block", "5"}).exit_code, 2);
+    EXPECT_EQ(specular({"--astc", "a.astc", "--fit"}).exit_code, 2);
+    EXPECT_EQ(specular({"--astc", "no/such/a.astc"}).exit_code, 73);
+}
+
 TEST_F(SpecularProgram, evaluatesRowsInTheirOrder)
 {
     folder.write("rows.csv",
@@ -135,7 +151,13 @@ TEST_F(SpecularProgram, reportsWhatItCompared)
     const ProgramEnd end = specular({"--report", "report.json", "--configurations", "20"});
     ASSERT_EQ(end.exit_code, 0) << end.err;
     EXPECT_NE(end.out.find("20 random configurations"), std::string::npos) << end.out;
-    EXPECT_EQ(nlohmann::json::parse(folder.read("report.json"))["configurations"], 20);
+    const auto report = nlohmann::json::parse(folder.read("report.json"));
+    EXPECT_EQ(report["configurations"], 20);
+    // 8 bits a texel are as good as the bytes of the part; 2 bits a texel are not
+    ASSERT_EQ(report["astc"].size(), 3u);
+    EXPECT_LT(report["astc"][0]["rms"], 0.005);
+    EXPECT_LT(report["astc"][2]["rms"], 0.05);
+    EXPECT_LT(report["astc"][0]["rms"], report["astc"][2]["rms"]);
     const ProgramEnd fit = specular({"--fit", "--configurations", "100"});
     EXPECT_EQ(fit.exit_code, 0);
     EXPECT_NE(fit.out.find("SpecularFit("), std::string::npos);

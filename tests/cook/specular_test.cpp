@@ -1,5 +1,6 @@
 // The exact occlusion of lobes by cones, and the table of it.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/specular/astc.h"
 #include "cook/specular/configurations.h"
 #include "tests/cook/lobe_reference.h"
 
@@ -299,6 +300,26 @@ TEST(RandomConfigurations, areThoseOfTheirSeed)
     }
     EXPECT_EQ(roughnesses.size(), first.size());
     EXPECT_GE(*roughnesses.begin(), 0.089);
+}
+
+TEST(EncodeAstc, putsSlicesOfBetaBesideEachOther)
+{
+    TableValues values{};
+    for (size_t node = 0; node < values.size(); ++node)
+        values[node] = static_cast<float>(node / 256) / 15;
+    const AstcTable table = encodeAstc(values, 4);
+    ASSERT_EQ(table.blocks.size(), 64u * 4 * 16);
+    for (size_t node = 0; node < values.size(); ++node)
+        EXPECT_NEAR(table.decoded[node], values[node], 5e-4f);
+    // all blocks of a slice are of one value: an extent without weights, whose last bytes are red, green, blue, alpha
+    for (size_t block = 0; block < 64 * 4; ++block)
+    {
+        const auto at = [&](size_t byte) { return static_cast<uint32_t>(table.blocks[block * 16 + byte]); };
+        EXPECT_EQ(at(0), 0xFCu);
+        EXPECT_NEAR(at(8) | at(9) << 8, static_cast<double>(block % 64 / 4) * 65535 / 15, 64);
+        EXPECT_EQ(at(8) | at(9) << 8, at(10) | at(11) << 8);
+        EXPECT_EQ(at(14) | at(15) << 8, 0xFFFFu);
+    }
 }
 
 } // namespace hearth::test

@@ -75,6 +75,7 @@ const std::vector<Library>& libraries()
         {"stb_image_resize.h", {"cook/textures/"}},
         {"OpenImageIO/", {"pipelines/import/", "cook/textures/"}},
         {"draco/", {"pipelines/import/"}},
+        {"astcenc.h", {"cook/specular/"}},
         {"meshoptimizer.h", {"pipelines/import/", "cook/clusters/"}},
         {"tiny_gltf.h", {"pipelines/import/"}},
         {"OpenMesh/", {"pipelines/import/", "cook/"}},

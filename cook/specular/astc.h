@@ -1,0 +1,33 @@
+// The table as an ASTC texture, for renderers that take no other: 256 x 16 texels, one slice of beta beside the other.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "cook/specular/table.h"
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace hearth::specular
+{
+
+/// Texels of a block along both axes. All are 16 bytes: 8, 3.56 and 2 bits a texel.
+inline constexpr std::array<uint32_t, 3> kAstcBlocks{4, 6, 8};
+
+struct AstcTable
+{
+    uint32_t block = 0;
+    std::vector<std::byte> blocks; ///< row by row
+    TableValues decoded{};         ///< what a texture unit reads, in the order of SpecularTableRecord::values
+};
+
+/// Texel (16 beta + aperture, roughness) of a picture of one channel, which is what red, green and blue are read as; linear,
+/// not sRGB. The same bytes for any number of threads.
+/// block  one of kAstcBlocks (asserted)
+AstcTable encodeAstc(const TableValues& values, uint32_t block);
+
+/// A file of the format's own tools: header of 16 bytes, and the blocks.
+/// source  ARM, "The .astc file format" (astc-encoder, Docs/FileFormat.md)
+std::vector<std::byte> astcFile(const AstcTable& table);
+
+} // namespace hearth::specular
