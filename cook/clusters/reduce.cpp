@@ -77,13 +77,15 @@ std::vector<uint32_t> makeVertices(const PreparedMesh& mesh, const GroupMesh& gr
     const Placement& placement = simplified.placement;
     std::vector<uint32_t> vertices = group.vertex_of_wedge;
     std::vector<uint32_t> position_numbers(group.positions.size(), kNoNumber);
-    std::vector<uint8_t> done(vertices.size(), 0);
+    std::vector<uint8_t> done(vertices.size());
+    for (size_t wedge = 0; wedge < done.size(); ++wedge)
+        done[wedge] = placement.remade[group.position_of_wedge[wedge]] == 0 ? 1 : 0;
     SharedInfluences influences(mesh, group, reduced.made);
     for (const uint32_t wedge : simplified.corners)
     {
-        const uint32_t position = group.position_of_wedge[wedge];
-        if (placement.remade[position] == 0 || std::exchange(done[wedge], uint8_t{1}) != 0)
+        if (std::exchange(done[wedge], uint8_t{1}) != 0)
             continue;
+        const uint32_t position = group.position_of_wedge[wedge];
         if (position_numbers[position] == kNoNumber)
             position_numbers[position] = reduced.made_position_count++;
         const auto made = static_cast<uint32_t>(reduced.made.vertexCount());

@@ -204,7 +204,7 @@ float Collapser::cost(uint32_t from, uint32_t to) const
     return std::max(quadrics_.position[from].at(t) + sumOfLanes(attribute_error), 0.0f);
 }
 
-/// Calls `visit` with each collapse of the gathered fan.
+/// Calls `visit` with each collapse of the gathered fan, with the last up to four times.
 template <typename Visit>
 void Collapser::forEachOfFan(uint32_t position, Visit visit) const
 {
@@ -226,7 +226,7 @@ void Collapser::forEachOfFan(uint32_t position, Visit visit) const
             quadrics_.errorsOfFour(group_, position, mesh_.fanWedge(),
                                    {ends[0].wedge, ends[1].wedge, ends[2].wedge, ends[3].wedge}, t_lanes),
             Lanes{});
-        for (size_t i = 0; i < std::min(kLanes, fan.size() - first); ++i)
+        for (size_t i = 0; i < kLanes; ++i)
             if (mesh_.degree(ends[i].position) > 2)
                 visit(Candidate{costs[i], ends[i].position, true});
     }
@@ -414,17 +414,15 @@ bool Collapser::pruneIslands(size_t target_triangles)
 Simplified Collapser::result()
 {
     Simplified result;
+    result.source_triangle = mesh_.aliveTriangles();
     result.corners.reserve(mesh_.aliveCount() * 3);
     result.materials.reserve(mesh_.aliveCount());
-    result.source_triangle.reserve(mesh_.aliveCount());
-    for (uint32_t t = 0; t < mesh_.triangleLimit(); ++t)
-        if (mesh_.alive(t))
-        {
-            for (const Corner corner : StarMesh::cornersOf(t))
-                result.corners.push_back(mesh_.wedgeAt(corner));
-            result.materials.push_back(group_.materials[t]);
-            result.source_triangle.push_back(t);
-        }
+    for (const uint32_t t : result.source_triangle)
+    {
+        for (const Corner corner : StarMesh::cornersOf(t))
+            result.corners.push_back(mesh_.wedgeAt(corner));
+        result.materials.push_back(group_.materials[t]);
+    }
     result.target_of_position.resize(target_.size());
     for (uint32_t p = 0; p < target_.size(); ++p)
     {
@@ -434,8 +432,11 @@ Simplified Collapser::result()
         result.target_of_position[p] = target;
     }
     for (uint32_t p = 0; p < target_.size(); ++p)
-        if (target_[p] != p || group_.locked[p] != 0 || edges_held_[p] == 0 || group_.keeps_places)
-            grown_[p] = 0;
+    {
+        const bool left = target_[p] == p, free = group_.locked[p] == 0, asked = edges_held_[p] != 0;
+        const bool may_move = left & free & asked & !group_.keeps_places;
+        grown_[p] &= may_move ? 1 : 0;
+    }
     result.placement = placeOptimally(group_, mesh_, quadrics_, grown_);
     growIslands(group_, growth_, result.placement);
     return result;

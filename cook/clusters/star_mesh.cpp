@@ -47,6 +47,19 @@ StarMesh::StarMesh(const GroupMesh& group)
         }
 }
 
+std::vector<uint32_t> StarMesh::aliveTriangles() const
+{
+    std::vector<uint32_t> triangles(alive_.size());
+    size_t count = 0;
+    for (uint32_t t = 0; t < alive_.size(); ++t)
+    {
+        triangles[count] = t;
+        count += alive_[t];
+    }
+    triangles.resize(count);
+    return triangles;
+}
+
 std::span<const Corner> StarMesh::star(uint32_t position)
 {
     Star& star = stars_[position];

@@ -59,6 +59,7 @@ public:
     size_t triangleLimit() const { return alive_.size(); }
     bool alive(uint32_t triangle) const { return alive_[triangle] != 0; }
     size_t aliveCount() const { return alive_count_; }
+    std::vector<uint32_t> aliveTriangles() const;
 
     static std::array<Corner, 3> cornersOf(uint32_t triangle)
     {
@@ -130,7 +131,8 @@ private:
     bool has(uint32_t triangle, uint32_t position) const
     {
         const uint32_t* at = &position_of_corner_[size_t{triangle} * 4];
-        return at[0] == position || at[1] == position || at[2] == position;
+        const bool first = at[0] == position, second = at[1] == position, third = at[2] == position;
+        return first | second | third;
     }
     void clearGathered();
     bool gathered(uint32_t position) const

@@ -47,11 +47,19 @@ public:
             if (points_.of_middle[triangle].facet != kNoFacet)
                 addMiddle(triangle);
         for (uint32_t wedge = 0; wedge < attribute_weights_.size(); ++wedge)
-            if (attribute_weights_[wedge] > 0 && placement_.remade[group_.position_of_wedge[wedge]] != 0)
+        {
+            const bool has_rest = attribute_weights_[wedge] > 0;
+            const bool remade = placement_.remade[group_.position_of_wedge[wedge]] != 0;
+            if (has_rest & remade)
                 changeAttributes(wedge);
+        }
         for (uint32_t position = 0; position < place_rests_.size(); ++position)
-            if (place_rests_[position][3] > 2 * exact_weights_[position] && placement_.remade[position] != 0)
+        {
+            const bool has_rest = place_rests_[position][3] > 2 * exact_weights_[position];
+            const bool remade = placement_.remade[position] != 0;
+            if (has_rest & remade)
                 move(position);
+        }
         after_.setPlaces(placement_.places);
         for (uint32_t position = 0; position < points_.of_position.size(); ++position)
             measure(points_.of_position[position], position);
@@ -142,7 +150,7 @@ private:
         for (const uint32_t facet : after_.facets_at.of(position))
         {
             const uint32_t* p = &after_.positions[size_t{facet} * 3];
-            const size_t k = p[0] == position ? 0 : p[1] == position ? 1 : 2;
+            const size_t k = (p[1] == position ? 1u : 0u) + (p[2] == position ? 2u : 0u);
             if (turnsTriangle(places[p[(k + 1) % 3]], places[p[(k + 2) % 3]], places[position], place))
                 return true;
         }

@@ -85,13 +85,14 @@ private:
 
     void findGoals()
     {
+        static_assert(kPruned == kNone);
         goals_.resize(group_.positions.size());
         for (uint32_t position = 0; position < goals_.size(); ++position)
         {
             const uint32_t target = simplified_.target_of_position[position];
-            const bool changed =
-                target != kPruned && (position != target || simplified_.placement.remade[target] != 0);
-            goals_[position] = changed ? target : kNone;
+            const bool stayed = position == target, remade = simplified_.placement.remade[position] != 0;
+            const bool unchanged = stayed & !remade;
+            goals_[position] = unchanged ? kNone : target;
         }
     }
 

@@ -26,9 +26,12 @@ inline bool turnsTriangle(Float3 a, Float3 b, Float3 old_corner, Float3 new_corn
     const float old_area2 = dot(old_normal, old_normal);
     const float new_area2 = dot(new_normal, new_normal);
     const float longest2 = std::max(dot(new_a, new_a), dot(new_b, new_b));
+    // without branches: of the triangles around a collapse, those that go have no area
+    const bool gone = !(new_area2 > 0);
     const bool needle = !(new_area2 > kNeedle * kNeedle * longest2 * longest2);
-    return !(new_area2 > 0) || (needle && new_area2 < old_area2) ||
-           dot(old_normal, new_normal) < kMinTurnCosine * std::sqrt(old_area2 * new_area2);
+    const bool smaller = new_area2 < old_area2;
+    const bool turned = dot(old_normal, new_normal) < kMinTurnCosine * std::sqrt(old_area2 * new_area2);
+    return gone | (needle & smaller) | turned;
 }
 
 } // namespace hearth::clusters
