@@ -33,8 +33,7 @@ HEARTH_CONSTANT float kGatherMirrorMemory = 8.0f;
 /// Points of a workgroup.
 HEARTH_CONSTANT uint kGatherGroupPoints = 4;
 
-/// Tiles across a block of tiles whose rays together cover the hemisphere evenly, and tiles to each side that are smoothed over.
-HEARTH_CONSTANT uint kGatherBlock = 4;
+/// Tiles to each side that are smoothed over.
 HEARTH_CONSTANT int kGatherReach = 3;
 
 /// Frames whose mean a point shows, about: at rest, and after light has changed.

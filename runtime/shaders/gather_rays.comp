@@ -166,34 +166,19 @@ GatherPoint goOn(GatherPoint fresh, GatherPoint known)
     return fresh;
 }
 
-// A point between bricks that shut it in: the middle of the nearest voxel of air on its side, of two the first one.
-BrickStart nearestAir(BrickStart start)
-{
-    BrickGrid grid = brick_view.grid;
-    vec3 low = floor(start.place);
-    float nearest = kBrickFar;
-    vec3 found = start.place;
-    for (int i = 0; i < 125; ++i)
-    {
-        vec3 middle = low + vec3(i % 5 - 2, i / 5 % 5 - 2, i / 25 - 2) + 0.5;
-        vec3 way = middle - start.place;
-        float distance2 = dot(way, way);
-        if (dot(way, start.normal) > 0.25 && distance2 < nearest && !brickSolid(grid, int(middle.x), int(middle.y), int(middle.z)))
-        {
-            nearest = distance2;
-            found = middle;
-        }
-    }
-    start.place = found;
-    start.buried = nearest < kBrickFar ? 0u : 1u;
-    return start;
-}
+// Voxels from a point of a surface to where its rays start, beyond which it was not its own voxel that was left.
+const float kFarStart = kBrickLift + 1.25;
 
+// In the air before the surface; where other bricks stand there, as in corners of rooms, in the air that it is seen through.
 BrickStart startOf(GatherPoint point)
 {
     BrickGrid grid = brick_view.grid;
-    BrickStart start = brickSurfaceStart(grid, (gather.eye + point.position) / grid.voxel_size, point.normal);
-    return start.buried != 0u ? nearestAir(start) : start;
+    vec3 place = (gather.eye + point.position) / grid.voxel_size;
+    BrickStart start = brickSurfaceStart(grid, place, point.normal);
+    if (start.buried != 0u || distance(start.place, place) > kFarStart)
+        start = brickSurfaceStart(grid, place, -normalize(point.position));
+    start.normal = point.normal;
+    return start;
 }
 
 // Which tile of its block one is, so that neighbours are far apart in the order: bits of a Bayer matrix.
@@ -224,12 +209,10 @@ void main()
     if (open)
     {
         BrickStart start = starts[row];
-        // of a spiral of all rays of a block and a cycle: each tile in each frame covers the hemisphere evenly, and together
-        // they do so more finely
-        uint tiles = kGatherBlock * kGatherBlock;
-        vec3 direction =
-            brickRayDirection(start.normal, (index * kGatherFrames + gather.frame % kGatherFrames) * tiles + placeInBlock(tile),
-                              kGatherRays * kGatherFrames * tiles, 0u);
+        // of a spiral every kGatherFrames-th ray, so that a frame covers the hemisphere evenly, and a cycle more finely; the
+        // spirals of a block lie between each other, since the upper bits of the seed shift them
+        vec3 direction = brickRayDirection(start.normal, index * kGatherFrames + gather.frame % kGatherFrames,
+                                           kGatherRays * kGatherFrames, placeInBlock(tile) << 28);
         ray_direction[row][index] = direction;
         ray_light[row][index] = rayLight(start.place, direction);
         if (index < kGatherMirrorRays)
