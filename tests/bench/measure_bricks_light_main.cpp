@@ -28,7 +28,7 @@ struct Arguments
 {
     std::vector<std::string> scenes;
     std::vector<double> sizes{1, 0.5, 0.2, 0.1, 0.05};
-    uint32_t points = 2000, paths = 2048, gather_rays = 1024;
+    uint32_t points = 1000, paths = 1024, gather_rays = 512;
     std::string plot;
     double picture_voxel = 0; ///< metres; 0: no pictures
 };
@@ -105,7 +105,7 @@ shared::Camera cameraOf(const formats::PackView& pack)
 Status writePicture(const reference::ShadedScene& scene, const formats::PackView& pack,
                     const BrickGather& gather, double mean, const std::string& path)
 {
-    constexpr uint32_t kWidth = 480, kHeight = 320, kPaths = 256, kGatherRays = 256;
+    constexpr uint32_t kWidth = 320, kHeight = 214, kPaths = 64, kGatherRays = 64;
     const shared::Camera camera = cameraOf(pack);
     const Double3 eye(camera.position), forward = normalize(Double3(camera.target) - eye);
     const Double3 right = normalize(cross(forward, {0, 1, 0})), up = cross(right, forward);
@@ -202,6 +202,7 @@ Status run(const Arguments& arguments)
 
 int program(int argc, char** argv)
 {
+    std::setvbuf(stdout, nullptr, _IOLBF, 0); // a line for each size as it is there
     CLI::App app("Holds the light that is gathered from bricks against paths through the real geometry.");
     Arguments arguments;
     app.add_option(
