@@ -118,14 +118,14 @@ void addOptions(CLI::App& app, Arguments& arguments)
     app.add_option_function<std::vector<double>>(
            "--seed", [&arguments](const std::vector<double>& values) { arguments.seeds.push_back(values); },
            "a place that is seen from, as cameras are: what is sealed off from all of them has no faces; may "
-           "be "
-           "given again")
+           "be given again")
         ->delimiter(',')
         ->expected(3)
         ->trigger_on_parse()
         ->type_name("X,Y,Z");
     app.add_option("--memory", arguments.settings.memory,
                    "bytes that the grid may take on the GPU, 20971520 by default; farther bricks are dropped")
+        ->check(CLI::Range(uint64_t{1}, uint64_t{1} << 40).description(""))
         ->type_name("BYTES");
     app.add_option("--error", arguments.settings.error_share,
                    "how far clusters may be off, in voxels; 0.25 by default, 0: the finest triangles")
@@ -139,8 +139,7 @@ void addOptions(CLI::App& app, Arguments& arguments)
         "--march", arguments.rays,
         "CSV file of origin_x,origin_y,origin_z,direction_x,direction_y,direction_z in metres: write "
         "hit,x,y,z,face,t for each ray: 1, the first solid voxel, the face by which it is entered (none "
-        "where the ray "
-        "starts inside) and the distance in metres; 0,,,,, where it meets none");
+        "where the ray starts inside) and the distance in metres; 0,,,,, where it meets none");
     for (const char* option : of_cooking)
         march->excludes(app.get_option(option));
     app.footer(
