@@ -60,7 +60,10 @@ void warn(const GridStatistics& statistics, const std::string& output)
         std::snprintf(distance, sizeof(distance), "%.4g", statistics.dropped.from_distance);
         print(std::to_string(statistics.dropped.bricks) + " of " +
               std::to_string(statistics.dropped.bricks + statistics.bricks) +
-              " bricks do not fit the memory: those from " + distance + " m on from what matters");
+              " bricks do not fit the memory: those from " + distance + " m on from what matters" +
+              (statistics.dropped.tiles > 0 ? "; " + std::to_string(statistics.dropped.tiles) +
+                                                  " tiles farther away were not looked at"
+                                            : ""));
     }
 }
 
