@@ -61,7 +61,10 @@ void warn(const GridStatistics& statistics, const std::string& output)
         std::snprintf(distance, sizeof(distance), "%.4g", statistics.dropped.from_distance);
         print(std::to_string(statistics.dropped.bricks) + " of " +
               std::to_string(statistics.dropped.bricks + statistics.bricks) +
-              " bricks do not fit the memory: those from " + distance + " m on from what matters");
+              " bricks do not fit the memory: those from " + distance + " m on from what matters" +
+              (statistics.dropped.tiles > 0 ? "; " + std::to_string(statistics.dropped.tiles) +
+                                                  " tiles farther away were not looked at"
+                                            : ""));
     }
 }
 
@@ -121,14 +124,14 @@ void addOptions(CLI::App& app, Arguments& arguments)
     app.add_option_function<std::vector<double>>(
            "--seed", [&arguments](const std::vector<double>& values) { arguments.seeds.push_back(values); },
            "a place that is seen from, as cameras are: what is sealed off from all of them has no faces; may "
-           "be "
-           "given again")
+           "be given again")
         ->delimiter(',')
         ->expected(3)
         ->trigger_on_parse()
         ->type_name("X,Y,Z");
     app.add_option("--memory", arguments.settings.memory,
                    "bytes that the grid may take on the GPU, 20971520 by default; farther bricks are dropped")
+        ->check(CLI::Range(uint64_t{1}, uint64_t{1} << 40).description(""))
         ->type_name("BYTES");
     app.add_option("--error", arguments.settings.error_share,
                    "how far clusters may be off, in voxels; 0.25 by default, 0: the finest triangles")
@@ -148,8 +151,7 @@ void addOptions(CLI::App& app, Arguments& arguments)
         "--march", arguments.rays,
         "CSV file of origin_x,origin_y,origin_z,direction_x,direction_y,direction_z in metres: write "
         "hit,x,y,z,face,t for each ray: 1, the first solid voxel, the face by which it is entered (none "
-        "where the ray "
-        "starts inside) and the distance in metres; 0,,,,, where it meets none");
+        "where the ray starts inside) and the distance in metres; 0,,,,, where it meets none");
     for (const char* option : of_cooking)
         march->excludes(app.get_option(option));
     app.footer(

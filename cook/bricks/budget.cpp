@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/bricks/budget.h"
 
+#include "cook/bricks/focus.h"
+
 #include <algorithm>
-#include <limits>
 #include <numeric>
 
 namespace hearth::bricks
@@ -11,22 +12,12 @@ namespace hearth::bricks
 namespace
 {
 
-/// Distance of each brick's middle from the nearest focus, metres.
+/// Of each brick.
 std::vector<double> distancesOf(const SolidGrid& grid, std::span<const Float3> foci)
 {
     std::vector<double> distances;
     for (const Cell& cell : grid.brickCells())
-    {
-        const auto along = [&](size_t axis) {
-            return grid.frame.origin[static_cast<int>(axis)] +
-                   double{grid.frame.voxel_size} * (cell[axis] + 2.0);
-        };
-        const Double3 middle{along(0), along(1), along(2)};
-        double nearest = std::numeric_limits<double>::infinity();
-        for (const Float3& focus : foci)
-            nearest = std::min(nearest, length(middle - widen(focus)));
-        distances.push_back(nearest);
-    }
+        distances.push_back(brickDistance(grid.frame, foci, cell));
     return distances;
 }
 
@@ -107,7 +98,7 @@ FacedGrid withinBudget(SolidGrid solid, std::span<const Float3> seen_points, std
         kept[nearest_first[count]] = true;
     }
     FacedGrid some = filtered(grid, kept);
-    some.dropped = {distances.size() - count, grid.solid.voxels.size() - some.solid.voxels.size(),
+    some.dropped = {distances.size() - count, grid.solid.voxels.size() - some.solid.voxels.size(), 0,
                     distances[nearest_first[count]]};
     return some;
 }

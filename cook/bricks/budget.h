@@ -12,7 +12,10 @@ struct Dropped
 {
     uint64_t bricks = 0;
     uint64_t voxels = 0;
+    uint64_t tiles = 0; ///< of 32 x 32 x 32 voxels, that were not even looked at, and count nowhere else
     double from_distance = 0; ///< metres from the nearest focus: everything farther away was dropped
+
+    bool any() const { return bricks + tiles > 0; }
 };
 
 /// A grid whose faces are known.

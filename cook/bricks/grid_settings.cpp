@@ -36,7 +36,7 @@ double roundedUp(double size)
             for (int i = 0; i < std::abs(exponent); ++i)
                 power *= 10;
             const double candidate = exponent < 0 ? step / power : step * power;
-            if (candidate >= size * (1 - 1e-9))
+            if (candidate >= size * (1 - 1e-6))
                 return candidate;
         }
     return size;

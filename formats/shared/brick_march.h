@@ -125,32 +125,37 @@ HEARTH_FUNCTION BrickRay brickRayInVoxels(HEARTH_IN(BrickGrid) grid, Float3 orig
     HEARTH_PRECISE float in_x = ((up_x ? 0.0f : most.x) - origin.x) * ray.inverse.x;
     HEARTH_PRECISE float in_y = ((up_y ? 0.0f : most.y) - origin.y) * ray.inverse.y;
     HEARTH_PRECISE float in_z = ((up_z ? 0.0f : most.z) - origin.z) * ray.inverse.z;
-    HEARTH_PRECISE float out_x = ((up_x ? most.x : 0.0f) - origin.x) * ray.inverse.x;
-    HEARTH_PRECISE float out_y = ((up_y ? most.y : 0.0f) - origin.y) * ray.inverse.y;
-    HEARTH_PRECISE float out_z = ((up_z ? most.z : 0.0f) - origin.z) * ray.inverse.z;
     float enter = max(max(in_x, in_y), max(in_z, 0.0f));
-    float leave = min(min(out_x, out_y), min(out_z, far));
-
-    HEARTH_PRECISE float start_x = min(max(origin.x + enter * ray.direction.x, 0.0f), most.x);
-    HEARTH_PRECISE float start_y = min(max(origin.y + enter * ray.direction.y, 0.0f), most.y);
-    HEARTH_PRECISE float start_z = min(max(origin.z + enter * ray.direction.z, 0.0f), most.z);
-    // the planes of the box that it enters through exactly
-    start_x = enter > 0.0f && in_x == enter ? (up_x ? 0.0f : most.x) : start_x;
-    start_y = enter > 0.0f && in_y == enter ? (up_y ? 0.0f : most.y) : start_y;
-    start_z = enter > 0.0f && in_z == enter ? (up_z ? 0.0f : most.z) : start_z;
+    float start_x = origin.x;
+    float start_y = origin.y;
+    float start_z = origin.z;
+    if (enter > 0.0f)
+    {
+        HEARTH_PRECISE float at_x = origin.x + enter * ray.direction.x;
+        HEARTH_PRECISE float at_y = origin.y + enter * ray.direction.y;
+        HEARTH_PRECISE float at_z = origin.z + enter * ray.direction.z;
+        // on the planes of the box that it enters through exactly
+        start_x = in_x < enter ? at_x : up_x ? 0.0f : most.x;
+        start_y = in_y < enter ? at_y : up_y ? 0.0f : most.y;
+        start_z = in_z < enter ? at_z : up_z ? 0.0f : most.z;
+    }
+    start_x = min(max(start_x, 0.0f), most.x);
+    start_y = min(max(start_y, 0.0f), most.y);
+    start_z = min(max(start_z, 0.0f), most.z);
     ray.start = Float3(start_x, start_y, start_z);
     ray.start_t = enter;
+    // by the same arithmetic as the planes of voxels: who is nearer than this has left the box nowhere. A ray that misses it
+    // stands now on a plane that it leaves through
     HEARTH_PRECISE float end_x = ((up_x ? most.x : 0.0f) - start_x) * ray.inverse.x;
     HEARTH_PRECISE float end_y = ((up_y ? most.y : 0.0f) - start_y) * ray.inverse.y;
     HEARTH_PRECISE float end_z = ((up_z ? most.z : 0.0f) - start_z) * ray.inverse.z;
     HEARTH_PRECISE float rest = far - enter;
     ray.end = min(min(end_x, end_y), min(end_z, rest));
     ray.t = 0.0f;
-    // false where anything is not a number, too
-    ray.inside = leave > enter ? 1u : 0u;
-    ray.x = ray.inside != 0u ? brickVoxelAt(start_x, ray.inverse.x, grid.voxels_x) : 0;
-    ray.y = ray.inside != 0u ? brickVoxelAt(start_y, ray.inverse.y, grid.voxels_y) : 0;
-    ray.z = ray.inside != 0u ? brickVoxelAt(start_z, ray.inverse.z, grid.voxels_z) : 0;
+    ray.inside = ray.end > 0.0f ? 1u : 0u;
+    ray.x = brickVoxelAt(start_x, ray.inverse.x, grid.voxels_x);
+    ray.y = brickVoxelAt(start_y, ray.inverse.y, grid.voxels_y);
+    ray.z = brickVoxelAt(start_z, ray.inverse.z, grid.voxels_z);
     ray.face = kNoFace;
     // from outside, the box's plane alone: that another is met as well may be rounding
     if ((enter == 0.0f || in_z == enter) && brickEnters(start_z, ray.direction.z, ray.z))
@@ -196,8 +201,8 @@ HEARTH_FUNCTION BrickRay brickLeave(BrickRay ray, int edge)
     HEARTH_PRECISE float t_y = (float(plane_y) - ray.start.y) * ray.inverse.y;
     HEARTH_PRECISE float t_z = (float(plane_z) - ray.start.z) * ray.inverse.z;
     float t = min(t_x, min(t_y, t_z));
-    bool over_x = t_x == t;
-    bool over_y = !over_x && t_y == t;
+    bool over_x = t_x <= t;
+    bool over_y = !over_x && t_y <= t;
     bool over_z = !(over_x || over_y);
     ray.x = over_x ? plane_x + ~up_x : ray.x;
     ray.y = over_y ? plane_y + ~up_y : ray.y;
@@ -243,11 +248,12 @@ HEARTH_FUNCTION BrickRay brickMarch(HEARTH_IN(BrickMasks) masks, BrickRay ray)
     BrickGrid grid = brickGridOf(masks);
     uint groups_x = brickGroups(grid.voxels_x);
     uint groups_xy = groups_x * brickGroups(grid.voxels_y);
-    int known = 1; // edge of the cell that the ray's voxel is known to lie in: its place there may be an old one
+    int known =
+        1; // edge of the cell that the ray's voxel is known to lie in: its place there may be an old one
     while (ray.inside != 0u)
     {
-        BrickGroup group = brickGroupAt(
-            masks, uint(ray.x >> 4) + groups_x * uint(ray.y >> 4) + groups_xy * uint(ray.z >> 4));
+        BrickGroup group = brickGroupAt(masks, uint(ray.x >> 4) + groups_x * uint(ray.y >> 4) +
+                                                   groups_xy * uint(ray.z >> 4));
         if ((group.brick_mask_low | group.brick_mask_high) == 0u)
         {
             known = 16;

@@ -109,7 +109,7 @@ TEST(Faces, ofARoomAreWallsOfOneVoxelAroundIt)
             if ((grid.faces[v] >> face & 1) != 0 && (grid.solid.voxels[v].looked_at >> face & 1) != 0)
                 ++inside;
     EXPECT_EQ(inside, walls);
-    EXPECT_EQ(countFaces(grid)[kUp], 24u + 24 + 2 * (5 + 4 + 6) - 10);
+    EXPECT_EQ(countFaces(grid)[kUp], 24u + 24 + 2 * (4 + 6));
 }
 
 TEST(VoxelLook, isWeighedByTheAreaThatASideSees)
@@ -123,8 +123,8 @@ TEST(VoxelLook, isWeighedByTheAreaThatASideSees)
     EXPECT_EQ(level.looked_at, 1u << kUp);
 
     // a step: what looks up is red, what looks along x is blue, and each side sees its own
-    const std::vector<Corners> riser{{{{1.5, 1.5, 1}, {1.5, 1.9, 1}, {1.5, 1.9, 2}}},
-                                     {{{1.5, 1.5, 1}, {1.5, 1.9, 2}, {1.5, 1.5, 2}}}};
+    const Double3 a{1.5, 1.5, 1}, b{1.5, 1.9, 1}, c{1.5, 1.9, 2}, d{1.5, 1.5, 2};
+    const std::vector<Corners> riser{Corners{{a, b, c}}, Corners{{a, c, d}}};
     const SolidVoxel step =
         voxelOf({{rectangle(1.5, {1, 0, 1}, {2, 0, 2}), colored(red)}, {riser, colored(blue)}});
     expectNear(shared::decodeAlbedo(step.albedo[kUp]), red, kAlbedoStep);
@@ -132,7 +132,8 @@ TEST(VoxelLook, isWeighedByTheAreaThatASideSees)
     EXPECT_EQ(step.looked_at, 1u << kUp | 1u << 1);
 
     // a slope that faces (3, 4, 0) / 5 has its own normal on both sides that see it
-    const std::vector<Corners> slope{{{{1.2, 1.8, 1.1}, {1.2, 1.8, 1.9}, {1.6, 1.5, 1.1}}}};
+    const std::vector<Corners> slope{
+        Corners{{Double3{1.2, 1.8, 1.1}, Double3{1.2, 1.8, 1.9}, Double3{1.6, 1.5, 1.1}}}};
     const SolidVoxel slanted = voxelOf({{slope, colored(red)}});
     EXPECT_EQ(slanted.looked_at, 1u << kUp | 1u << 1);
     for (const uint32_t face : {1u, kUp})
@@ -213,11 +214,11 @@ TEST(VoxelLook, ofASphereTurnsWithIt)
                             0.99f);
             }
         });
-    // the projections of a sphere: what all faces show along an axis is at least its disc, at most its bounding square
+    // the projections of a sphere: what all faces show along an axis is at least its disc, at most half as much again
     for (const size_t faces : countFaces(grid))
     {
         EXPECT_GT(static_cast<double>(faces), std::numbers::pi * kRadius * kRadius);
-        EXPECT_LT(static_cast<double>(faces), 1.35 * std::numbers::pi * kRadius * kRadius);
+        EXPECT_LT(static_cast<double>(faces), 1.5 * std::numbers::pi * kRadius * kRadius);
     }
 }
 
@@ -267,8 +268,8 @@ TEST(WithinBudget, keepsTheNearestBricksThatFit)
 TEST(FrameOf, liesOnMultiplesWithRoomBehindTheSides)
 {
     Box3 box;
-    box.add({-3, 0, 0.2f});
-    box.add({3, 2.5f, 4.9f});
+    box.add(Float3{-3, 0, 0.2f});
+    box.add(Float3{3, 2.5f, 4.9f});
     const Result<GridFrame> frame = frameOf({}, box, 0.5);
     ASSERT_TRUE(frame.ok());
     EXPECT_EQ(frame->origin, (Float3{-3.5f, -0.5f, 0}));
@@ -299,8 +300,8 @@ TEST(FrameOf, refusesWhatMakesNoSense)
     const double nan = std::numeric_limits<double>::quiet_NaN(),
                  infinity = std::numeric_limits<double>::infinity();
     Box3 box;
-    box.add({0, 0, 0});
-    box.add({100, 100, 100});
+    box.add(Float3{0, 0, 0});
+    box.add(Float3{100, 100, 100});
     const auto refuse = [&](const GridSettings& settings, double size, const std::string& part)
     {
         const Result<GridFrame> frame = frameOf(settings, box, size);
@@ -333,8 +334,8 @@ TEST(VoxelSize, isOfTheSeriesByTheLongestSide)
     const auto of = [](float side)
     {
         Box3 box;
-        box.add({0, 0, 0});
-        box.add({1, side, 2});
+        box.add(Float3{0, 0, 0});
+        box.add(Float3{1, side, 2});
         return firstVoxelSize(box);
     };
     EXPECT_EQ(of(512), 1);
