@@ -3,36 +3,33 @@
 #pragma once
 
 #include "pipelines/command/terminal.h"
+#include "pipelines/graph/cook_graph.h"
 
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <vector>
 
 namespace hearth::command
 {
 
-/// What hearth-visibility is told.
-struct VisibilityOptions
-{
-    std::string quality = "default";
-    std::string occluders = "scene";
-    double distance = 0; ///< metres; 0: no limit
-    double power = 0;    ///< with a distance only
-};
+using graph::VisibilityOptions;
 
-struct CookOptions
+struct CookOptions : graph::CookSettings
 {
-    std::vector<std::string> sources;
-    std::string output;
     /// Cookers at once. They are parallel themselves: two are enough to hide their serial parts, and each more costs
     /// the memory of another mesh.
     unsigned jobs = 2;
+    /// What the cookers may take together, by their estimates; 0: three quarters of the machine's memory.
+    uint64_t memory_bytes = 0;
+    bool fail_fast = false;          ///< end at the first failure; else cook what does not depend on it
+    std::vector<std::string> caches; ///< of --cache, nearest first; none: as cache::cacheSpecs says
+    bool no_cache = false;
+    bool force = false;                  ///< run everything, whatever the cache has
+    bool explain = false;                ///< say why each cooker runs
+    bool dry_run = false;                ///< only say what would run
+    std::string dry_run_format = "text"; ///< or "json": the plan
     Verbosity verbosity = Verbosity::normal;
-    std::vector<std::string> lods;               ///< "N=FILE": levels of detail of the only source
-    std::string profile;                         ///< TOML file that the cookers read; empty: none
-    std::string report_file;                     ///< empty: none
-    std::optional<VisibilityOptions> visibility; ///< none: vertices do not say what they see
+    std::string report_file; ///< empty: none
 };
 
 /// One cooker's run.
@@ -44,20 +41,22 @@ struct StageRecord
     double cpu_seconds = 0;
     uint64_t peak_rss_bytes = 0;
     uint64_t output_bytes = 0;
+    bool cached = false; ///< the result was kept from an earlier run, whose times these are
 };
 
 struct CookOutcome
 {
     int exit_code = 0;
-    std::string error; ///< the error line, empty on success
-    size_t failed_source = 0;
-    std::vector<StageRecord> stages;             ///< in the order of the plan, those that ended well
+    std::string error;                           ///< the first error line, empty on success
+    std::vector<size_t> failed_sources;          ///< their number for what is not of one
+    bool is_up_to_date = false;                  ///< the pack was there already, byte for byte
+    std::vector<StageRecord> stages;             ///< in the order of the graph; none on failure
     std::vector<std::string> cluster_statistics; ///< of each source, JSON of hearth-clusters; for the report
     double seconds = 0;
     uint64_t output_bytes = 0;
 };
 
-/// Cook all sources into one pack, their scenes side by side. The output appears whole or not at all; on failure or
+/// Cook all sources into one pack, their scenes side by side: run what the cache has no result of. The output appears whole or not at all; on failure or
 /// interruption an output that was there before is as it was, and nothing else is left behind.
 /// returns    the exit code; every problem has been told on stderr
 int cook(const CookOptions& options);
