@@ -66,7 +66,7 @@ graph::ExecutorEvents eventsFor(const CookOptions& options)
                                  const std::vector<std::string>& command)
     {
         if (options.explain)
-            print(fmt::format("{:<10}{}: {}", action.cooker, action.subject, joined(outcome.causes, "; ")));
+            print(fmt::format("{:<11}{}: {}", action.cooker, action.subject, joined(outcome.causes, "; ")));
         if (options.verbosity == Verbosity::all)
             print(faint(joined(command, " ")));
     };
@@ -262,7 +262,7 @@ void cookGraph(const graph::Graph& graph, CookMemory* memory, const CookOptions&
     if (!output_cause.empty() || std::any_of(executor.outcomes().begin(), executor.outcomes().end(), has_run))
         memory->write(journalOf(graph, executor, options, output_cause));
     if (options.explain && !output_cause.empty())
-        print(fmt::format("{:<10}{}: {}", "pack", options.output, output_cause));
+        print(fmt::format("{:<11}{}: {}", "pack", options.output, output_cause));
 }
 
 void cookInto(const CookOptions& options, CookOutcome& outcome)

@@ -34,7 +34,7 @@ Result<std::string> dryRunText(const CookOptions& options)
     std::string text = forecastText(graph, forecast);
     if (const std::string cause = packCause(forecast, memory->hashes().hashOf(options.output));
         !cause.empty())
-        text += fmt::format("{:<10}{}: {}\n", "pack", options.output, cause);
+        text += fmt::format("{:<11}{}: {}\n", "pack", options.output, cause);
     return text + fmt::format("{} of {} cookers would run\n", runs, graph.actions.size());
 }
 
@@ -47,7 +47,7 @@ std::string forecastText(const graph::Graph& graph, const graph::Forecast& forec
     {
         if (!forecast.actions[i].runs)
             continue;
-        text += fmt::format("{:<10}{}: ", graph.actions[i].cooker, graph.actions[i].subject);
+        text += fmt::format("{:<11}{}: ", graph.actions[i].cooker, graph.actions[i].subject);
         for (size_t cause = 0; cause < forecast.actions[i].causes.size(); ++cause)
             text += (cause == 0 ? "" : "; ") + forecast.actions[i].causes[cause];
         text += '\n';

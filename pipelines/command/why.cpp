@@ -30,13 +30,13 @@ std::string lastCookText(const graph::Journal& journal, OnlySource only)
                              : last.ending == graph::Ending::left_out ? " (left out: a dependency failed)"
                              : last.ending == graph::Ending::unknown  ? " (did not come to its end)"
                                                                       : "";
-        text += fmt::format("  {:<10}{}{}", action.cooker, action.subject, ending);
+        text += fmt::format("  {:<11}{}{}", action.cooker, action.subject, ending);
         for (size_t cause = 0; cause < last.causes.size(); ++cause)
             text += (cause == 0 ? ": " : "; ") + last.causes[cause];
         text += '\n';
     }
     if (!journal.output_cause.empty() && !only)
-        text += fmt::format("  {:<10}{}: {}\n", "pack", journal.output, journal.output_cause);
+        text += fmt::format("  {:<11}{}: {}\n", "pack", journal.output, journal.output_cause);
     return text.empty() ? "  nothing\n" : text;
 }
 
@@ -76,7 +76,7 @@ Result<std::string> nextCookText(const graph::Journal& journal, const std::vecto
         forecast.actions[i].runs = forecast.actions[i].runs && journal.graph.actions[i].source == *only;
     std::string text = indented(forecastText(journal.graph, forecast));
     if (!cause.empty() && !only)
-        text += fmt::format("  {:<10}{}: {}\n", "pack", journal.output, cause);
+        text += fmt::format("  {:<11}{}: {}\n", "pack", journal.output, cause);
     return text.empty() ? std::string("  nothing: it is up to date\n") : text;
 }
 

@@ -192,7 +192,8 @@ std::optional<Record> ActionCache::recordAfter(const Action& action, const Recor
         found.emplace_back(std::string(kFound) + input->role + "/" + name,
                            hash.value_or(std::string(kAbsent)));
     }
-    Record whole = record;
+    // what it found in an earlier run is no matter
+    Record whole = declaredOf(record);
     whole.insert(whole.end(), found.begin(), found.end());
     return whole;
 }

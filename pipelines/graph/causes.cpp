@@ -34,18 +34,23 @@ Options optionsOf(const Record& record)
     return options;
 }
 
+std::string called(const std::string& option, const std::string& value)
+{
+    return value.empty() ? option : option + " " + value;
+}
+
 void addOptionCauses(const Record& before, const Record& now, std::vector<std::string>& causes)
 {
     const Options old_options = optionsOf(before);
     const Options new_options = optionsOf(now);
     for (const auto& [option, value] : new_options)
         if (const auto old = old_options.find(option); old == old_options.end())
-            causes.push_back(fmt::format("parameter {} {}: new", option, value));
+            causes.push_back(fmt::format("parameter {}: new", called(option, value)));
         else if (old->second != value)
             causes.push_back(fmt::format("parameter {}: {} -> {}", option, old->second, value));
     for (const auto& [option, value] : old_options)
         if (!new_options.contains(option))
-            causes.push_back(fmt::format("parameter {} {}: no longer given", option, value));
+            causes.push_back(fmt::format("parameter {}: no longer given", called(option, value)));
 }
 
 /// Fields of one name in the record, in order.

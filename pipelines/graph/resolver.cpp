@@ -15,7 +15,8 @@ Record Resolver::comparable(size_t action, const std::optional<Record>& record)
         return {};
     Record now = *record;
     const std::optional<Journal>& journal = journal_();
-    if (!journal || !graph_.actions[action].finds_files)
+    const auto isFound = [](const auto& field) { return field.first.starts_with(kFound); };
+    if (!journal || std::any_of(now.begin(), now.end(), isFound) || !graph_.actions[action].finds_files)
         return now;
     if (const JournalAction* last = lastOf(graph_.actions[action], graph_, *journal))
         for (const auto& field : actions_->refreshed(graph_.actions[action], last->record))
@@ -36,7 +37,9 @@ Resolved Resolver::resolve(size_t index, const std::vector<std::string>& part_ha
     if (resolved.record && !is_forced_)
     {
         const size_t damage_before = cache_->damageCount();
-        resolved.result = actions_->find(action, *resolved.record).result;
+        ActionCache::Found found = actions_->find(action, *resolved.record);
+        resolved.record = std::move(found.record);
+        resolved.result = std::move(found.result);
         situation.is_damaged = cache_->damageCount() > damage_before;
     }
     if (resolved.result)
