@@ -44,16 +44,30 @@ bool isAbandoned(const std::string& folder)
     return abandoned;
 }
 
+/// The lock goes last: a removal that is killed itself, or that a cooker without a parent writes into, leaves a folder
+/// that the next process knows.
+void removeFolder(const std::string& folder)
+{
+    // nothing more can be done about a folder that does not go, and the work itself is done
+    std::error_code error;
+    std::error_code ignored;
+    for (auto at = std::filesystem::directory_iterator(folder, error);
+         !error && at != std::filesystem::directory_iterator(); at.increment(error))
+        if (at->path().filename() != kLock + 1)
+            std::filesystem::remove_all(at->path(), ignored);
+    ::unlink((folder + kLock).c_str());
+    if (::rmdir(folder.c_str()) != 0)
+        if (const int lock = ::open((folder + kLock).c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600); lock >= 0)
+            ::close(lock);
+}
+
 void removeAbandoned(const std::string& parent)
 {
     std::error_code error;
     for (auto at = std::filesystem::directory_iterator(parent, error);
          !error && at != std::filesystem::directory_iterator(); at.increment(error))
         if (at->path().filename().string().starts_with(kStart) && isAbandoned(at->path().string()))
-        {
-            std::error_code ignored;
-            std::filesystem::remove_all(at->path(), ignored);
-        }
+            removeFolder(at->path().string());
 }
 
 } // namespace
@@ -71,10 +85,8 @@ Result<PrivateFolder> PrivateFolder::create(const std::string& parent, const std
 
 PrivateFolder::~PrivateFolder()
 {
-    // nothing more can be done about a folder that does not go, and the work itself is done
-    std::error_code ignored;
     if (!path_.empty())
-        std::filesystem::remove_all(path_, ignored);
+        removeFolder(path_);
     if (lock_ >= 0)
         ::close(lock_);
 }

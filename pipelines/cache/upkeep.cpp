@@ -134,9 +134,10 @@ Occupancy collectGarbage(const std::string& folder, uint64_t limit_bytes)
         else
             remove(content->path);
     std::error_code error;
-    for (const auto& file : fs::directory_iterator(folder + "/tmp", error))
-        if (std::error_code gone; !isYoung(file.last_write_time(gone)) || gone)
-            remove(file.path().string());
+    for (auto at = fs::directory_iterator(folder + "/tmp", error); !error && at != fs::directory_iterator();
+         at.increment(error))
+        if (std::error_code gone; !isYoung(at->last_write_time(gone)))
+            remove(at->path().string());
     return left;
 }
 

@@ -77,9 +77,10 @@ std::vector<graph::Journal> allJournals(const std::vector<std::string>& caches)
     for (const cache::FolderSpec& spec : specs.ok() ? *specs : std::vector<cache::FolderSpec>())
     {
         std::error_code error;
-        for (const auto& file : std::filesystem::directory_iterator(spec.folder + "/cooks", error))
-            if (const auto text = file.path().extension() == kJournalEnding
-                                      ? cache::readText(file.path().string())
+        for (auto at = std::filesystem::directory_iterator(spec.folder + "/cooks", error);
+             !error && at != std::filesystem::directory_iterator(); at.increment(error))
+            if (const auto text = at->path().extension() == kJournalEnding
+                                      ? cache::readText(at->path().string())
                                       : std::nullopt)
                 if (auto journal = graph::parseJournal(*text))
                     journals.push_back(std::move(*journal));

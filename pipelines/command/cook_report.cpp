@@ -39,7 +39,7 @@ Json assetJson(const CookOptions& options, const CookOutcome& outcome, size_t so
     const bool failed =
         outcome.exit_code != 0 &&
         std::any_of(outcome.failed_sources.begin(), outcome.failed_sources.end(),
-                    [&](size_t failed) { return failed == source || failed == options.sources.size(); });
+                    [&](size_t index) { return index == source || index == options.sources.size(); });
     const char* state = outcome.exit_code == 0 ? "cooked" : failed ? "failed" : "not cooked";
     Json asset{{"source", options.sources[source]}, {"state", state}, {"stages", Json::array()}};
     for (const StageRecord& stage : outcome.stages)

@@ -30,8 +30,7 @@ const std::vector<Layer>& layers()
         {"cook/motion/", {"formats/"}},
         {"cook/pages/", {"formats/"}},
         {"cook/sampling/", {"formats/"}},
-        {"cook/",
-         {"formats/", "cook/tools/", "cook/mesh/", "cook/motion/", "cook/pages/", "cook/sampling/"}},
+        {"cook/", {"formats/", "cook/tools/", "cook/mesh/", "cook/motion/", "cook/pages/", "cook/sampling/"}},
         // extract draws the cut that the runtime would draw
         {"pipelines/command/", {"formats/", "cook/", "pipelines/", "runtime/pack/"}},
         {"pipelines/", {"formats/", "cook/", "pipelines/"}},
@@ -97,10 +96,10 @@ const std::vector<Library>& libraries()
     return list;
 }
 
-// POSIX: what the standard library does not give
-constexpr std::array<std::string_view, 10> kPosixHeaders{"sys/",    "malloc.h", "unistd.h", "fcntl.h",
-                                                         "poll.h",  "spawn.h",  "dirent.h", "signal.h",
-                                                         "dlfcn.h", "pthread.h"};
+// POSIX and Linux: what the standard library does not give
+constexpr std::array<std::string_view, 12> kPosixHeaders{"sys/",     "linux/",   "elf.h",   "malloc.h",
+                                                         "unistd.h", "fcntl.h",  "poll.h",  "spawn.h",
+                                                         "dirent.h", "signal.h", "dlfcn.h", "pthread.h"};
 
 bool isIn(std::string_view path, const Folders& folders)
 {
