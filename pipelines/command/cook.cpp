@@ -168,8 +168,7 @@ graph::Journal journalOf(const graph::Graph& graph, const graph::Executor& execu
                          const CookOptions& options, const std::string& output_cause)
 {
     graph::Journal journal;
-    std::error_code error;
-    journal.folder = std::filesystem::current_path(error).string();
+    journal.folder = graph::workingFolder();
     journal.output = graph::absolutePath(options.output);
     journal.output_cause = output_cause;
     journal.graph = graph;
@@ -280,7 +279,7 @@ void cookInto(const CookOptions& options, CookOutcome& outcome)
         if (options.verbosity != Verbosity::quiet)
             print(formatMessage(warning));
     };
-    const auto memory = CookMemory::open(options.caches, options.output, warn);
+    const auto memory = CookMemory::open(options.caches, options.output, graph::workingFolder(), warn);
     if (!memory.ok())
         return failed(memory.error());
     cookGraph(*graph, (*memory)->cache().isEmpty() ? nullptr : memory->get(), options, outcome);

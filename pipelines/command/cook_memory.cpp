@@ -20,14 +20,15 @@ constexpr const char* kHashesEnding = ".hashes";
 } // namespace
 
 Result<std::unique_ptr<CookMemory>> CookMemory::open(const std::vector<std::string>& caches,
-                                                     const std::string& output,
+                                                     const std::string& output, const std::string& folder,
                                                      const std::function<void(const Error&)>& warn)
 {
-    std::unique_ptr<CookMemory> memory(new CookMemory);
+    std::unique_ptr<CookMemory> memory(new CookMemory(folder));
     HEARTH_ASSIGN_OR_RETURN(memory->specs_, cache::cacheSpecs(caches));
     std::vector<std::unique_ptr<cache::Level>> levels;
-    for (const cache::FolderSpec& spec : memory->specs_)
+    for (cache::FolderSpec& spec : memory->specs_)
     {
+        spec.folder = graph::absolutePath(spec.folder);
         auto level = std::make_unique<cache::FolderLevel>(spec.folder, spec.writable);
         memory->levels_.push_back(level.get());
         levels.push_back(std::move(level));

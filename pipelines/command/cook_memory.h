@@ -23,10 +23,11 @@ class CookMemory
 public:
     /// caches    of --cache; see cache::cacheSpecs
     /// output    the pack
+    /// folder    that relative paths of sources start from
     /// warn      is told what goes wrong with a cache
     /// errors    usage
     static Result<std::unique_ptr<CookMemory>> open(const std::vector<std::string>& caches,
-                                                    const std::string& output,
+                                                    const std::string& output, const std::string& folder,
                                                     const std::function<void(const Error&)>& warn);
 
     cache::Cache& cache() { return *cache_; }
@@ -42,7 +43,7 @@ public:
     void finish();
 
 private:
-    CookMemory() = default;
+    explicit CookMemory(const std::string& folder) : hashes_(folder) {}
 
     std::vector<cache::FolderSpec> specs_;
     std::vector<const cache::FolderLevel*> levels_; ///< of the specs

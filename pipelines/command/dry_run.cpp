@@ -20,7 +20,7 @@ Result<std::string> dryRunText(const CookOptions& options)
     if (options.dry_run_format == "json")
         return graph::planJson(graph);
     HEARTH_ASSIGN_OR_RETURN(const auto memory,
-                            CookMemory::open(options.caches, options.output,
+                            CookMemory::open(options.caches, options.output, graph::workingFolder(),
                                              [](const Error& warning) {
                                                  std::fprintf(stderr, "%s\n", formatMessage(warning).c_str());
                                              }));

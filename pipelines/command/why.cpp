@@ -57,8 +57,8 @@ Result<std::string> nextCookText(const graph::Journal& journal, const std::vecto
 {
     // the user's paths start there
     std::error_code error;
-    const std::filesystem::path here = std::filesystem::current_path(error);
-    const auto memory = CookMemory::open(caches, journal.output,
+    const std::string here = graph::workingFolder();
+    const auto memory = CookMemory::open(caches, journal.output, journal.folder,
                                          [](const Error& warning)
                                          { std::fprintf(stderr, "%s\n", formatMessage(warning).c_str()); });
     if (!memory.ok())

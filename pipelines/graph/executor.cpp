@@ -15,8 +15,6 @@ namespace hearth::graph
 namespace
 {
 
-constexpr const char* kReadList = "reads.txt";
-
 std::optional<uint64_t> sizeOf(const std::string& path)
 {
     std::error_code error;
@@ -68,19 +66,33 @@ std::optional<Failure> Executor::makeFolders()
     return std::nullopt;
 }
 
-std::string Executor::folderOf(size_t action) const
+std::string Executor::readListOf(size_t action) const
 {
-    // the pack lies where a rename can put it in place; no number is in the name of a part, which a cooker might keep
-    return action + 1 == graph_.actions.size() ? beside_->path()
-                                               : fmt::format("{}/{}", parts_->path(), action);
+    return fmt::format("{}/{}.reads", parts_->path(), action);
 }
 
+bool Executor::isPack(size_t action) const
+{
+    return action + 1 == graph_.actions.size();
+}
+
+/// Where the action's cooker writes.
 std::vector<std::string> Executor::pathsOf(size_t action) const
 {
     std::vector<std::string> paths;
     for (const std::string& output : graph_.actions[action].outputs)
-        paths.push_back(folderOf(action) + "/" + output);
+        // the pack lies where a rename can put it in place
+        paths.push_back(isPack(action) ? beside_->path() + "/" + output
+                                       : fmt::format("{}/{}.{}", parts_->path(), action, output));
     return paths;
+}
+
+/// Where an output lies whose content is known: a name that is the same in every cook, since a cooker may write down what
+/// its input is called. What is the same is there once.
+std::string Executor::pathOf(size_t action, size_t output) const
+{
+    return isPack(action) ? pathsOf(action)[output]
+                          : parts_->path() + "/" + outcomes_[action].result.outputs[output].hash;
 }
 
 bool Executor::materialize(size_t action)
@@ -90,15 +102,15 @@ bool Executor::materialize(size_t action)
         return true;
     if (cache_ == nullptr || makeFolders())
         return false;
-    std::error_code error;
-    std::filesystem::create_directories(folderOf(action), error);
     // the pack becomes the user's, who may write into it
-    const cache::Use use =
-        action + 1 == graph_.actions.size() ? cache::Use::given_away : cache::Use::read_only;
-    const std::vector<std::string> paths = pathsOf(action);
-    for (size_t i = 0; i < paths.size(); ++i)
+    const cache::Use use = isPack(action) ? cache::Use::given_away : cache::Use::read_only;
+    std::vector<std::string> paths;
+    for (size_t i = 0; i < outcome.result.outputs.size(); ++i)
+    {
+        paths.push_back(pathOf(action, i));
         if (!sizeOf(paths[i]) && !cache_->fetch(outcome.result.outputs[i].hash, paths[i], use))
             return false;
+    }
     outcome.paths = paths;
     return true;
 }
@@ -132,15 +144,13 @@ std::optional<Failure> Executor::start(size_t index)
     const Action& action = graph_.actions[index];
     if (auto failure = makeFolders())
         return failure;
-    std::error_code error;
-    std::filesystem::create_directories(folderOf(index), error);
     ActionPaths paths{{}, pathsOf(index)};
     for (const Input& input : action.inputs)
         paths.inputs.push_back(input.action == kNoAction ? input.path
                                                          : outcomes_[input.action].paths.front());
     std::vector<std::string> command = commandOf(action, options_.programs, paths);
     if (action.finds_files && cache_ != nullptr)
-        command.insert(command.end(), {"--depfile", folderOf(index) + "/" + kReadList});
+        command.insert(command.end(), {"--depfile", readListOf(index)});
     if (events_.starting)
         events_.starting(action, outcomes_[index], command);
     const Result<size_t> child = children_.start(command);
@@ -231,16 +241,20 @@ std::optional<Failure> Executor::checkOutputs(size_t index)
     ActionOutcome& outcome = outcomes_[index];
     outcome.paths = pathsOf(index);
     outcome.result.outputs.clear();
-    for (const std::string& path : outcome.paths)
+    for (size_t i = 0; i < outcome.paths.size(); ++i)
     {
-        const std::optional<uint64_t> bytes = sizeOf(path);
+        const std::optional<uint64_t> bytes = sizeOf(outcome.paths[i]);
         if (!bytes)
             return failureOf({Issue::child_failed, graph_.actions[index].subject, "",
                               "hearth-" + graph_.actions[index].cooker + " ended well, but made nothing"},
                              graph_.actions[index].source);
         outcome.result.outputs.push_back({"", *bytes});
-        if (cache_ != nullptr)
-            outcome.result.outputs.back().hash = tools::sha256OfFile(path).value_or("");
+        if (cache_ == nullptr)
+            continue;
+        outcome.result.outputs.back().hash = tools::sha256OfFile(outcome.paths[i]).value_or("");
+        if (const std::string known = pathOf(index, i);
+            ::rename(outcome.paths[i].c_str(), known.c_str()) == 0)
+            outcome.paths[i] = known;
     }
     return std::nullopt;
 }
@@ -253,7 +267,7 @@ void Executor::keepResult(size_t index)
         return;
     if (action.finds_files)
     {
-        const std::optional<std::string> text = cache::readText(folderOf(index) + "/" + kReadList);
+        const std::optional<std::string> text = cache::readText(readListOf(index));
         const auto reads = text ? tools::ReadList::parse(*text) : std::nullopt;
         const auto whole = reads ? actions_->recordAfter(action, outcome.record, *reads) : std::nullopt;
         if (!whole)
@@ -262,10 +276,9 @@ void Executor::keepResult(size_t index)
     }
     if (!cache_->isWritable())
         return;
-    const bool is_pack = index + 1 == graph_.actions.size();
     for (size_t i = 0; i < outcome.paths.size(); ++i)
         cache_->put(outcome.result.outputs[i].hash, outcome.paths[i],
-                    is_pack ? cache::Use::given_away : cache::Use::read_only);
+                    isPack(index) ? cache::Use::given_away : cache::Use::read_only);
     actions_->keep(action, outcome.record, outcome.result);
 }
 

@@ -89,7 +89,9 @@ private:
     void keepResult(size_t action);
     bool finishPack(const std::optional<std::string>& hash_there);
     void fail(size_t action, const Failure& failure);
-    std::string folderOf(size_t action) const;
+    bool isPack(size_t action) const;
+    std::string pathOf(size_t action, size_t output) const;
+    std::string readListOf(size_t action) const;
     std::vector<std::string> pathsOf(size_t action) const;
 
     const Graph& graph_;

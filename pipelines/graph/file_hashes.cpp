@@ -7,7 +7,6 @@
 #include "pipelines/cache/folder_level.h"
 
 #include <ctime>
-#include <filesystem>
 #include <fmt/format.h>
 #include <sys/stat.h>
 
@@ -26,15 +25,6 @@ std::string looksOf(const struct stat& info)
         return "";
     return fmt::format("{} {} {} {}.{:09} {}.{:09}", info.st_dev, info.st_ino, info.st_size,
                        info.st_mtim.tv_sec, info.st_mtim.tv_nsec, info.st_ctim.tv_sec, info.st_ctim.tv_nsec);
-}
-
-std::string absolute(const std::string& path)
-{
-    if (path.starts_with('/'))
-        return path;
-    std::error_code error;
-    const std::string here = std::filesystem::current_path(error).string();
-    return here + "/" + path;
 }
 
 } // namespace
@@ -64,7 +54,7 @@ void FileHashes::save(const std::string& path) const
 
 std::optional<std::string> FileHashes::hashOf(const std::string& path)
 {
-    const std::string key = absolute(path);
+    const std::string key = path.starts_with('/') ? path : folder_ + path;
     if (const auto asked = hash_of_path_.find(key); asked != hash_of_path_.end())
         return asked->second;
     std::optional<std::string>& hash = hash_of_path_[key];

@@ -16,6 +16,9 @@ namespace hearth::graph
 class FileHashes
 {
 public:
+    /// folder  that relative paths start from
+    explicit FileHashes(const std::string& folder) : folder_(folder + "/") {}
+
     /// Take what save() wrote; a file that cannot be read or is damaged says nothing.
     void load(const std::string& path);
     /// Write what has been asked for since, and nothing else; errors do no harm but time. Nothing is written where it would
@@ -38,6 +41,7 @@ private:
     std::map<std::string, Known> remembered_; ///< by absolute path
     std::map<std::string, Known> seen_;       ///< since, by absolute path; no looks: not to be remembered
     std::map<std::string, std::optional<std::string>> hash_of_path_;
+    std::string folder_;
     std::string loaded_text_;
     size_t files_read_ = 0;
 };

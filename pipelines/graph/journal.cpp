@@ -66,6 +66,12 @@ std::optional<Journal> parseJournal(std::string_view text)
                                                                   : std::nullopt;
 }
 
+std::string workingFolder()
+{
+    std::error_code error;
+    return std::filesystem::current_path(error).string();
+}
+
 std::string absolutePath(const std::string& path)
 {
     std::error_code error;

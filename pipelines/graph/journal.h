@@ -48,5 +48,6 @@ std::string journalPath(const std::string& cache_folder, const std::string& outp
 
 /// The path from the root, through the working folder; links stay.
 std::string absolutePath(const std::string& path);
+std::string workingFolder();
 
 } // namespace hearth::graph

@@ -60,7 +60,7 @@ protected:
     static std::map<std::string, std::string> keysIn(const Sandbox& sandbox, const CookSettings& settings)
     {
         cache::Cache cache({}, [](const Error&) {});
-        FileHashes hashes;
+        FileHashes hashes("/");
         ActionCache actions(cache, hashes, sandbox.path());
         const Graph graph = makeCookGraph(settings).value();
         std::map<std::string, std::string> keys;
@@ -204,7 +204,7 @@ TEST_F(Keys, nothingElseChangesThem)
 TEST_F(Keys, hideNoPaths)
 {
     cache::Cache cache({}, [](const Error&) {});
-    FileHashes hashes;
+    FileHashes hashes("/");
     ActionCache actions(cache, hashes, folder.path());
     const Graph graph = makeCookGraph(settingsIn(folder)).value();
     for (const Action& action : graph.actions)
@@ -258,7 +258,7 @@ TEST_F(Keys, aResultIsFoundByTheStateOfWhatItRead)
     const auto found = [&]() -> std::string
     {
         cache::Cache cache = cacheHere();
-        FileHashes hashes;
+        FileHashes hashes("/");
         ActionCache actions(cache, hashes, folder.path());
         const auto result = actions.find(import, *actions.recordOf(import, parts)).result;
         return result ? result->outputs.at(0).hash + " " + result->warnings.at(0) : "nothing";
@@ -266,7 +266,7 @@ TEST_F(Keys, aResultIsFoundByTheStateOfWhatItRead)
     const auto keep = [&](const std::string& hash)
     {
         cache::Cache cache = cacheHere();
-        FileHashes hashes;
+        FileHashes hashes("/");
         ActionCache actions(cache, hashes, folder.path());
         tools::ReadList reads;
         reads.addFile(folder / "a.obj");
@@ -293,7 +293,7 @@ TEST_F(Keys, whatChangedWhileItWasReadIsNotKept)
 {
     const Graph graph = makeCookGraph(settingsIn(folder)).value();
     cache::Cache cache({}, [](const Error&) {});
-    FileHashes hashes;
+    FileHashes hashes("/");
     ActionCache actions(cache, hashes, folder.path());
     const Record record = *actions.recordOf(graph.actions[0], std::vector<std::string>(3));
     folder.write("a.obj", "edited while hearth-import reads it");
@@ -310,7 +310,7 @@ TEST_F(Keys, hashesAreRememberedAsLongAsFilesLookUntouched)
     const std::string path = folder / "a.obj";
     const auto ask = [&](size_t expected_reads)
     {
-        FileHashes hashes;
+        FileHashes hashes("/");
         hashes.load(folder / "hashes");
         const auto hash = hashes.hashOf(path);
         EXPECT_EQ(hash, tools::sha256OfFile(path));
