@@ -56,7 +56,7 @@ const std::vector<Library>& libraries()
 {
     static const std::vector<Library> list = {
         {"xxhash.h", {"formats/"}},
-        {"nettle/", {"cook/tools/"}},
+        {"openssl/", {"cook/tools/"}},
         {"zstd.h", {"formats/", "cook/clusters/", "cook/pages/"}}, // pages are compressed in parallel
         {"vulkan/", {"runtime/gpu/", "runtime/c/", "runtime/viewer/"}, true},
         {"SDL.h", {"runtime/viewer/window/"}},
