@@ -6,12 +6,14 @@
 #include "formats/pack_view.h"
 #include "pipelines/command/cook_memory.h"
 #include "pipelines/command/dry_run.h"
+#include "pipelines/graph/causes.h"
 #include "pipelines/graph/executor.h"
 
 #include <algorithm>
 #include <cerrno>
 #include <chrono>
 #include <cstring>
+#include <fcntl.h>
 #include <filesystem>
 #include <fmt/format.h>
 #include <unistd.h>
@@ -143,6 +145,18 @@ Status writeReport(const CookOptions& options, const CookOutcome& outcome)
     return writeText(options.report_file, reportJson(options, outcome, meta));
 }
 
+/// What a cooker has written beside its part; empty where it has not been asked to.
+std::string textOfOutput(const graph::Graph& graph, graph::Executor& executor, size_t action,
+                         const std::string& name)
+{
+    const std::vector<std::string>& outputs = graph.actions[action].outputs;
+    const auto output = std::find(outputs.begin(), outputs.end(), name);
+    if (output == outputs.end() || !executor.materialize(action))
+        return "";
+    const auto index = static_cast<size_t>(output - outputs.begin());
+    return cache::readText(executor.outcomes()[action].paths[index]).value_or("");
+}
+
 /// What the report says of the actions that ended well.
 void fillStages(const graph::Graph& graph, graph::Executor& executor, CookOutcome& outcome)
 {
@@ -154,26 +168,30 @@ void fillStages(const graph::Graph& graph, graph::Executor& executor, CookOutcom
         outcome.stages.push_back({action.cooker, action.source, end.result.seconds, end.result.cpu_seconds,
                                   end.result.peak_rss_bytes, end.result.outputs.front().bytes,
                                   end.ending == Ending::kept});
-        const auto statistics =
-            std::find(action.outputs.begin(), action.outputs.end(), graph::kStatisticsOutput);
-        if (statistics == action.outputs.end() || !executor.materialize(i))
-            continue;
-        const auto at = static_cast<size_t>(statistics - action.outputs.begin());
-        outcome.cluster_statistics[action.source] =
-            cache::readText(executor.outcomes()[i].paths[at]).value_or("");
+        if (action.cooker == "clusters")
+            outcome.cluster_statistics[action.source] =
+                textOfOutput(graph, executor, i, graph::kStatisticsOutput);
     }
 }
 
+/// last  of the cook before, whose records stand for those that this one did not get to
 graph::Journal journalOf(const graph::Graph& graph, const graph::Executor& executor,
-                         const CookOptions& options, const std::string& output_cause)
+                         const CookOptions& options, const std::string& output_cause,
+                         const std::optional<graph::Journal>& last)
 {
     graph::Journal journal;
     journal.folder = graph::workingFolder();
     journal.output = graph::absolutePath(options.output);
     journal.output_cause = output_cause;
     journal.graph = graph;
-    for (const graph::ActionOutcome& outcome : executor.outcomes())
+    for (size_t i = 0; i < graph.actions.size(); ++i)
+    {
+        const graph::ActionOutcome& outcome = executor.outcomes()[i];
         journal.actions.push_back({outcome.ending, outcome.causes, outcome.record});
+        const graph::JournalAction* before = last ? graph::lastOf(graph.actions[i], graph, *last) : nullptr;
+        if (outcome.record.empty() && before != nullptr)
+            journal.actions.back().record = before->record;
+    }
     return journal;
 }
 
@@ -206,6 +224,16 @@ std::string outputCause(const std::optional<std::string>& hash_there)
     return hash_there ? "it was not what had been cooked: changed since, or damaged" : "it was not there";
 }
 
+/// Onto the disk, before it takes the place of what was there; what a cooker wrote is there.
+bool flush(const std::string& path)
+{
+    const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+    const bool flushed = file >= 0 && ::fsync(file) == 0;
+    if (file >= 0)
+        ::close(file);
+    return flushed;
+}
+
 /// Move the pack into place, unless what is there already is the same.
 bool placePack(const graph::Executor& executor, const std::optional<std::string>& hash_there,
                const CookOptions& options, CookOutcome& outcome)
@@ -213,7 +241,10 @@ bool placePack(const graph::Executor& executor, const std::optional<std::string>
     const graph::KeptOutput& pack = executor.outcomes().back().result.outputs.front();
     outcome.output_bytes = pack.bytes;
     outcome.is_up_to_date = executor.packPath().empty() || (hash_there && *hash_there == pack.hash);
-    if (outcome.is_up_to_date || ::rename(executor.packPath().c_str(), options.output.c_str()) == 0)
+    const bool is_flushed = outcome.is_up_to_date || executor.outcomes().back().ending == Ending::cooked ||
+                            flush(executor.packPath());
+    if (outcome.is_up_to_date ||
+        (is_flushed && ::rename(executor.packPath().c_str(), options.output.c_str()) == 0))
         return true;
     fail({Issue::cannot_write, options.output, "", std::string("cannot write: ") + std::strerror(errno)},
          options.sources.size(), outcome);
@@ -258,8 +289,10 @@ void cookGraph(const graph::Graph& graph, CookMemory* memory, const CookOptions&
     if (memory == nullptr)
         return;
     const auto has_run = [](const graph::ActionOutcome& end) { return end.ending != Ending::kept; };
-    if (!output_cause.empty() || std::any_of(executor.outcomes().begin(), executor.outcomes().end(), has_run))
-        memory->write(journalOf(graph, executor, options, output_cause));
+    // an interrupted cook is as good as none: the next one's causes are still those of this one
+    if (!interrupted && (!output_cause.empty() ||
+                         std::any_of(executor.outcomes().begin(), executor.outcomes().end(), has_run)))
+        memory->write(journalOf(graph, executor, options, output_cause, memory->journal()));
     if (options.explain && !output_cause.empty())
         print(fmt::format("{:<11}{}: {}", "pack", options.output, output_cause));
 }

@@ -48,7 +48,8 @@ struct Action
     std::string subject; ///< what messages call its output: the source, or the pack
     std::vector<Word> words;
     std::vector<Input> inputs;
-    std::vector<std::string> outputs;  ///< names of files, at least one; the first is what others read
+    /// Names of files: no two alike among the actions of one source. At least one; the first is what others read.
+    std::vector<std::string> outputs;
     bool finds_files = false;          ///< reads files that only it can name, and lists them with --depfile
     bool depends_on_processor = false; ///< its bytes are the same on processors of one class only
     Estimate estimate;

@@ -82,8 +82,9 @@ std::vector<std::string> Executor::pathsOf(size_t action) const
     std::vector<std::string> paths;
     for (const std::string& output : graph_.actions[action].outputs)
         // the pack lies where a rename can put it in place
-        paths.push_back(isPack(action) ? beside_->path() + "/" + output
-                                       : fmt::format("{}/{}.{}", parts_->path(), action, output));
+        paths.push_back(isPack(action)
+                            ? beside_->path() + "/" + output
+                            : fmt::format("{}/{}.{}", parts_->path(), graph_.actions[action].source, output));
     return paths;
 }
 

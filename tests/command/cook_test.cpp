@@ -28,6 +28,7 @@ case "$1" in
   *crash*) echo "contract broken" >&2; kill -SEGV $$ ;;
   *killed*) kill -KILL $$ ;;
   *slow*) exec sleep 60 ;;
+  *busy*) mkdir busy 2>/dev/null || touch together; sleep 0.3; rmdir busy 2>/dev/null ;;
   *warning*) echo "$1|/extras: warning: left out [W1400]" >&2; echo "noise of a library" >&2 ;;
 esac
 cp "PARTS.import.part" "$3"
@@ -262,6 +263,19 @@ TEST_F(Cook, oneFailureEndsTheOthersWhereThatIsWanted)
     expectFailure(cook({"--fail-fast", "slow.gltf", "malformed.gltf", "-o", "a.hearth"}), 65,
                   "malformed.gltf|");
     EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(30));
+}
+
+TEST_F(Cook, cookersThatNeedTooMuchMemoryRunOneByOne)
+{
+    const std::vector<std::string> sources{"busy1.gltf", "busy2.gltf", "-o", "a.hearth", "-j2"};
+    EXPECT_EQ(cook(sources).exit_code, 0);
+    EXPECT_TRUE(folder.has("together"));
+    std::filesystem::remove(folder / "together");
+    std::vector<std::string> arguments = sources;
+    // an import of nothing is thought to take 16 MiB
+    arguments.insert(arguments.end(), {"--memory", "20M"});
+    EXPECT_EQ(cook(arguments).exit_code, 0);
+    EXPECT_FALSE(folder.has("together"));
 }
 
 TEST_F(Cook, reportsWhatItDid)
