@@ -12,10 +12,16 @@ namespace hearth::tools
 class PrivateFolder
 {
 public:
-    /// A new folder in `parent`, which must exist. errors: cannot_write, naming `for_output`.
+    /// A new folder in `parent`, which must exist. Those in it that killed processes of this user have left are removed:
+    /// each holds a lock as long as its process lives.
+    /// errors: cannot_write, naming `for_output`.
     static Result<PrivateFolder> create(const std::string& parent, const std::string& for_output);
 
-    PrivateFolder(PrivateFolder&& other) noexcept : path_(std::move(other.path_)) { other.path_.clear(); }
+    PrivateFolder(PrivateFolder&& other) noexcept : path_(std::move(other.path_)), lock_(other.lock_)
+    {
+        other.path_.clear();
+        other.lock_ = -1;
+    }
     PrivateFolder& operator=(PrivateFolder&&) = delete;
     /// Removes the folder with all that is in it.
     ~PrivateFolder();
@@ -23,8 +29,9 @@ public:
     const std::string& path() const { return path_; }
 
 private:
-    explicit PrivateFolder(std::string path) : path_(std::move(path)) {}
+    PrivateFolder(std::string path, int lock) : path_(std::move(path)), lock_(lock) {}
     std::string path_;
+    int lock_ = -1; ///< of a file in it
 };
 
 /// The folder that a file lies in: "." for a bare name.

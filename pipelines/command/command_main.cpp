@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/tools/suggest.h"
 #include "formats/program.h"
+#include "pipelines/cache/open_cache.h"
+#include "pipelines/command/cache_verbs.h"
 #include "pipelines/command/cook.h"
 #include "pipelines/command/explain.h"
 #include "pipelines/command/extract.h"
@@ -11,6 +13,7 @@
 #include "pipelines/command/inspect_bounds.h"
 #include "pipelines/command/open_pack.h"
 #include "pipelines/command/verify.h"
+#include "pipelines/command/why.h"
 
 #include <CLI/CLI.hpp>
 #include <cmath>
@@ -57,6 +60,22 @@ void addFormat(CLI::App& verb, std::string& format)
         ->capture_default_str();
 }
 
+void addCaches(CLI::App& verb, std::vector<std::string>& caches)
+{
+    verb.add_option(
+            "--cache", caches,
+            "dir:FOLDER[,ro][,size=20G]; may be repeated, nearest first; HEARTH_CACHE or the user's own "
+            "by default")
+        ->allow_extra_args(false);
+}
+
+/// For sizes such as 512M.
+std::string sizeFault(const std::string& text)
+{
+    const Result<uint64_t> size = cache::parseSize(text, "");
+    return size.ok() ? "" : size.error().detail;
+}
+
 // ---- verbs
 
 void addCook(CLI::App& app, Work& run)
@@ -68,6 +87,7 @@ void addCook(CLI::App& app, Work& run)
         command::VisibilityOptions baked;
         bool makes_bricks = false;
         command::BrickOptions bricked;
+        std::string memory;
         bool quiet = false;
         bool verbose = false;
     };
@@ -78,6 +98,9 @@ void addCook(CLI::App& app, Work& run)
     verb->add_option("-j,--jobs", options->jobs, "cookers that run at once")
         ->check(CLI::Range(1, 1024))
         ->capture_default_str();
+    verb->add_option("--memory", options->memory,
+                     "what the cookers may take together, as 12G; three quarters of the machine's by default")
+        ->check(CLI::Validator(sizeFault, ""));
     verb->add_option("--lod", options->lods,
                      "N=FILE: level of detail N of the source's only mesh, made by hand")
         ->allow_extra_args(false);
@@ -125,11 +148,22 @@ void addCook(CLI::App& app, Work& run)
         ->check(CLI::Range(uint64_t{1}, uint64_t{1} << 40).description(""))
         ->needs(bricks);
     verb->add_option("--report", options->report_file, "write a report as JSON");
+    verb->add_flag("--fail-fast", options->fail_fast, "end at the first failure, not after all sources");
+    addCaches(*verb, options->caches);
+    auto* no_cache = verb->add_flag("--no-cache", options->no_cache, "run every cooker and keep nothing");
+    verb->add_flag("-f,--force", options->force, "run every cooker, whatever the cache has")
+        ->excludes(no_cache);
+    auto* dry_run = verb->add_flag("-n,--dry-run", options->dry_run, "only say what would run, and why");
+    verb->add_option("--format", options->dry_run_format, "of --dry-run; json: the whole plan")
+        ->check(CLI::IsMember({"text", "json"}))
+        ->needs(dry_run);
+    verb->add_flag("--explain", options->explain, "say why each cooker runs");
     auto* quiet = verb->add_flag("-q,--quiet", options->quiet, "print errors only");
     verb->add_flag("-v,--verbose", options->verbose, "print the command line of every stage")
         ->excludes(quiet);
     verb->footer("Example: hearth cook house.glb tree.glb -o village.hearth\n"
-                 "Several sources become one pack, their scenes side by side.");
+                 "Several sources become one pack, their scenes side by side.\n"
+                 "A second cook runs only the cookers whose input has changed.");
     verb->callback(
         [options, &run]
         {
@@ -140,6 +174,8 @@ void addCook(CLI::App& app, Work& run)
                 options->visibility = options->baked;
             if (options->makes_bricks)
                 options->bricks = options->bricked;
+            if (!options->memory.empty())
+                options->memory_bytes = cache::parseSize(options->memory, "").value();
             run = [options] { return command::cook(*options); };
         });
 }
@@ -282,6 +318,69 @@ void addExtract(CLI::App& app, Work& run)
         });
 }
 
+void addWhy(CLI::App& app, Work& run)
+{
+    CLI::App* verb = app.add_subcommand("why", "Say why cookers ran, and why they would run again");
+    struct Options
+    {
+        std::string file;
+        std::vector<std::string> caches;
+    };
+    auto options = std::make_shared<Options>();
+    verb->add_option("FILE", options->file, "pack that was cooked here, or a source of one")->required();
+    addCaches(*verb, options->caches);
+    verb->footer("Example: hearth why village.hearth");
+    verb->callback(
+        [options, &run]
+        { run = [options] { return printResult(command::why(options->file, options->caches)); }; });
+}
+
+void addCache(CLI::App& app, Work& run)
+{
+    CLI::App* verb = app.add_subcommand("cache", "Look after the cache of results");
+    struct Options
+    {
+        std::string work;
+        std::vector<std::string> caches;
+        std::string limit;
+    };
+    auto options = std::make_shared<Options>();
+    verb->add_option(
+            "WORK", options->work,
+            "stat: how full it is; gc: remove what was used least; verify: read every byte and remove what "
+            "is damaged")
+        ->required()
+        ->check(CLI::IsMember({"stat", "gc", "verify"}));
+    addCaches(*verb, options->caches);
+    verb->add_option("--max-size", options->limit,
+                     "gc: how much may stay, as 5G; the cache's limit by default")
+        ->check(CLI::Validator(sizeFault, ""));
+    verb->footer("Examples:\n"
+                 "  hearth cache stat\n"
+                 "  hearth cache gc --max-size 5G");
+    verb->callback(
+        [options, &run]
+        {
+            run = [options]
+            {
+                if (options->work == "stat")
+                    return printResult(command::cacheStat(options->caches));
+                if (options->work == "gc")
+                {
+                    std::optional<uint64_t> limit;
+                    if (!options->limit.empty())
+                        limit = cache::parseSize(options->limit, "").value();
+                    return printResult(command::cacheGc(options->caches, limit));
+                }
+                const auto verified = command::cacheVerify(options->caches);
+                if (!verified.ok())
+                    return fail(verified.error());
+                const int printed = printResult(verified->text);
+                return verified->is_whole ? printed : 1;
+            };
+        });
+}
+
 void addExplain(CLI::App& app, Work& run)
 {
     CLI::App* verb = app.add_subcommand("explain", "Say what the number of a message means");
@@ -361,6 +460,8 @@ int program(int argc, char** argv)
     addInspect(app, run);
     addVerify(app, run);
     addExtract(app, run);
+    addWhy(app, run);
+    addCache(app, run);
     addExplain(app, run);
     addVersion(app, run);
 

@@ -1,221 +1,37 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/command/cook.h"
 
-#include "cook/tools/child_processes.h"
 #include "cook/tools/lod_files.h"
-#include "cook/tools/private_folder.h"
 #include "cook/tools/whole_file.h"
 #include "formats/pack_view.h"
+#include "pipelines/command/cook_memory.h"
+#include "pipelines/command/dry_run.h"
+#include "pipelines/graph/causes.h"
+#include "pipelines/graph/executor.h"
 
 #include <algorithm>
 #include <cerrno>
+#include <chrono>
 #include <cstring>
+#include <fcntl.h>
 #include <filesystem>
 #include <fmt/format.h>
-#include <fstream>
-#include <iterator>
+#include <unistd.h>
 
 namespace hearth::command
 {
 
 using namespace tools;
+using graph::Ending;
+using graph::Failure;
 
 namespace
 {
 
 constexpr int kInterrupted = 130;
-
-/// One cooker to run; the plan is a list of them, each after those that it reads from.
-struct Stage
-{
-    std::string name;
-    size_t source = 0;
-    std::vector<std::string> command;
-    std::string output;
-    std::vector<size_t> after;
-    std::string subject; ///< what messages call its output: the source, or the pack
-    enum class State
-    {
-        waiting,
-        running,
-        done
-    } state = State::waiting;
-};
-
-using Plan = std::vector<Stage>;
-
-// ---- plan
-
-/// What hearth-clusters says of a source.
-std::string statisticsFile(const std::string& folder, size_t index)
-{
-    return fmt::format("{}/{}.clusters.json", folder, index);
-}
-
-/// What hearth-visibility says of a source, and how it looks.
-std::string visibilityFile(const std::string& folder, size_t index, const char* extension)
-{
-    return fmt::format("{}/{}.visibility.{}", folder, index, extension);
-}
-
-/// What hearth-bricks says of all sources.
-std::string brickStatisticsFile(const std::string& folder)
-{
-    return folder + "/bricks.json";
-}
-
-/// The flags of hearth-visibility.
-std::vector<std::string> visibilityFlags(const VisibilityOptions& options)
-{
-    std::vector<std::string> flags{"--quality", options.quality, "--occluders", options.occluders};
-    if (options.distance > 0)
-        flags.insert(flags.end(), {"--distance", fmt::format("{}", options.distance), "--power",
-                                   fmt::format("{}", options.power)});
-    for (const std::string& pose : options.poses)
-        flags.insert(flags.end(), {"--poses", pose});
-    if (options.refine)
-        flags.emplace_back("--refine-cones");
-    return flags;
-}
-
-/// Appends the source's stages; returns those whose parts the link reads, in this order: import, clusters, textures,
-/// skinning.
-std::vector<size_t> addSource(Plan& plan, const std::string& programs, const std::string& folder,
-                              size_t index, const CookOptions& options)
-{
-    const std::string& source = options.sources[index];
-    const auto part = [&](const std::string& kind)
-    { return fmt::format("{}/{}.{}.part", folder, index, kind); };
-    /// Runs hearth-`kind` over the parts of stages before.
-    const auto add = [&](const std::string& kind, const std::vector<size_t>& inputs)
-    {
-        Stage stage{kind, index, {programs + "/hearth-" + kind}, part(kind), inputs, source};
-        for (const size_t input : inputs)
-            stage.command.push_back(plan[input].output);
-        stage.command.insert(stage.command.end(), {"-o", stage.output});
-        plan.push_back(std::move(stage));
-        return plan.size() - 1;
-    };
-    const auto addFlags = [&](size_t stage, const std::vector<std::string>& flags)
-    { plan[stage].command.insert(plan[stage].command.end(), flags.begin(), flags.end()); };
-
-    const size_t import_stage = add("import", {});
-    plan[import_stage].command.insert(plan[import_stage].command.begin() + 1, source);
-    for (const std::string& lod : options.lods)
-        addFlags(import_stage, {"--lod", lod});
-    const size_t textures = add("textures", {import_stage});
-    const size_t clusters = add("clusters", {import_stage});
-    if (!options.profile.empty())
-        for (const size_t stage : {import_stage, clusters})
-            addFlags(stage, {"--profile", options.profile});
-    if (!options.report_file.empty())
-        addFlags(clusters, {"--stats", statisticsFile(folder, index)});
-    const size_t skinning = add("skinning", {import_stage, clusters});
-    if (!options.visibility)
-        return {import_stage, clusters, textures, skinning};
-    addFlags(clusters, {"--visibility"});
-    const size_t visibility = add("visibility", {import_stage, clusters});
-    addFlags(visibility, visibilityFlags(*options.visibility));
-    if (!options.report_file.empty())
-        addFlags(visibility, {"--stats", visibilityFile(folder, index, "json"), "--picture",
-                              visibilityFile(folder, index, "png")});
-    return {import_stage, visibility, textures, skinning};
-}
-
-/// The table that shading needs beside visibilities; no source has a say in it.
-std::string addSpecular(Plan& plan, const std::string& programs, const std::string& folder,
-                        const CookOptions& options)
-{
-    const std::string part = folder + "/specular.part";
-    plan.push_back({"specular",
-                    options.sources.size(),
-                    {programs + "/hearth-specular", "-o", part},
-                    part,
-                    {},
-                    options.output});
-    return part;
-}
-
-/// The grid of all sources' scenes.
-std::string addBricks(Plan& plan, const std::string& programs, const std::string& folder,
-                      const CookOptions& options)
-{
-    const std::string part = folder + "/bricks.part";
-    Stage stage{"bricks", options.sources.size(), {programs + "/hearth-bricks"}, part, {}, options.output};
-    for (size_t source = 0; source < options.sources.size(); ++source)
-        for (const char* kind : {"import", "clusters", "textures"})
-            for (size_t i = 0; i < plan.size(); ++i)
-                if (plan[i].source == source && plan[i].name == kind)
-                {
-                    stage.command.push_back(plan[i].output);
-                    stage.after.push_back(i);
-                }
-    stage.command.insert(stage.command.end(), {"-o", part});
-    if (options.bricks->voxel_size)
-        stage.command.insert(stage.command.end(),
-                             {"--voxel-size", fmt::format("{}", *options.bricks->voxel_size)});
-    if (options.bricks->memory_bytes)
-        stage.command.insert(stage.command.end(),
-                             {"--memory", fmt::format("{}", *options.bricks->memory_bytes)});
-    if (!options.report_file.empty())
-        stage.command.insert(stage.command.end(), {"--stats", brickStatisticsFile(folder)});
-    plan.push_back(std::move(stage));
-    return part;
-}
-
-/// inputs  stages whose parts the link reads, in this order
-void addLink(Plan& plan, const std::string& programs, const std::string& folder, const std::string& packed,
-             const std::vector<size_t>& inputs, const CookOptions& options)
-{
-    Stage link{"link", options.sources.size(), {programs + "/hearth-link"}, packed, {}, options.output};
-    for (const size_t input : inputs)
-        link.command.push_back(plan[input].output);
-    if (options.visibility)
-        link.command.insert(link.command.end(), {"--specular", addSpecular(plan, programs, folder, options)});
-    if (options.bricks)
-        link.command.insert(link.command.end(), {"--bricks", addBricks(plan, programs, folder, options)});
-    link.command.insert(link.command.end(), {"-o", packed});
-    for (size_t i = 0; i < plan.size(); ++i)
-        link.after.push_back(i);
-    plan.push_back(std::move(link));
-}
+constexpr int kSomeFailed = 1;
 
 // ---- messages
-
-/// What a child says names parts in private folders; the user knows the source.
-std::string inUsersWords(std::string text, const Plan& plan)
-{
-    for (const Stage& stage : plan)
-        for (size_t at = text.find(stage.output); at != std::string::npos; at = text.find(stage.output, at))
-        {
-            text.replace(at, stage.output.size(), stage.subject);
-            at += stage.subject.size();
-        }
-    return text;
-}
-
-std::vector<std::string> linesOf(const std::string& text)
-{
-    std::vector<std::string> lines;
-    for (size_t at = 0; at < text.size();)
-    {
-        const size_t end = std::min(text.find('\n', at), text.size());
-        if (end > at)
-            lines.push_back(text.substr(at, end - at));
-        at = end + 1;
-    }
-    return lines;
-}
-
-bool isError(const std::string& line)
-{
-    return line.find("error: ") != std::string::npos && line.find(" [E") != std::string::npos;
-}
-
-bool isWarning(const std::string& line)
-{
-    return line.find("warning: ") != std::string::npos && line.find(" [W") != std::string::npos;
-}
 
 void print(const std::string& line)
 {
@@ -226,134 +42,60 @@ void print(const std::string& line)
 void passOn(const std::vector<std::string>& lines, Verbosity verbosity)
 {
     for (const std::string& line : lines)
-        if (isError(line) || (isWarning(line) && verbosity != Verbosity::quiet) ||
+        if (graph::isError(line) || (graph::isWarning(line) && verbosity != Verbosity::quiet) ||
             verbosity == Verbosity::all)
             print(line);
 }
 
-std::string joined(const std::vector<std::string>& words)
+std::string joined(const std::vector<std::string>& words, const char* between)
 {
     std::string text;
     for (const std::string& word : words)
-        text += (text.empty() ? "" : " ") + word;
+        text += (text.empty() ? "" : between) + word;
     return text;
 }
 
-// ---- failures
-
-struct Failure
+void printStage(const graph::Action& action, const graph::ActionOutcome& outcome)
 {
-    int exit_code = 0;
-    std::string error;
-    size_t source = 0;
-};
-
-/// The exit codes by which a cooker says what is wrong; any other is a defect.
-bool isClearCode(int code)
-{
-    return code == 2 || code == 65 || code == 66 || code == 70 || code == 73 || code == 74;
+    print(faint(fmt::format("{:<10}{:>8.2f} s {:>12}  {}", action.cooker, outcome.result.seconds,
+                            readableSize(outcome.result.outputs.front().bytes), action.subject)));
 }
 
-/// Tell of a child that did not end as cookers do; its last words help to find the defect.
-Failure crashed(const Stage& stage, const ChildEnd& end, const std::vector<std::string>& lines)
+graph::ExecutorEvents eventsFor(const CookOptions& options)
 {
-    std::string how = "hearth-" + stage.name;
-    if (end.signal == SIGKILL)
-        how += " was killed: perhaps the memory is full";
-    else if (end.signal != 0)
-        how += fmt::format(" was ended by signal {} ({})", end.signal, ::strsignal(end.signal));
-    else
-        how += fmt::format(" ended with code {} and no error message", end.exit_code);
-    if (!lines.empty())
-        how += ": " + lines.back();
-    const Error error{Issue::child_failed, stage.subject, "", how};
-    const std::string message = formatMessage(error);
-    print(message);
-    return {exitCode(error), message, stage.source};
-}
-
-std::optional<Failure> failureOf(const Stage& stage, const ChildEnd& end,
-                                 const std::vector<std::string>& lines)
-{
-    const auto error = std::find_if(lines.begin(), lines.end(), isError);
-    if (end.signal == 0 && isClearCode(end.exit_code) && error != lines.end())
-        return Failure{end.exit_code, *error, stage.source};
-    if (end.signal != 0 || end.exit_code != 0)
-        return crashed(stage, end, lines);
-    return std::nullopt;
-}
-
-Failure failureOf(const Error& error, size_t source)
-{
-    const std::string message = formatMessage(error);
-    print(message);
-    return {exitCode(error), message, source};
-}
-
-// ---- run
-
-uint64_t sizeOf(const std::string& path)
-{
-    std::error_code error;
-    const uintmax_t size = std::filesystem::file_size(path, error);
-    return error ? 0 : size;
-}
-
-void printStage(const CookOptions& options, const Stage& stage, const StageRecord& record)
-{
-    if (options.verbosity != Verbosity::quiet)
-        print(faint(fmt::format("{:<10}{:>8.2f} s {:>12}  {}", stage.name, record.seconds,
-                                readableSize(record.output_bytes), stage.subject)));
-}
-
-std::optional<Failure> startReadyStages(Plan& plan, std::vector<size_t>& stage_of_child,
-                                        ChildProcesses& children, const CookOptions& options)
-{
-    for (size_t i = 0; i < plan.size() && children.running() < options.jobs; ++i)
+    graph::ExecutorEvents events;
+    events.starting = [&options](const graph::Action& action, const graph::ActionOutcome& outcome,
+                                 const std::vector<std::string>& command)
     {
-        Stage& stage = plan[i];
-        const auto isDone = [&](size_t before) { return plan[before].state == Stage::State::done; };
-        if (stage.state != Stage::State::waiting ||
-            !std::all_of(stage.after.begin(), stage.after.end(), isDone))
-            continue;
+        if (options.explain)
+            print(fmt::format("{:<11}{}: {}", action.cooker, action.subject, joined(outcome.causes, "; ")));
         if (options.verbosity == Verbosity::all)
-            print(faint(joined(stage.command)));
-        const Result<size_t> child = children.start(stage.command);
-        if (!child.ok())
-            return failureOf(child.error(), stage.source);
-        stage.state = Stage::State::running;
-        stage_of_child.push_back(i);
-    }
-    return std::nullopt;
+            print(faint(joined(command, " ")));
+    };
+    events.ended = [&options](const graph::Action& action, const graph::ActionOutcome& outcome,
+                              const std::vector<std::string>& messages)
+    {
+        passOn(messages, options.verbosity);
+        if (outcome.ending == Ending::cooked && options.verbosity != Verbosity::quiet)
+            printStage(action, outcome);
+    };
+    events.failed = [](const Failure& failure)
+    {
+        if (!failure.is_told)
+            print(failure.error);
+    };
+    return events;
 }
 
-/// Run the stages, up to `jobs` at once, in the order of the plan; the first that fails ends the cook.
-std::optional<Failure> runPlan(Plan& plan, ChildProcesses& children, const CookOptions& options,
-                               CookOutcome& outcome)
+/// Which sources could not be cooked, where others could: what depends on them is no failure of its own.
+void printLeftOut(const graph::Graph& graph, const graph::Executor& executor, const CookOptions& options)
 {
-    std::vector<StageRecord> records(plan.size());
-    std::vector<size_t> stage_of_child;
-    for (size_t done = 0; done < plan.size(); ++done)
-    {
-        if (auto failure = startReadyStages(plan, stage_of_child, children, options))
-            return failure;
-        const std::optional<ChildEnd> end = children.wait();
-        if (!end)
-            return Failure{kInterrupted, "interrupted", options.sources.size()};
-
-        const size_t index = stage_of_child[end->id];
-        Stage& stage = plan[index];
-        const std::vector<std::string> lines = linesOf(inUsersWords(end->messages, plan));
-        passOn(lines, options.verbosity);
-        if (auto failure = failureOf(stage, *end, lines))
-            return failure;
-        stage.state = Stage::State::done;
-        records[index] = {stage.name,       stage.source,        end->seconds,
-                          end->cpu_seconds, end->peak_rss_bytes, sizeOf(stage.output)};
-        printStage(options, stage, records[index]);
-    }
-    outcome.stages = std::move(records);
-    return std::nullopt;
+    const auto failed = static_cast<size_t>(
+        std::count_if(executor.failures().begin(), executor.failures().end(),
+                      [&](const Failure& failure) { return failure.source < graph.source_count; }));
+    if (failed > 0 && graph.source_count > 1 && options.verbosity != Verbosity::quiet)
+        print(fmt::format("{}: not linked, because a dependency failed: {} of {} sources", options.output,
+                          failed, graph.source_count));
 }
 
 // ---- before and after
@@ -376,10 +118,13 @@ Status checkOutput(const CookOptions& options)
     return success();
 }
 
-std::string textOf(const std::string& path)
+/// Three quarters of the machine's memory, where the user says nothing.
+uint64_t memoryFor(const CookOptions& options)
 {
-    std::ifstream file(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+    if (options.memory_bytes > 0)
+        return options.memory_bytes;
+    return static_cast<uint64_t>(::sysconf(_SC_PHYS_PAGES)) * static_cast<uint64_t>(::sysconf(_SC_PAGESIZE)) /
+           4 * 3;
 }
 
 /// META of the pack at `path`, for the report.
@@ -397,72 +142,204 @@ std::string metaOf(const std::string& path)
 Status writeReport(const CookOptions& options, const CookOutcome& outcome)
 {
     const std::string meta = outcome.exit_code == 0 ? metaOf(options.output) : "";
-    HEARTH_ASSIGN_OR_RETURN(WholeFile file, WholeFile::create(options.report_file));
-    file.write(reportJson(options, outcome, meta));
-    return file.finish();
+    return writeText(options.report_file, reportJson(options, outcome, meta));
 }
 
-/// Cook into private folders and move the pack into place; the folders go when this returns.
-std::optional<Failure> cookInPrivate(const CookOptions& options, CookOutcome& outcome)
+/// What a cooker has written beside its part; empty where it has not been asked to.
+std::string textOfOutput(const graph::Graph& graph, graph::Executor& executor, size_t action,
+                         const std::string& name)
 {
-    // first, so that it goes last: signals wait until the folders are gone
-    ChildProcesses children;
-    const auto fail = [&](const Error& error) { return failureOf(error, options.sources.size()); };
+    const std::vector<std::string>& outputs = graph.actions[action].outputs;
+    const auto output = std::find(outputs.begin(), outputs.end(), name);
+    if (output == outputs.end() || !executor.materialize(action))
+        return "";
+    const auto index = static_cast<size_t>(output - outputs.begin());
+    return cache::readText(executor.outcomes()[action].paths[index]).value_or("");
+}
+
+/// What the report says of the actions that ended well.
+void fillStages(const graph::Graph& graph, graph::Executor& executor, CookOutcome& outcome)
+{
+    outcome.cluster_statistics.resize(graph.source_count);
+    outcome.visibility.resize(graph.source_count);
+    for (size_t i = 0; i < graph.actions.size(); ++i)
+    {
+        const graph::Action& action = graph.actions[i];
+        const graph::ActionOutcome& end = executor.outcomes()[i];
+        outcome.stages.push_back({action.cooker, action.source, end.result.seconds, end.result.cpu_seconds,
+                                  end.result.peak_rss_bytes, end.result.outputs.front().bytes,
+                                  end.ending == Ending::kept});
+        const auto textOf = [&](const char* name) { return textOfOutput(graph, executor, i, name); };
+        if (action.cooker == "clusters")
+            outcome.cluster_statistics[action.source] = textOf(graph::kClustersStatistics);
+        if (action.cooker == "visibility")
+            outcome.visibility[action.source] = {textOf(graph::kVisibilityStatistics),
+                                                 textOf(graph::kVisibilityPicture)};
+        if (action.cooker == "bricks")
+            outcome.brick_statistics = textOf(graph::kBrickStatistics);
+    }
+}
+
+/// last  of the cook before, whose records stand for those that this one did not get to
+graph::Journal journalOf(const graph::Graph& graph, const graph::Executor& executor,
+                         const CookOptions& options, const std::string& output_cause,
+                         const std::optional<graph::Journal>& last)
+{
+    graph::Journal journal;
+    journal.folder = graph::workingFolder();
+    journal.output = graph::absolutePath(options.output);
+    journal.output_cause = output_cause;
+    journal.graph = graph;
+    for (size_t i = 0; i < graph.actions.size(); ++i)
+    {
+        const graph::ActionOutcome& outcome = executor.outcomes()[i];
+        journal.actions.push_back({outcome.ending, outcome.causes, outcome.record});
+        const graph::JournalAction* before = last ? graph::lastOf(graph.actions[i], graph, *last) : nullptr;
+        if (outcome.record.empty() && before != nullptr)
+            journal.actions.back().record = before->record;
+    }
+    return journal;
+}
+
+// ---- the cook
+
+void fail(const Error& error, size_t source, CookOutcome& outcome)
+{
+    print(formatMessage(error));
+    outcome.exit_code = exitCode(error);
+    outcome.error = formatMessage(error);
+    outcome.failed_sources = {source};
+}
+
+/// What failed, as the outcome: one exit code where all have the same.
+void takeFailures(const std::vector<Failure>& failures, CookOutcome& outcome)
+{
+    outcome.error = failures.front().error;
+    outcome.exit_code = failures.front().exit_code;
+    for (const Failure& failure : failures)
+    {
+        outcome.failed_sources.push_back(failure.source);
+        if (failure.exit_code != outcome.exit_code)
+            outcome.exit_code = kSomeFailed;
+    }
+}
+
+/// Why the pack is put in its place, where no action ran for it.
+std::string outputCause(const std::optional<std::string>& hash_there)
+{
+    return hash_there ? "it was not what had been cooked: changed since, or damaged" : "it was not there";
+}
+
+/// Onto the disk, before it takes the place of what was there; what a cooker wrote is there.
+bool flush(const std::string& path)
+{
+    const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+    const bool flushed = file >= 0 && ::fsync(file) == 0;
+    if (file >= 0)
+        ::close(file);
+    return flushed;
+}
+
+/// Move the pack into place, unless what is there already is the same.
+bool placePack(const graph::Executor& executor, const std::optional<std::string>& hash_there,
+               const CookOptions& options, CookOutcome& outcome)
+{
+    const graph::KeptOutput& pack = executor.outcomes().back().result.outputs.front();
+    outcome.output_bytes = pack.bytes;
+    outcome.is_up_to_date = executor.packPath().empty() || (hash_there && *hash_there == pack.hash);
+    const bool is_flushed = outcome.is_up_to_date || executor.outcomes().back().ending == Ending::cooked ||
+                            flush(executor.packPath());
+    if (outcome.is_up_to_date ||
+        (is_flushed && ::rename(executor.packPath().c_str(), options.output.c_str()) == 0))
+        return true;
+    fail({Issue::cannot_write, options.output, "", std::string("cannot write: ") + std::strerror(errno)},
+         options.sources.size(), outcome);
+    return false;
+}
+
+/// Cook, with what is known of cooks before (null: nothing).
+void cookGraph(const graph::Graph& graph, CookMemory* memory, const CookOptions& options,
+               CookOutcome& outcome)
+{
+    cache::Cache* cache = memory == nullptr ? nullptr : &memory->cache();
+    graph::ActionCache* actions = memory == nullptr ? nullptr : &memory->actions();
+    const std::optional<std::string> hash_there =
+        memory == nullptr ? std::nullopt : memory->hashes().hashOf(options.output);
+    graph::Resolver resolver(
+        graph, cache, actions, [&]() -> const std::optional<graph::Journal>& { return memory->journal(); },
+        options.force);
+    graph::Executor executor(
+        graph, resolver, cache, actions,
+        {options.jobs, memoryFor(options), !options.fail_fast, programFolder(), options.output},
+        eventsFor(options));
+    const bool interrupted = !executor.run(hash_there);
+    std::string output_cause;
+    if (interrupted)
+    {
+        outcome.exit_code = kInterrupted;
+        outcome.error = "interrupted";
+        outcome.failed_sources = {options.sources.size()};
+    }
+    else if (!executor.failures().empty())
+    {
+        takeFailures(executor.failures(), outcome);
+        printLeftOut(graph, executor, options);
+    }
+    else if (placePack(executor, hash_there, options, outcome))
+    {
+        if (!options.report_file.empty())
+            fillStages(graph, executor, outcome);
+        if (!outcome.is_up_to_date && executor.outcomes().back().ending == Ending::kept)
+            output_cause = outputCause(hash_there);
+    }
+    if (memory == nullptr)
+        return;
+    const auto has_run = [](const graph::ActionOutcome& end) { return end.ending != Ending::kept; };
+    // an interrupted cook is as good as none: the next one's causes are still those of this one
+    if (!interrupted && (!output_cause.empty() ||
+                         std::any_of(executor.outcomes().begin(), executor.outcomes().end(), has_run)))
+        memory->write(journalOf(graph, executor, options, output_cause, memory->journal()));
+    if (options.explain && !output_cause.empty())
+        print(fmt::format("{:<11}{}: {}", "pack", options.output, output_cause));
+}
+
+void cookInto(const CookOptions& options, CookOutcome& outcome)
+{
+    const auto failed = [&](const Error& error) { fail(error, options.sources.size(), outcome); };
     if (const Status status = checkOutput(options); !status.ok())
-        return fail(status.error());
-
-    // the pack is written beside its place, where a rename can put it; the parts go where the user keeps such things
-    const Result<PrivateFolder> beside = PrivateFolder::create(folderOf(options.output), options.output);
-    if (!beside.ok())
-        return fail(beside.error());
-    const Result<PrivateFolder> parts = PrivateFolder::create(temporaryOr(beside->path()), options.output);
-    if (!parts.ok())
-        return fail(parts.error());
-
-    Plan plan;
-    const std::string programs = programFolder();
-    const std::string packed = beside->path() + "/pack.hearth";
-    std::vector<size_t> inputs;
-    for (size_t i = 0; i < options.sources.size(); ++i)
-        for (const size_t part : addSource(plan, programs, parts->path(), i, options))
-            inputs.push_back(part);
-    addLink(plan, programs, parts->path(), packed, inputs, options);
-    if (auto failure = runPlan(plan, children, options, outcome))
-        return failure;
-
-    if (!options.report_file.empty())
-        for (size_t i = 0; i < options.sources.size(); ++i)
-        {
-            outcome.cluster_statistics.push_back(textOf(statisticsFile(parts->path(), i)));
-            if (options.visibility)
-                outcome.visibility.push_back({textOf(visibilityFile(parts->path(), i, "json")),
-                                              textOf(visibilityFile(parts->path(), i, "png"))});
-        }
-    if (!options.report_file.empty() && options.bricks)
-        outcome.brick_statistics = textOf(brickStatisticsFile(parts->path()));
-    outcome.output_bytes = sizeOf(packed);
-    if (::rename(packed.c_str(), options.output.c_str()) != 0)
-        return fail(
-            {Issue::cannot_write, options.output, "", std::string("cannot write: ") + std::strerror(errno)});
-    return std::nullopt;
+        return failed(status.error());
+    const Result<graph::Graph> graph = graph::makeCookGraph(options);
+    if (!graph.ok())
+        return failed(graph.error());
+    if (options.no_cache)
+        return cookGraph(*graph, nullptr, options, outcome);
+    const auto warn = [&](const Error& warning)
+    {
+        if (options.verbosity != Verbosity::quiet)
+            print(formatMessage(warning));
+    };
+    const auto memory = CookMemory::open(options.caches, options.output, graph::workingFolder(), warn);
+    if (!memory.ok())
+        return failed(memory.error());
+    cookGraph(*graph, (*memory)->cache().isEmpty() ? nullptr : memory->get(), options, outcome);
+    (*memory)->finish();
 }
 
 } // namespace
 
-int cook(const CookOptions& options)
+int cook(const CookOptions& chosen)
 {
+    CookOptions options = chosen;
+    options.statistics = !options.report_file.empty();
+    if (options.dry_run)
+        return dryRun(options);
     const auto start = std::chrono::steady_clock::now();
     CookOutcome outcome;
-    if (const std::optional<Failure> failure = cookInPrivate(options, outcome))
-    {
-        outcome.exit_code = failure->exit_code;
-        outcome.error = failure->error;
-        outcome.failed_source = failure->source;
-    }
+    cookInto(options, outcome);
     outcome.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     if (outcome.exit_code == 0 && options.verbosity != Verbosity::quiet)
-        print(fmt::format("{:<10}{:>8.2f} s {:>12}  {}", "cooked", outcome.seconds,
-                          readableSize(outcome.output_bytes), options.output));
+        print(fmt::format("{:<10}{:>8.2f} s {:>12}  {}", outcome.is_up_to_date ? "up to date" : "cooked",
+                          outcome.seconds, readableSize(outcome.output_bytes), options.output));
 
     if (!options.report_file.empty() && outcome.exit_code != kInterrupted)
         if (const Status status = writeReport(options, outcome); !status.ok())

@@ -3,46 +3,34 @@
 #pragma once
 
 #include "pipelines/command/terminal.h"
+#include "pipelines/graph/cook_graph.h"
 
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <vector>
 
 namespace hearth::command
 {
 
-/// What hearth-visibility is told.
-struct VisibilityOptions
-{
-    std::string quality = "default";
-    std::string occluders = "scene";
-    double distance = 0;            ///< metres; 0: no limit
-    double power = 0;               ///< with a distance only
-    std::vector<std::string> poses; ///< "CLIP[@SECONDS,...]": of deformed meshes; none: the bind pose
-    bool refine = false;            ///< cones by nine harmonics
-};
+using graph::BrickOptions;
+using graph::VisibilityOptions;
 
-/// What hearth-bricks is told; else it decides itself.
-struct BrickOptions
+struct CookOptions : graph::CookSettings
 {
-    std::optional<double> voxel_size;     ///< metres
-    std::optional<uint64_t> memory_bytes; ///< of the GPU
-};
-
-struct CookOptions
-{
-    std::vector<std::string> sources;
-    std::string output;
     /// Cookers at once. They are parallel themselves: two are enough to hide their serial parts, and each more costs
     /// the memory of another mesh.
     unsigned jobs = 2;
+    /// What the cookers may take together, by their estimates; 0: three quarters of the machine's memory.
+    uint64_t memory_bytes = 0;
+    bool fail_fast = false;          ///< end at the first failure; else cook what does not depend on it
+    std::vector<std::string> caches; ///< of --cache, nearest first; none: as cache::cacheSpecs says
+    bool no_cache = false;
+    bool force = false;                  ///< run everything, whatever the cache has
+    bool explain = false;                ///< say why each cooker runs
+    bool dry_run = false;                ///< only say what would run
+    std::string dry_run_format = "text"; ///< or "json": the plan
     Verbosity verbosity = Verbosity::normal;
-    std::vector<std::string> lods;               ///< "N=FILE": levels of detail of the only source
-    std::string profile;                         ///< TOML file that the cookers read; empty: none
-    std::string report_file;                     ///< empty: none
-    std::optional<VisibilityOptions> visibility; ///< none: vertices do not say what they see
-    std::optional<BrickOptions> bricks;          ///< none: the pack has no grid of bricks
+    std::string report_file; ///< empty: none
 };
 
 /// One cooker's run.
@@ -55,6 +43,7 @@ struct StageRecord
     double cpu_seconds = 0;
     uint64_t peak_rss_bytes = 0;
     uint64_t output_bytes = 0;
+    bool cached = false; ///< the result was kept from an earlier run, whose times these are
 };
 
 /// What hearth-visibility says of a source; for the report.
@@ -67,9 +56,10 @@ struct VisibilityReport
 struct CookOutcome
 {
     int exit_code = 0;
-    std::string error; ///< the error line, empty on success
-    size_t failed_source = 0;
-    std::vector<StageRecord> stages;             ///< in the order of the plan, those that ended well
+    std::string error;                           ///< the first error line, empty on success
+    std::vector<size_t> failed_sources;          ///< their number for what is not of one
+    bool is_up_to_date = false;                  ///< the pack was there already, byte for byte
+    std::vector<StageRecord> stages;             ///< in the order of the graph; none on failure
     std::vector<std::string> cluster_statistics; ///< of each source, JSON of hearth-clusters; for the report
     std::vector<VisibilityReport> visibility;    ///< of each source, where visibility was baked
     std::string brick_statistics;                ///< JSON of hearth-bricks; for the report
@@ -77,8 +67,8 @@ struct CookOutcome
     uint64_t output_bytes = 0;
 };
 
-/// Cook all sources into one pack, their scenes side by side. The output appears whole or not at all; on failure or
-/// interruption an output that was there before is as it was, and nothing else is left behind.
+/// Cook all sources into one pack, their scenes side by side: run what the cache has no result of. The output appears whole
+/// or not at all; on failure or interruption an output that was there before is as it was, and nothing else is left behind.
 /// returns    the exit code; every problem has been told on stderr
 int cook(const CookOptions& options);
 

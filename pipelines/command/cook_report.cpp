@@ -14,11 +14,14 @@ namespace
 
 Json stageJson(const StageRecord& stage)
 {
-    return {{"stage", stage.stage},
-            {"seconds", stage.seconds},
-            {"cpu_seconds", stage.cpu_seconds},
-            {"peak_rss_bytes", stage.peak_rss_bytes},
-            {"bytes", stage.output_bytes}};
+    Json json{{"stage", stage.stage},
+              {"seconds", stage.seconds},
+              {"cpu_seconds", stage.cpu_seconds},
+              {"peak_rss_bytes", stage.peak_rss_bytes},
+              {"bytes", stage.output_bytes}};
+    if (stage.cached)
+        json["cached"] = true;
+    return json;
 }
 
 /// What hearth-clusters wrote of a source, without what the report says anyway.
@@ -60,8 +63,10 @@ Json visibilityJson(const VisibilityReport& visibility)
 
 Json assetJson(const CookOptions& options, const CookOutcome& outcome, size_t source)
 {
-    const bool failed = outcome.exit_code != 0 &&
-                        (outcome.failed_source == source || outcome.failed_source == options.sources.size());
+    const bool failed =
+        outcome.exit_code != 0 &&
+        std::any_of(outcome.failed_sources.begin(), outcome.failed_sources.end(),
+                    [&](size_t index) { return index == source || index == options.sources.size(); });
     const char* state = outcome.exit_code == 0 ? "cooked" : failed ? "failed" : "not cooked";
     Json asset{{"source", options.sources[source]}, {"state", state}, {"stages", Json::array()}};
     for (const StageRecord& stage : outcome.stages)
@@ -69,7 +74,7 @@ Json assetJson(const CookOptions& options, const CookOutcome& outcome, size_t so
             asset["stages"].push_back(stageJson(stage));
     if (source < outcome.cluster_statistics.size())
         asset["clusters"] = clustersJson(outcome.cluster_statistics[source]);
-    if (source < outcome.visibility.size())
+    if (options.visibility && source < outcome.visibility.size())
         asset["visibility"] = visibilityJson(outcome.visibility[source]);
     return asset;
 }
@@ -88,14 +93,22 @@ Json totalsJson(const CookOptions& options, const CookOutcome& outcome, const Js
             bytes_in += source["bytes"].get<uint64_t>();
     double cpu_seconds = 0;
     uint64_t peak_rss_bytes = 0;
+    const auto cached = std::count_if(outcome.stages.begin(), outcome.stages.end(),
+                                      [](const StageRecord& stage) { return stage.cached; });
     for (const StageRecord& stage : outcome.stages)
     {
+        if (stage.cached)
+            continue;
         cpu_seconds += stage.cpu_seconds;
         peak_rss_bytes = std::max(peak_rss_bytes, stage.peak_rss_bytes);
     }
-    return {
-        {"assets", options.sources.size()}, {"wall_s", outcome.seconds}, {"cpu_s", cpu_seconds},
-        {"peak_rss", peak_rss_bytes},       {"bytes_in", bytes_in},      {"bytes_out", outcome.output_bytes}};
+    return {{"assets", options.sources.size()},
+            {"wall_s", outcome.seconds},
+            {"cpu_s", cpu_seconds},
+            {"peak_rss", peak_rss_bytes},
+            {"bytes_in", bytes_in},
+            {"bytes_out", outcome.output_bytes},
+            {"cached", cached}};
 }
 
 } // namespace

@@ -91,7 +91,7 @@ Result<std::vector<std::byte>> readFile(const std::string& path, uint64_t max_by
     return bytes;
 }
 
-AssetFolder::AssetFolder(const std::string& asset_path)
+AssetFolder::AssetFolder(const std::string& asset_path, tools::ReadList* reads) : reads_(reads)
 {
     const std::string file = resolved(asset_path).value_or(asset_path);
     const size_t slash = file.rfind('/');
@@ -129,8 +129,17 @@ Result<std::string> AssetFolder::locate(std::string_view relative_path) const
 
 Result<std::vector<std::byte>> AssetFolder::read(std::string_view relative_path, uint64_t max_bytes) const
 {
-    HEARTH_ASSIGN_OR_RETURN(const std::string path, locate(relative_path));
-    return readFile(path, max_bytes);
+    const auto readThere = [&]() -> Result<std::vector<std::byte>>
+    {
+        HEARTH_ASSIGN_OR_RETURN(const std::string path, locate(relative_path));
+        return readFile(path, max_bytes);
+    };
+    Result<std::vector<std::byte>> bytes = readThere();
+    if (reads_ != nullptr && bytes.ok())
+        reads_->add(folder_ + std::string(relative_path), *bytes);
+    else if (reads_ != nullptr)
+        reads_->addAbsent(folder_ + std::string(relative_path));
+    return bytes;
 }
 
 } // namespace hearth::import

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
+#include "cook/tools/read_list.h"
 #include "formats/result.h"
 
 #include <cstddef>
@@ -21,7 +22,8 @@ class AssetFolder
 {
 public:
     /// The folder that holds the file `asset_path`, which exists.
-    explicit AssetFolder(const std::string& asset_path);
+    /// reads  notes every file that is read or looked for in vain; null: nobody asks
+    AssetFolder(const std::string& asset_path, tools::ReadList* reads);
 
     /// Where the relative path (plain text, nothing percent-encoded) leads, symbolic links resolved.
     /// errors: uri_malformed (empty, control characters), uri_outside (absolute, a drive or scheme, "..", a link that
@@ -33,6 +35,7 @@ public:
 
 private:
     std::string folder_; ///< resolved, ends with '/'
+    tools::ReadList* reads_ = nullptr;
 };
 
 } // namespace hearth::import

@@ -85,7 +85,12 @@ Status addLevel(const PackView& from, const std::string& path, const Base& base,
     HEARTH_ASSIGN_OR_RETURN(const InstanceRecord instance, onlyInstance(from.instances(), path));
     HEARTH_ASSIGN_OR_RETURN(mesh::SourceMesh mesh, mesh::readSourceMesh(from.container(), instance.mesh));
     const auto drop = [&](const char* why)
-    { part.warn(Issue::dropped, "", fmt::format("level of detail {} {}: it is not kept", path, why)); };
+    {
+        // the part keeps the message: no word of where this machine has its files
+        part.warn(
+            Issue::dropped, "",
+            fmt::format("level of detail {} {}: it is not kept", path.substr(path.rfind('/') + 1), why));
+    };
     const auto nameOf = [&](StringRef name) { return from.text(name); };
     if (jointNames(from.nodes(), from.skins(), from.joints(), instance, nameOf) != base.joints)
     {

@@ -33,7 +33,7 @@ uint64_t sourceVertexCount(const GltfModel& model)
 Status importGltf(const std::string& path, std::span<const std::byte> bytes, const ImportOptions& options,
                   PartBuilder& part)
 {
-    const AssetFolder folder(path);
+    const AssetFolder folder(path, options.reads);
     const GltfContext context{path, folder, options, part};
     HEARTH_ASSIGN_OR_RETURN(const GltfContainer container, splitGltf(bytes, path));
     HEARTH_ASSIGN_OR_RETURN(const JsonDocument document, JsonDocument::parse(container.json, path));

@@ -3,6 +3,8 @@
 #include "cook/clips/clip_settings.h"
 #include "cook/tools/lod_files.h"
 #include "cook/tools/private_folder.h"
+#include "cook/tools/read_list.h"
+#include "cook/tools/whole_file.h"
 #include "formats/program.h"
 #include "pipelines/import/authored_files.h"
 #include "pipelines/import/part_clips.h"
@@ -23,6 +25,7 @@ struct Arguments
     std::string output;
     std::vector<std::string> lods;
     std::string profile;
+    std::string depfile;
     double crease_angle_deg = 60;
 };
 
@@ -37,10 +40,13 @@ void printWarnings(const import::PartBuilder& part)
                      static_cast<unsigned long long>(part.warningsLeftOut()));
 }
 
-Status readAll(const Arguments& arguments, std::span<const tools::LodFile> lods, import::PartBuilder& part)
+Status readAll(const Arguments& arguments, std::span<const tools::LodFile> lods, tools::ReadList& reads,
+               import::PartBuilder& part)
 {
     import::ImportOptions options;
     options.crease_angle_rad = static_cast<float>(arguments.crease_angle_deg * kRadiansPerDegree);
+    if (!arguments.depfile.empty())
+        options.reads = &reads;
     HEARTH_TRY(import::readSource(arguments.source, options, part));
     if (lods.empty())
         return success();
@@ -59,15 +65,19 @@ Result<clips::StatedError> statedError(const Arguments& arguments)
 
 Status run(const Arguments& arguments)
 {
+    tools::ReadList reads;
+    if (!arguments.profile.empty() && !arguments.depfile.empty())
+        reads.addFile(arguments.profile);
     HEARTH_ASSIGN_OR_RETURN(const clips::StatedError stated_error, statedError(arguments));
     HEARTH_ASSIGN_OR_RETURN(const std::vector<tools::LodFile> lods, tools::parseLodFiles(arguments.lods));
     HEARTH_ASSIGN_OR_RETURN(import::PartBuilder part,
                             import::PartBuilder::create(arguments.output, arguments.source));
-    const Status read = readAll(arguments, lods, part);
+    const Status read = readAll(arguments, lods, reads, part);
     printWarnings(part);
     HEARTH_TRY(read);
     import::compressClips(part, stated_error);
-    return part.finish();
+    HEARTH_TRY(part.finish());
+    return arguments.depfile.empty() ? success() : tools::writeText(arguments.depfile, reads.text());
 }
 
 int program(int argc, char** argv)
@@ -85,6 +95,8 @@ int program(int argc, char** argv)
         ->capture_default_str()
         ->check(CLI::Range(0.0, 180.0));
     app.add_option("--profile", arguments.profile, "TOML file: the error that clips may have");
+    app.add_option("--depfile", arguments.depfile,
+                   "write which files were read, and which were looked for in vain, as sha256sum would");
     app.footer("Examples:\n"
                "  hearth-import scene.glb -o scene.import.part\n"
                "  hearth-import rock.glb --lod 1=rock_mid.glb --lod 2=rock_low.glb -o rock.import.part\n"

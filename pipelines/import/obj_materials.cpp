@@ -31,7 +31,7 @@ class ScanMaterials
 public:
     ScanMaterials(const ScanFile& scan, const std::string& path, const ImportOptions& options,
                   PartBuilder& part)
-        : scan_(scan), options_(options), part_(part), folder_(path)
+        : scan_(scan), options_(options), part_(part), folder_(path, options.reads)
     {
     }
 

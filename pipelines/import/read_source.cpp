@@ -34,6 +34,8 @@ Status readSource(const std::string& path, const ImportOptions& options, PartBui
 {
     HEARTH_ASSIGN_OR_RETURN(const std::vector<std::byte> bytes,
                             readFile(path, options.limits.max_file_bytes));
+    if (options.reads != nullptr)
+        options.reads->add(path, bytes);
     part.addSource(path.substr(path.rfind('/') + 1), bytes);
     if (looksLikeGltf(path, bytes))
         return importGltf(path, bytes, options, part);

@@ -3,6 +3,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
+#include "cook/tools/read_list.h"
 #include "pipelines/import/part_builder.h"
 
 #include <span>
@@ -26,6 +27,7 @@ struct ImportOptions
 {
     ImportLimits limits;
     float crease_angle_rad = 1.0471976f; ///< 60 degrees: sharper edges of a mesh without normals stay hard
+    tools::ReadList* reads = nullptr;    ///< notes the files that are read; null: nobody asks
 };
 
 /// glTF 2.0 and GLB, with what they refer to in the same folder or below.

@@ -73,7 +73,7 @@ TEST_F(CommandLine, saysWhatIsMissingOrOutOfRange)
 
 TEST_F(CommandLine, helpEndsWithAnExampleAndTheExitCodes)
 {
-    for (const char* verb : {"", "cook", "inspect", "verify", "extract", "explain"})
+    for (const char* verb : {"", "cook", "inspect", "verify", "extract", "why", "cache", "explain"})
     {
         const ProgramEnd end = *verb == '\0' ? hearth({"--help"}) : hearth({std::string(verb), "-h"});
         EXPECT_EQ(end.exit_code, 0);

@@ -29,6 +29,7 @@ case "$1" in
   *crash*) echo "contract broken" >&2; kill -SEGV $$ ;;
   *killed*) kill -KILL $$ ;;
   *slow*) exec sleep 60 ;;
+  *busy*) mkdir busy 2>/dev/null || touch together; sleep 0.3; rmdir busy 2>/dev/null ;;
   *warning*) echo "$1|/extras: warning: left out [W1400]" >&2; echo "noise of a library" >&2 ;;
 esac
 cp "PARTS.import.part" "$3"
@@ -163,7 +164,9 @@ TEST_F(Cook, severalSourcesMakeOnePack)
 TEST_F(Cook, sameBytesForAnyNumberOfJobs)
 {
     for (const char* jobs : {"1", "2", "7"})
-        ASSERT_EQ(cook({"a.gltf", "b.gltf", "-o", std::string(jobs) + ".hearth", "-j", jobs}).exit_code, 0);
+        ASSERT_EQ(cook({"a.gltf", "b.gltf", "-o", std::string(jobs) + ".hearth", "-j", jobs, "--no-cache"})
+                      .exit_code,
+                  0);
     EXPECT_EQ(folder.read("1.hearth"), folder.read("2.hearth"));
     EXPECT_EQ(folder.read("1.hearth"), folder.read("7.hearth"));
 }
@@ -310,11 +313,25 @@ TEST_F(Cook, cleansUpWhenInterrupted)
     }
 }
 
-TEST_F(Cook, oneFailureEndsTheOthers)
+TEST_F(Cook, oneFailureEndsTheOthersWhereThatIsWanted)
 {
     const auto start = std::chrono::steady_clock::now();
-    expectFailure(cook({"slow.gltf", "malformed.gltf", "-o", "a.hearth"}), 65, "malformed.gltf|");
+    expectFailure(cook({"--fail-fast", "slow.gltf", "malformed.gltf", "-o", "a.hearth"}), 65,
+                  "malformed.gltf|");
     EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(30));
+}
+
+TEST_F(Cook, cookersThatNeedTooMuchMemoryRunOneByOne)
+{
+    const std::vector<std::string> sources{"busy1.gltf", "busy2.gltf", "-o", "a.hearth", "-j2"};
+    EXPECT_EQ(cook(sources).exit_code, 0);
+    EXPECT_TRUE(folder.has("together"));
+    std::filesystem::remove(folder / "together");
+    std::vector<std::string> arguments = sources;
+    // an import of nothing is thought to take 16 MiB
+    arguments.insert(arguments.end(), {"--memory", "20M"});
+    EXPECT_EQ(cook(arguments).exit_code, 0);
+    EXPECT_FALSE(folder.has("together"));
 }
 
 TEST_F(Cook, reportsWhatItDid)

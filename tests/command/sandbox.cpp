@@ -83,6 +83,8 @@ pid_t Sandbox::start(const std::vector<std::string>& command, const std::vector<
     HEARTH_ASSERT(process >= 0);
     if (process != 0)
         return process;
+    // never the cache of whoever runs the tests
+    ::setenv("HEARTH_CACHE", cacheSpec().c_str(), 1);
     for (const std::string& variable : environment)
         ::putenv(const_cast<char*>(variable.c_str()));
     const int flags = O_WRONLY | O_CREAT | O_TRUNC;

@@ -34,6 +34,10 @@ public:
     /// Names of everything in the folder and below, sorted.
     std::vector<std::string> list() const;
 
+    /// Folder of the cache that programs use, outside of this folder.
+    std::string cachePath() const { return output_path_ + "/cache"; }
+    std::string cacheSpec() const { return "dir:" + cachePath(); }
+
     /// Start a program in this folder; its output goes to files outside of it.
     pid_t start(const std::vector<std::string>& command, const std::vector<std::string>& environment = {});
     /// Wait for what start() started.

@@ -63,6 +63,8 @@ ProcessEnd run(const Workplace& place, std::vector<std::string> arguments, const
                const std::string& folder, std::vector<std::string> environment = {})
 {
     environment.push_back("TMPDIR=" + folder);
+    // what is tested is the cookers, in the asset's own folder
+    environment.push_back("HEARTH_CACHE=off");
     return runProcess(
         {std::move(arguments), std::move(environment), folder, place.stdout_file, place.stderr_file}, limits);
 }

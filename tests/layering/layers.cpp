@@ -56,6 +56,7 @@ const std::vector<Library>& libraries()
 {
     static const std::vector<Library> list = {
         {"xxhash.h", {"formats/"}},
+        {"openssl/", {"cook/tools/"}},
         {"zstd.h", {"formats/", "cook/clusters/", "cook/pages/"}}, // pages are compressed in parallel
         {"vulkan/", {"runtime/gpu/", "runtime/c/", "runtime/viewer/"}, true},
         {"SDL.h", {"runtime/viewer/window/"}},
@@ -97,10 +98,10 @@ const std::vector<Library>& libraries()
     return list;
 }
 
-// POSIX: what the standard library does not give
-constexpr std::array<std::string_view, 10> kPosixHeaders{"sys/",    "malloc.h", "unistd.h", "fcntl.h",
-                                                         "poll.h",  "spawn.h",  "dirent.h", "signal.h",
-                                                         "dlfcn.h", "pthread.h"};
+// POSIX and Linux: what the standard library does not give
+constexpr std::array<std::string_view, 12> kPosixHeaders{"sys/",     "linux/",   "elf.h",   "malloc.h",
+                                                         "unistd.h", "fcntl.h",  "poll.h",  "spawn.h",
+                                                         "dirent.h", "signal.h", "dlfcn.h", "pthread.h"};
 
 bool isIn(std::string_view path, const Folders& folders)
 {

@@ -1,0 +1,51 @@
+// A cache in a folder: ac/xx/KEY and cas/xx/SHA256, safe for any number of processes and machines that share it.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "pipelines/cache/level.h"
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+
+namespace hearth::cache
+{
+
+/// Every file is written under a name of its own in tmp/ and renamed: whoever reads sees all of it or nothing. Nothing is
+/// flushed to the disk: a machine that loses power may leave torn files, which their hashes give away.
+class FolderLevel : public Level
+{
+public:
+    FolderLevel(std::string folder, bool writable) : folder_(std::move(folder)), writable_(writable) {}
+
+    const std::string& name() const override { return folder_; }
+    bool isWritable() const override { return writable_; }
+    Result<std::optional<std::string>> entry(const std::string& key) override;
+    Status putEntry(const std::string& key, const std::string& text) override;
+    Result<bool> fetch(const std::string& hash, const std::string& path, Use use) override;
+    Status put(const std::string& hash, const std::string& path, Use use) override;
+    void removeEntry(const std::string& key) override;
+    void removeContent(const std::string& hash) override;
+
+    /// Bytes that this process has added.
+    uint64_t bytesAdded() const { return bytes_added_; }
+
+private:
+    std::string entryPath(const std::string& key) const { return path("ac", key); }
+    std::string contentPath(const std::string& hash) const { return path("cas", hash); }
+    std::string path(const char* kind, const std::string& name) const;
+    /// Make a file by `fill(temporary path)` and put it at `path`.
+    Status appear(const std::string& path, const std::function<bool(const std::string&)>& fill);
+
+    std::string folder_;
+    bool writable_;
+    uint64_t bytes_added_ = 0;
+};
+
+/// A copy that shares blocks where the file system can (reflink). `to` does not exist. false: errno says why
+bool copyFile(const std::string& from, const std::string& to);
+
+/// Whole content of a small file; nullopt where it cannot be read, and errno says why.
+std::optional<std::string> readText(const std::string& path);
+
+} // namespace hearth::cache

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "pipelines/cache/open_cache.h"
+
+#include <charconv>
+#include <cstdlib>
+
+namespace hearth::cache
+{
+
+namespace
+{
+
+constexpr std::string_view kFolderScheme = "dir:";
+
+std::vector<std::string> split(const std::string& text, char separator)
+{
+    std::vector<std::string> parts;
+    for (size_t at = 0; at <= text.size();)
+    {
+        const size_t end = std::min(text.find(separator, at), text.size());
+        parts.push_back(text.substr(at, end - at));
+        at = end + 1;
+    }
+    return parts;
+}
+
+Result<FolderSpec> specOf(const std::string& text, const std::string& option)
+{
+    const auto wrong = [&](const std::string& why) {
+        return Error{Issue::usage, option + " " + text, "", why};
+    };
+    if (!text.starts_with(kFolderScheme))
+        return wrong("must be dir: and a folder, as in dir:/var/cache/hearth or dir:/mnt/team,ro");
+    const std::vector<std::string> parts = split(text.substr(kFolderScheme.size()), ',');
+    FolderSpec spec;
+    spec.folder = parts[0];
+    if (spec.folder.empty())
+        return wrong("names no folder");
+    for (size_t i = 1; i < parts.size(); ++i)
+        if (parts[i] == "ro")
+            spec.writable = false;
+        else if (parts[i].starts_with("size="))
+        {
+            HEARTH_ASSIGN_OR_RETURN(spec.limit_bytes, parseSize(parts[i].substr(5), option + " " + text));
+        }
+        else
+            return wrong("'" + parts[i] + "' is not known: after the folder may stand ,ro and ,size=20G");
+    return spec;
+}
+
+std::string variable(const char* name)
+{
+    const char* value = std::getenv(name);
+    return value == nullptr ? "" : value;
+}
+
+/// Empty where the user has no home.
+std::string usersFolder()
+{
+    if (const std::string caches = variable("XDG_CACHE_HOME"); !caches.empty())
+        return caches + "/hearth";
+    const std::string home = variable("HOME");
+    return home.empty() ? "" : home + "/.cache/hearth";
+}
+
+} // namespace
+
+Result<uint64_t> parseSize(const std::string& text, const std::string& option)
+{
+    uint64_t size = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), size);
+    const std::string_view unit(end, static_cast<size_t>(text.data() + text.size() - end));
+    const unsigned shift = unit.empty() ? 0 : unit == "K" ? 10 : unit == "M" ? 20 : unit == "G" ? 30 : 40;
+    const bool is_known = unit.empty() || unit == "K" || unit == "M" || unit == "G" || unit == "T";
+    if (error != std::errc() || !is_known || size == 0 || size > (UINT64_MAX >> shift))
+        return Error{Issue::usage, option, "", "'" + text + "' is no size: write 512M or 20G"};
+    return size << shift;
+}
+
+Result<std::vector<FolderSpec>> cacheSpecs(std::span<const std::string> options)
+{
+    std::vector<FolderSpec> specs;
+    std::string option = "--cache";
+    std::vector<std::string> texts(options.begin(), options.end());
+    if (const std::string value = variable("HEARTH_CACHE"); texts.empty() && !value.empty())
+    {
+        if (value == "off")
+            return specs;
+        option = "HEARTH_CACHE";
+        texts = split(value, ';');
+    }
+    for (const std::string& text : texts)
+    {
+        HEARTH_ASSIGN_OR_RETURN(FolderSpec spec, specOf(text, option));
+        specs.push_back(std::move(spec));
+    }
+    if (const std::string folder = usersFolder(); texts.empty() && !folder.empty())
+    {
+        specs.emplace_back();
+        specs.back().folder = folder;
+    }
+    return specs;
+}
+
+} // namespace hearth::cache

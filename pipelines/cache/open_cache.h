@@ -1,0 +1,32 @@
+// Which caches a cook uses: what the command line says, else HEARTH_CACHE, else the user's own.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "formats/result.h"
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace hearth::cache
+{
+
+struct FolderSpec
+{
+    std::string folder;
+    bool writable = true;
+    uint64_t limit_bytes = uint64_t{20} << 30; ///< what is used least goes when it holds more
+};
+
+/// "dir:PATH[,ro][,size=20G]"; several, nearest first.
+///
+/// options   of --cache; where there is none, HEARTH_CACHE counts, with ';' between them, or "off" for none; where that is
+///           not set either, $XDG_CACHE_HOME/hearth or ~/.cache/hearth
+/// errors    usage
+Result<std::vector<FolderSpec>> cacheSpecs(std::span<const std::string> options);
+
+/// "512M", "20G", "1000": bytes, in units of 1024. errors: usage, which names `option`
+Result<uint64_t> parseSize(const std::string& text, const std::string& option);
+
+} // namespace hearth::cache

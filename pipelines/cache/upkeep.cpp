@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "pipelines/cache/upkeep.h"
+
+#include "cook/tools/sha256.h"
+#include "cook/tools/whole_file.h"
+#include "pipelines/cache/entry_text.h"
+#include "pipelines/cache/folder_level.h"
+
+#include <algorithm>
+#include <charconv>
+#include <chrono>
+#include <filesystem>
+#include <map>
+
+namespace hearth::cache
+{
+
+namespace fs = std::filesystem;
+
+namespace
+{
+
+constexpr auto kWritersNeed = std::chrono::hours(1);
+
+struct Stored
+{
+    std::string path;
+    std::string name; ///< key or hash
+    uint64_t bytes = 0;
+    fs::file_time_type used;
+};
+
+/// The files of ac/ or cas/, by name.
+std::vector<Stored> storedIn(const std::string& folder)
+{
+    std::vector<Stored> files;
+    std::error_code error;
+    for (auto at = fs::recursive_directory_iterator(folder, error); !error && at != fs::end(at);
+         at.increment(error))
+    {
+        std::error_code gone;
+        Stored file{at->path().string(), at->path().filename().string(), 0, at->last_write_time(gone)};
+        if (gone || !at->is_regular_file(gone) || !tools::isSha256(file.name))
+            continue;
+        file.bytes = at->file_size(gone);
+        if (!gone)
+            files.push_back(std::move(file));
+    }
+    std::sort(files.begin(), files.end(), [](const Stored& a, const Stored& b) { return a.name < b.name; });
+    return files;
+}
+
+void remove(const std::string& path)
+{
+    std::error_code ignored;
+    fs::remove(path, ignored);
+}
+
+/// The contents that an entry's result lies in.
+std::vector<std::string> contentsOf(const Fields& fields)
+{
+    std::vector<std::string> hashes;
+    for (const auto& [name, value] : fields)
+        if (name == kContentField)
+            hashes.push_back(value);
+    return hashes;
+}
+
+std::vector<std::string> contentsOfEntry(const std::string& path)
+{
+    const std::optional<std::string> text = readText(path);
+    const std::optional<Fields> fields = text ? entryFields(*text) : std::nullopt;
+    return fields ? contentsOf(*fields) : std::vector<std::string>();
+}
+
+bool isYoung(const fs::file_time_type& time)
+{
+    return time + kWritersNeed > fs::file_time_type::clock::now();
+}
+
+} // namespace
+
+Occupancy occupancyOf(const std::string& folder)
+{
+    Occupancy occupancy;
+    for (const Stored& file : storedIn(folder + "/ac"))
+    {
+        ++occupancy.entries;
+        occupancy.bytes += file.bytes;
+    }
+    for (const Stored& file : storedIn(folder + "/cas"))
+    {
+        ++occupancy.contents;
+        occupancy.bytes += file.bytes;
+    }
+    return occupancy;
+}
+
+Occupancy collectGarbage(const std::string& folder, uint64_t limit_bytes)
+{
+    std::vector<Stored> entries = storedIn(folder + "/ac");
+    const std::vector<Stored> contents = storedIn(folder + "/cas");
+    std::map<std::string, const Stored*> unnamed;
+    for (const Stored& content : contents)
+        unnamed.emplace(content.name, &content);
+
+    // an entry holds its contents: from the last used on, entries stay while there is room for what they hold
+    std::stable_sort(entries.begin(), entries.end(),
+                     [](const Stored& a, const Stored& b) { return a.used > b.used; });
+    Occupancy left;
+    for (const Stored& entry : entries)
+    {
+        const std::vector<std::string> held = contentsOfEntry(entry.path);
+        uint64_t bytes = entry.bytes;
+        for (const std::string& hash : held)
+            if (const auto content = unnamed.find(hash); content != unnamed.end())
+                bytes += content->second->bytes;
+        if (bytes > limit_bytes - left.bytes)
+        {
+            remove(entry.path);
+            continue;
+        }
+        ++left.entries;
+        left.bytes += bytes;
+        for (const std::string& hash : held)
+            left.contents += unnamed.erase(hash);
+    }
+    for (const auto& [name, content] : unnamed)
+        if (isYoung(content->used) && content->bytes <= limit_bytes - left.bytes)
+        {
+            ++left.contents;
+            left.bytes += content->bytes;
+        }
+        else
+            remove(content->path);
+    std::error_code error;
+    for (auto at = fs::directory_iterator(folder + "/tmp", error); !error && at != fs::directory_iterator();
+         at.increment(error))
+        if (std::error_code gone; !isYoung(at->last_write_time(gone)))
+            remove(at->path().string());
+    return left;
+}
+
+std::vector<std::string> verifyFolder(const std::string& folder)
+{
+    std::vector<std::string> damaged;
+    std::map<std::string, bool> is_there;
+    for (const Stored& content : storedIn(folder + "/cas"))
+    {
+        is_there[content.name] = tools::sha256OfFile(content.path) == content.name;
+        if (is_there[content.name])
+            continue;
+        damaged.push_back("content " + content.name);
+        remove(content.path);
+    }
+    for (const Stored& entry : storedIn(folder + "/ac"))
+    {
+        const std::optional<std::string> text = readText(entry.path);
+        const std::optional<Fields> fields = text ? entryFields(*text) : std::nullopt;
+        bool whole = fields.has_value();
+        for (const std::string& hash : fields ? contentsOf(*fields) : std::vector<std::string>())
+            whole = whole && is_there[hash];
+        if (whole)
+            continue;
+        damaged.push_back("entry " + entry.name);
+        remove(entry.path);
+    }
+    return damaged;
+}
+
+void noteAdded(const std::string& folder, uint64_t bytes, uint64_t limit_bytes)
+{
+    if (bytes == 0)
+        return;
+    // a hint, no truth: two cooks that write it at once lose some bytes until garbage is collected
+    const std::string path = folder + "/size";
+    const std::string text = readText(path).value_or("");
+    uint64_t size = 0;
+    if (std::from_chars(text.data(), text.data() + text.size(), size).ec != std::errc())
+        size = occupancyOf(folder).bytes;
+    else
+        size += bytes;
+    if (size > limit_bytes)
+        size = collectGarbage(folder, limit_bytes / 10 * 9).bytes;
+    // without it the next cook counts
+    static_cast<void>(tools::writeText(path, std::to_string(size) + "\n").ok());
+}
+
+} // namespace hearth::cache

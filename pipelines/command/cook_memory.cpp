@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "pipelines/command/cook_memory.h"
+
+#include "cook/tools/child_processes.h"
+#include "cook/tools/whole_file.h"
+#include "pipelines/cache/upkeep.h"
+
+#include <algorithm>
+#include <filesystem>
+
+namespace hearth::command
+{
+
+namespace
+{
+
+constexpr const char* kJournalEnding = ".cook";
+constexpr const char* kHashesEnding = ".hashes";
+
+} // namespace
+
+Result<std::unique_ptr<CookMemory>> CookMemory::open(const std::vector<std::string>& caches,
+                                                     const std::string& output, const std::string& folder,
+                                                     const std::function<void(const Error&)>& warn)
+{
+    std::unique_ptr<CookMemory> memory(new CookMemory(folder));
+    HEARTH_ASSIGN_OR_RETURN(memory->specs_, cache::cacheSpecs(caches));
+    std::vector<std::unique_ptr<cache::Level>> levels;
+    for (cache::FolderSpec& spec : memory->specs_)
+    {
+        spec.folder = graph::absolutePath(spec.folder);
+        auto level = std::make_unique<cache::FolderLevel>(spec.folder, spec.writable);
+        memory->levels_.push_back(level.get());
+        levels.push_back(std::move(level));
+        if (spec.writable && memory->journal_path_.empty())
+            memory->journal_path_ = graph::journalPath(spec.folder, output);
+    }
+    memory->cache_ = std::make_unique<cache::Cache>(std::move(levels), warn);
+    if (!memory->journal_path_.empty())
+        memory->hashes_.load(memory->journal_path_ + kHashesEnding);
+    memory->actions_ =
+        std::make_unique<graph::ActionCache>(*memory->cache_, memory->hashes_, tools::programFolder());
+    return memory;
+}
+
+const std::optional<graph::Journal>& CookMemory::journal()
+{
+    if (!journal_is_read_ && !journal_path_.empty())
+        if (const std::optional<std::string> text = cache::readText(journal_path_ + kJournalEnding))
+            journal_ = graph::parseJournal(*text);
+    journal_is_read_ = true;
+    return journal_;
+}
+
+void CookMemory::write(const graph::Journal& journal)
+{
+    // only words are lost where it cannot be written
+    std::error_code error;
+    if (journal_path_.empty())
+        return;
+    std::filesystem::create_directories(std::filesystem::path(journal_path_).parent_path(), error);
+    static_cast<void>(tools::writeText(journal_path_ + kJournalEnding, graph::journalText(journal)).ok());
+}
+
+void CookMemory::finish()
+{
+    if (!journal_path_.empty())
+        hashes_.save(journal_path_ + kHashesEnding);
+    for (size_t i = 0; i < specs_.size(); ++i)
+        if (specs_[i].writable)
+            cache::noteAdded(specs_[i].folder, levels_[i]->bytesAdded(), specs_[i].limit_bytes);
+}
+
+std::vector<graph::Journal> allJournals(const std::vector<std::string>& caches)
+{
+    std::vector<graph::Journal> journals;
+    const Result<std::vector<cache::FolderSpec>> specs = cache::cacheSpecs(caches);
+    for (const cache::FolderSpec& spec : specs.ok() ? *specs : std::vector<cache::FolderSpec>())
+    {
+        std::error_code error;
+        for (auto at = std::filesystem::directory_iterator(spec.folder + "/cooks", error);
+             !error && at != std::filesystem::directory_iterator(); at.increment(error))
+            if (const auto text = at->path().extension() == kJournalEnding
+                                      ? cache::readText(at->path().string())
+                                      : std::nullopt)
+                if (auto journal = graph::parseJournal(*text))
+                    journals.push_back(std::move(*journal));
+    }
+    std::sort(journals.begin(), journals.end(),
+              [](const graph::Journal& a, const graph::Journal& b) { return a.output < b.output; });
+    return journals;
+}
+
+} // namespace hearth::command

@@ -1,0 +1,61 @@
+// What a cook knows of cooks before it: the cache, the hashes of files, and how the last cook into the same pack went.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "pipelines/cache/cache.h"
+#include "pipelines/cache/folder_level.h"
+#include "pipelines/cache/open_cache.h"
+#include "pipelines/graph/action_cache.h"
+#include "pipelines/graph/file_hashes.h"
+#include "pipelines/graph/journal.h"
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace hearth::command
+{
+
+class CookMemory
+{
+public:
+    /// caches    of --cache; see cache::cacheSpecs
+    /// output    the pack
+    /// folder    that relative paths of sources start from
+    /// warn      is told what goes wrong with a cache
+    /// errors    usage
+    static Result<std::unique_ptr<CookMemory>> open(const std::vector<std::string>& caches,
+                                                    const std::string& output, const std::string& folder,
+                                                    const std::function<void(const Error&)>& warn);
+
+    cache::Cache& cache() { return *cache_; }
+    graph::ActionCache& actions() { return *actions_; }
+    graph::FileHashes& hashes() { return hashes_; }
+
+    /// Of the last cook; read when it is first asked for.
+    const std::optional<graph::Journal>& journal();
+    /// Remember this cook instead.
+    void write(const graph::Journal& journal);
+
+    /// Remember the hashes of files, and keep the caches within their limits.
+    void finish();
+
+private:
+    explicit CookMemory(const std::string& folder) : hashes_(folder) {}
+
+    std::vector<cache::FolderSpec> specs_;
+    std::vector<const cache::FolderLevel*> levels_; ///< of the specs
+    std::unique_ptr<cache::Cache> cache_;
+    graph::FileHashes hashes_;
+    std::unique_ptr<graph::ActionCache> actions_;
+    std::string journal_path_; ///< without its ending; empty: no cache may be written
+    bool journal_is_read_ = false;
+    std::optional<graph::Journal> journal_;
+};
+
+/// The journals of all packs that a cache knows of.
+std::vector<graph::Journal> allJournals(const std::vector<std::string>& caches);
+
+} // namespace hearth::command

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "pipelines/command/dry_run.h"
+
+#include "cook/tools/whole_file.h"
+#include "pipelines/command/cook_memory.h"
+#include "pipelines/graph/plan_json.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace hearth::command
+{
+
+namespace
+{
+
+Result<std::string> dryRunText(const CookOptions& options)
+{
+    HEARTH_ASSIGN_OR_RETURN(const graph::Graph graph, graph::makeCookGraph(options));
+    if (options.dry_run_format == "json")
+        return graph::planJson(graph);
+    HEARTH_ASSIGN_OR_RETURN(const auto memory,
+                            CookMemory::open(options.caches, options.output, graph::workingFolder(),
+                                             [](const Error& warning) {
+                                                 std::fprintf(stderr, "%s\n", formatMessage(warning).c_str());
+                                             }));
+    const bool has_cache = !options.no_cache && !memory->cache().isEmpty();
+    graph::Resolver resolver(
+        graph, has_cache ? &memory->cache() : nullptr, &memory->actions(),
+        [&]() -> const std::optional<graph::Journal>& { return memory->journal(); }, options.force);
+    const graph::Forecast forecast = graph::forecast(graph, resolver);
+    const auto runs = std::count_if(forecast.actions.begin(), forecast.actions.end(),
+                                    [](const graph::Forecast::Entry& entry) { return entry.runs; });
+    std::string text = forecastText(graph, forecast);
+    if (const std::string cause = packCause(forecast, memory->hashes().hashOf(options.output));
+        !cause.empty())
+        text += fmt::format("{:<11}{}: {}\n", "pack", options.output, cause);
+    return text + fmt::format("{} of {} cookers would run\n", runs, graph.actions.size());
+}
+
+} // namespace
+
+std::string forecastText(const graph::Graph& graph, const graph::Forecast& forecast)
+{
+    std::string text;
+    for (size_t i = 0; i < graph.actions.size(); ++i)
+    {
+        if (!forecast.actions[i].runs)
+            continue;
+        text += fmt::format("{:<11}{}: ", graph.actions[i].cooker, graph.actions[i].subject);
+        for (size_t cause = 0; cause < forecast.actions[i].causes.size(); ++cause)
+            text += (cause == 0 ? "" : "; ") + forecast.actions[i].causes[cause];
+        text += '\n';
+    }
+    return text;
+}
+
+std::string packCause(const graph::Forecast& forecast, const std::optional<std::string>& hash_there)
+{
+    if (!forecast.result || hash_there == forecast.result->hash)
+        return "";
+    return hash_there ? "it is not what was cooked: changed since, or damaged" : "it is not there";
+}
+
+int dryRun(const CookOptions& options)
+{
+    const Result<std::string> text = dryRunText(options);
+    const Status printed = text.ok() ? tools::writeText("-", *text) : Status(text.error());
+    if (printed.ok())
+        return 0;
+    std::fprintf(stderr, "%s\n", formatMessage(printed.error()).c_str());
+    return exitCode(printed.error());
+}
+
+} // namespace hearth::command

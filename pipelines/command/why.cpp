@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "pipelines/command/why.h"
+
+#include "pipelines/command/cook_memory.h"
+#include "pipelines/command/dry_run.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <fmt/format.h>
+
+namespace hearth::command
+{
+
+namespace
+{
+
+/// Nothing, where all actions are meant.
+using OnlySource = std::optional<size_t>;
+
+std::string lastCookText(const graph::Journal& journal, OnlySource only)
+{
+    std::string text;
+    for (size_t i = 0; i < journal.actions.size(); ++i)
+    {
+        const graph::JournalAction& last = journal.actions[i];
+        const graph::Action& action = journal.graph.actions[i];
+        if (last.ending == graph::Ending::kept || (only && action.source != *only))
+            continue;
+        const char* ending = last.ending == graph::Ending::failed     ? " (failed)"
+                             : last.ending == graph::Ending::left_out ? " (left out: a dependency failed)"
+                             : last.ending == graph::Ending::unknown  ? " (did not come to its end)"
+                                                                      : "";
+        text += fmt::format("  {:<11}{}{}", action.cooker, action.subject, ending);
+        for (size_t cause = 0; cause < last.causes.size(); ++cause)
+            text += (cause == 0 ? ": " : "; ") + last.causes[cause];
+        text += '\n';
+    }
+    if (!journal.output_cause.empty() && !only)
+        text += fmt::format("  {:<11}{}: {}\n", "pack", journal.output, journal.output_cause);
+    return text.empty() ? "  nothing\n" : text;
+}
+
+std::string indented(const std::string& text)
+{
+    std::string result;
+    for (size_t at = 0; at < text.size();)
+    {
+        const size_t end = std::min(text.find('\n', at), text.size());
+        result += "  " + text.substr(at, end - at) + "\n";
+        at = end + 1;
+    }
+    return result;
+}
+
+Result<std::string> nextCookText(const graph::Journal& journal, const std::vector<std::string>& caches,
+                                 OnlySource only)
+{
+    // the user's paths start there
+    std::error_code error;
+    const std::string here = graph::workingFolder();
+    const auto memory = CookMemory::open(caches, journal.output, journal.folder,
+                                         [](const Error& warning)
+                                         { std::fprintf(stderr, "%s\n", formatMessage(warning).c_str()); });
+    if (!memory.ok())
+        return memory.error();
+    std::filesystem::current_path(journal.folder, error);
+    if (error)
+        return std::string("  the folder of the last cook is not there any more\n");
+    graph::Resolver resolver(
+        journal.graph, &(*memory)->cache(), &(*memory)->actions(),
+        [&]() -> const std::optional<graph::Journal>& { return (*memory)->journal(); }, false);
+    graph::Forecast forecast = graph::forecast(journal.graph, resolver);
+    const std::string cause = packCause(forecast, (*memory)->hashes().hashOf(journal.output));
+    std::filesystem::current_path(here, error);
+    for (size_t i = 0; only && i < forecast.actions.size(); ++i)
+        forecast.actions[i].runs = forecast.actions[i].runs && journal.graph.actions[i].source == *only;
+    std::string text = indented(forecastText(journal.graph, forecast));
+    if (!cause.empty() && !only)
+        text += fmt::format("  {:<11}{}: {}\n", "pack", journal.output, cause);
+    return text.empty() ? std::string("  nothing: it is up to date\n") : text;
+}
+
+Result<std::string> textOf(const graph::Journal& journal, const std::vector<std::string>& caches,
+                           OnlySource only)
+{
+    HEARTH_ASSIGN_OR_RETURN(const std::string next, nextCookText(journal, caches, only));
+    return fmt::format("{}\nran in the last cook:\n{}would run now:\n{}", journal.output,
+                       lastCookText(journal, only), next);
+}
+
+OnlySource sourceAt(const graph::Journal& journal, const std::string& absolute)
+{
+    for (const graph::Action& action : journal.graph.actions)
+    {
+        const auto is_it = [&](const graph::Input& input)
+        {
+            return input.action == graph::kNoAction &&
+                   (std::filesystem::path(journal.folder) / input.path).lexically_normal() == absolute;
+        };
+        if (std::any_of(action.inputs.begin(), action.inputs.end(), is_it))
+            return action.source;
+    }
+    return std::nullopt;
+}
+
+} // namespace
+
+Result<std::string> why(const std::string& file, const std::vector<std::string>& caches)
+{
+    // a wrong --cache is told of, not passed over
+    HEARTH_ASSIGN_OR_RETURN(const std::vector<cache::FolderSpec> specs, cache::cacheSpecs(caches));
+    const std::string absolute = graph::absolutePath(file);
+    const std::vector<graph::Journal> journals =
+        specs.empty() ? std::vector<graph::Journal>() : allJournals(caches);
+    std::string text;
+    for (const graph::Journal& journal : journals)
+    {
+        const OnlySource source = sourceAt(journal, absolute);
+        if (journal.output != absolute && !source)
+            continue;
+        HEARTH_ASSIGN_OR_RETURN(const std::string about,
+                                textOf(journal, caches, journal.output == absolute ? std::nullopt : source));
+        text += about;
+    }
+    if (text.empty())
+        return Error{Issue::usage, file, "", "no cook of it is remembered in the cache"};
+    return text;
+}
+
+} // namespace hearth::command

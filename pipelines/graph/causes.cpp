@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "pipelines/graph/causes.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <map>
+
+namespace hearth::graph
+{
+
+namespace
+{
+
+/// "--quality" -> "high"; "" where an option has no value, or a file for one.
+using Options = std::map<std::string, std::string>;
+
+constexpr std::string_view kText = "text ";
+
+Options optionsOf(const Record& record)
+{
+    Options options;
+    std::string option;
+    for (const auto& [name, value] : record)
+    {
+        if (name != "word")
+            continue;
+        const bool is_text = value.starts_with(kText);
+        const std::string word = is_text ? value.substr(kText.size()) : "";
+        if (is_text && word.starts_with("-"))
+            options[option = word];
+        else if (is_text && !option.empty())
+            options[option] = word;
+    }
+    return options;
+}
+
+std::string called(const std::string& option, const std::string& value)
+{
+    return value.empty() ? option : option + " " + value;
+}
+
+void addOptionCauses(const Record& before, const Record& now, std::vector<std::string>& causes)
+{
+    const Options old_options = optionsOf(before);
+    const Options new_options = optionsOf(now);
+    for (const auto& [option, value] : new_options)
+        if (const auto old = old_options.find(option); old == old_options.end())
+            causes.push_back(fmt::format("parameter {}: new", called(option, value)));
+        else if (old->second != value)
+            causes.push_back(fmt::format("parameter {}: {} -> {}", option, old->second, value));
+    for (const auto& [option, value] : old_options)
+        if (!new_options.contains(option))
+            causes.push_back(fmt::format("parameter {}: no longer given", called(option, value)));
+}
+
+/// Fields of one name in the record, in order.
+std::map<std::string, std::string> filesOf(const Record& record)
+{
+    std::map<std::string, std::string> files;
+    for (const auto& [name, value] : record)
+        if (name.starts_with("input ") || name.starts_with(kFound))
+            files[name] = value;
+    return files;
+}
+
+/// What a person calls the file of a field: its name, or what made it.
+std::string calledBy(const Action& action, const Graph& graph, const std::string& field)
+{
+    if (field.starts_with(kFound))
+        return field.substr(field.find('/') + 1);
+    for (const Input& input : action.inputs)
+        if ("input " + input.role == field)
+            return input.action == kNoAction
+                       ? input.path
+                       : fmt::format("what {} made of {}", graph.actions[input.action].cooker,
+                                     graph.actions[input.action].subject);
+    return field.substr(field.find(' ') + 1);
+}
+
+std::string fileCause(const std::string& name, const std::string& before, const std::string& now)
+{
+    if (before == kAbsent)
+        return name + ": is there now";
+    if (now == kAbsent)
+        return name + ": is not there any more";
+    // the user's files have their names behind the hash
+    const size_t hash_size = std::min(before.find(' '), before.size());
+    const bool same_content =
+        before.substr(0, hash_size) == now.substr(0, std::min(now.find(' '), now.size()));
+    return name + (same_content ? ": its name has changed" : ": its content has changed");
+}
+
+void addFileCauses(const Action& action, const Graph& graph, const Record& before, const Record& now,
+                   std::vector<std::string>& causes)
+{
+    const auto old_files = filesOf(before);
+    const auto new_files = filesOf(now);
+    for (const auto& [field, value] : new_files)
+    {
+        const auto old = old_files.find(field);
+        if (old != old_files.end() && old->second != value)
+            causes.push_back(fileCause(calledBy(action, graph, field), old->second, value));
+        else if (old == old_files.end())
+            causes.push_back(calledBy(action, graph, field) + ": is read now");
+    }
+    for (const auto& [field, value] : old_files)
+        // what only the run will find is no cause
+        if (!new_files.contains(field) && !field.starts_with(kFound))
+            causes.push_back(calledBy(action, graph, field) + ": is not read any more");
+}
+
+/// The sources of a cook, each once, in order.
+std::vector<std::string> sourcesOf(const Graph& graph)
+{
+    std::vector<std::string> sources(graph.source_count);
+    for (const Action& action : graph.actions)
+        if (action.source < graph.source_count)
+            sources[action.source] = action.subject;
+    return sources;
+}
+
+/// For what reads from all sources: added, removed, reordered.
+void addSourceCauses(const Graph& before, const Graph& now, std::vector<std::string>& causes)
+{
+    const std::vector<std::string> old_sources = sourcesOf(before);
+    const std::vector<std::string> new_sources = sourcesOf(now);
+    const size_t causes_before = causes.size();
+    const auto addMissing =
+        [&](const std::vector<std::string>& from, const std::vector<std::string>& in, const char* what)
+    {
+        for (const std::string& source : from)
+            if (std::count(from.begin(), from.end(), source) > std::count(in.begin(), in.end(), source))
+                causes.push_back(source + what);
+    };
+    addMissing(new_sources, old_sources, ": source added");
+    addMissing(old_sources, new_sources, ": source removed");
+    if (causes.size() == causes_before && old_sources != new_sources)
+        causes.emplace_back("the sources are in another order");
+}
+
+bool isSame(std::string_view field, const Record& a, const Record& b)
+{
+    return cache::valueOf(a, field) == cache::valueOf(b, field);
+}
+
+} // namespace
+
+const JournalAction* lastOf(const Action& action, const Graph& graph, const Journal& journal)
+{
+    const bool is_of_all = action.source == graph.source_count;
+    for (size_t i = 0; i < journal.graph.actions.size(); ++i)
+    {
+        const Action& other = journal.graph.actions[i];
+        const bool other_is_of_all = other.source == journal.graph.source_count;
+        if (other.cooker == action.cooker && other_is_of_all == is_of_all &&
+            (is_of_all || other.subject == action.subject))
+            return &journal.actions[i];
+    }
+    return nullptr;
+}
+
+std::vector<std::string> causesOf(const Action& action, const Graph& graph, const Situation& situation,
+                                  const std::optional<Journal>& journal)
+{
+    if (situation.is_forced)
+        return {"forced"};
+    if (!journal)
+        return {"never cooked into this pack before"};
+    const JournalAction* last = lastOf(action, graph, *journal);
+    if (last == nullptr)
+        return {"new in this pack"};
+    std::vector<std::string> causes;
+    if (action.source == graph.source_count)
+        addSourceCauses(journal->graph, graph, causes);
+    if (last->ending == Ending::failed)
+        causes.emplace_back("it failed last time");
+    for (const std::string& cooker : situation.waits_for)
+        causes.push_back(cooker + " runs before it");
+    if (!situation.waits_for.empty())
+        return causes;
+    if (situation.record.empty())
+        causes.emplace_back("a file that it reads cannot be read");
+    else if (!last->record.empty())
+    {
+        if (!isSame("version", last->record, situation.record))
+            causes.push_back("hearth-" + action.cooker + " has changed");
+        if (!isSame("processor", last->record, situation.record))
+            causes.emplace_back("this processor is of another class");
+        addOptionCauses(last->record, situation.record, causes);
+        if (causes.empty() || action.source < graph.source_count)
+            addFileCauses(action, graph, last->record, situation.record, causes);
+    }
+    if (situation.is_damaged)
+        causes.emplace_back("its result in the cache is damaged");
+    else if (causes.empty())
+        causes.emplace_back("its result is not in the cache");
+    return causes;
+}
+
+} // namespace hearth::graph

@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "pipelines/graph/cook_graph.h"
+
+#include "cook/tools/lod_files.h"
+#include "pipelines/graph/estimate.h"
+
+#include <fmt/format.h>
+
+namespace hearth::graph
+{
+
+namespace
+{
+
+/// The flags of hearth-visibility.
+std::vector<std::string> visibilityFlags(const VisibilityOptions& options)
+{
+    std::vector<std::string> flags{"--quality", options.quality, "--occluders", options.occluders};
+    if (options.distance > 0)
+        flags.insert(flags.end(), {"--distance", fmt::format("{}", options.distance), "--power",
+                                   fmt::format("{}", options.power)});
+    for (const std::string& pose : options.poses)
+        flags.insert(flags.end(), {"--poses", pose});
+    if (options.refine)
+        flags.emplace_back("--refine-cones");
+    return flags;
+}
+
+Action actionOf(const std::string& cooker, size_t source, const std::string& subject)
+{
+    Action action;
+    action.cooker = cooker;
+    action.source = source;
+    action.subject = subject;
+    return action;
+}
+
+void addFlags(Action& action, const std::vector<std::string>& flags)
+{
+    for (const std::string& flag : flags)
+        action.words.push_back({Word::Kind::text, flag, 0});
+}
+
+void addInput(Action& action, Input input, const std::string& before_path = "")
+{
+    action.words.push_back({Word::Kind::input, before_path, action.inputs.size()});
+    action.inputs.push_back(std::move(input));
+}
+
+void addOutput(Action& action, const std::string& flag, const std::string& name)
+{
+    action.words.push_back({Word::Kind::text, flag, 0});
+    action.words.push_back({Word::Kind::output, "", action.outputs.size()});
+    action.outputs.push_back(name);
+}
+
+/// What an action before makes, as an input.
+Input partOf(const Graph& graph, size_t action)
+{
+    return {"part of " + graph.actions[action].cooker, action, ""};
+}
+
+/// The same where parts of several sources are told apart by their place.
+Input partOfSource(const Graph& graph, size_t action)
+{
+    Input part = partOf(graph, action);
+    part.role += fmt::format(" {}", graph.actions[action].source);
+    return part;
+}
+
+/// Appends the source's actions; returns those whose parts the link reads, in this order: import, clusters, textures,
+/// skinning.
+std::vector<size_t> addSource(Graph& graph, size_t index, std::span<const tools::LodFile> lods,
+                              const CookSettings& settings)
+{
+    const std::string& source = settings.sources[index];
+    /// Runs hearth-`kind` over the parts of actions before.
+    const auto add = [&](const std::string& kind, const std::vector<size_t>& inputs)
+    {
+        Action action = actionOf(kind, index, source);
+        for (const size_t input : inputs)
+            addInput(action, partOf(graph, input));
+        if (inputs.empty())
+            addInput(action, {"source", kNoAction, source});
+        addOutput(action, "-o", kind + ".part");
+        graph.actions.push_back(std::move(action));
+        return graph.actions.size() - 1;
+    };
+    std::vector<Action>& actions = graph.actions;
+
+    const size_t import_action = add("import", {});
+    actions[import_action].finds_files = true;
+    for (const tools::LodFile& lod : lods)
+    {
+        addFlags(actions[import_action], {"--lod"});
+        addInput(actions[import_action], {fmt::format("lod {}", lod.level), kNoAction, lod.path},
+                 fmt::format("{}=", lod.level));
+    }
+    const size_t textures = add("textures", {import_action});
+    const size_t clusters = add("clusters", {import_action});
+    if (!settings.profile.empty())
+        for (const size_t action : {import_action, clusters})
+        {
+            addFlags(actions[action], {"--profile"});
+            addInput(actions[action], {"profile", kNoAction, settings.profile});
+        }
+    if (settings.statistics)
+        addOutput(actions[clusters], "--stats", kClustersStatistics);
+    const size_t skinning = add("skinning", {import_action, clusters});
+    if (!settings.visibility)
+        return {import_action, clusters, textures, skinning};
+    addFlags(actions[clusters], {"--visibility"});
+    const size_t visibility = add("visibility", {import_action, clusters});
+    actions[visibility].depends_on_processor = true;
+    addFlags(actions[visibility], visibilityFlags(*settings.visibility));
+    if (settings.statistics)
+    {
+        addOutput(actions[visibility], "--stats", kVisibilityStatistics);
+        addOutput(actions[visibility], "--picture", kVisibilityPicture);
+    }
+    return {import_action, visibility, textures, skinning};
+}
+
+/// The table that shading needs beside visibilities; no source has a say in it.
+size_t addSpecular(Graph& graph, const CookSettings& settings)
+{
+    Action specular = actionOf("specular", settings.sources.size(), settings.output);
+    addOutput(specular, "-o", "specular.part");
+    graph.actions.push_back(std::move(specular));
+    return graph.actions.size() - 1;
+}
+
+/// The grid of all sources' scenes.
+size_t addBricks(Graph& graph, const CookSettings& settings)
+{
+    Action bricks = actionOf("bricks", settings.sources.size(), settings.output);
+    for (size_t source = 0; source < settings.sources.size(); ++source)
+        for (const char* kind : {"import", "clusters", "textures"})
+            for (size_t i = 0; i < graph.actions.size(); ++i)
+                if (graph.actions[i].source == source && graph.actions[i].cooker == kind)
+                    addInput(bricks, partOfSource(graph, i));
+    addOutput(bricks, "-o", "bricks.part");
+    if (settings.bricks->voxel_size)
+        addFlags(bricks, {"--voxel-size", fmt::format("{}", *settings.bricks->voxel_size)});
+    if (settings.bricks->memory_bytes)
+        addFlags(bricks, {"--memory", fmt::format("{}", *settings.bricks->memory_bytes)});
+    if (settings.statistics)
+        addOutput(bricks, "--stats", kBrickStatistics);
+    graph.actions.push_back(std::move(bricks));
+    return graph.actions.size() - 1;
+}
+
+/// inputs  actions whose parts the link reads, in this order
+void addLink(Graph& graph, const std::vector<size_t>& inputs, const CookSettings& settings)
+{
+    Action link = actionOf("link", settings.sources.size(), settings.output);
+    for (const size_t input : inputs)
+        addInput(link, partOfSource(graph, input));
+    if (settings.visibility)
+    {
+        const size_t specular = addSpecular(graph, settings);
+        addFlags(link, {"--specular"});
+        addInput(link, partOf(graph, specular));
+    }
+    if (settings.bricks)
+    {
+        const size_t bricks = addBricks(graph, settings);
+        addFlags(link, {"--bricks"});
+        addInput(link, partOf(graph, bricks));
+    }
+    addOutput(link, "-o", "pack.hearth");
+    graph.actions.push_back(std::move(link));
+}
+
+} // namespace
+
+Result<Graph> makeCookGraph(const CookSettings& settings)
+{
+    HEARTH_ASSIGN_OR_RETURN(const std::vector<tools::LodFile> lods, tools::parseLodFiles(settings.lods));
+    Graph graph;
+    graph.source_count = settings.sources.size();
+    std::vector<size_t> inputs;
+    for (size_t i = 0; i < settings.sources.size(); ++i)
+        for (const size_t part : addSource(graph, i, lods, settings))
+            inputs.push_back(part);
+    addLink(graph, inputs, settings);
+    addEstimates(graph);
+    return graph;
+}
+
+} // namespace hearth::graph

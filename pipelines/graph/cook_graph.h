@@ -1,0 +1,54 @@
+// The graph of a cook: which cookers run over which sources, and what the link takes.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "formats/result.h"
+#include "pipelines/graph/action.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace hearth::graph
+{
+
+/// What hearth-visibility is told.
+struct VisibilityOptions
+{
+    std::string quality = "default";
+    std::string occluders = "scene";
+    double distance = 0;            ///< metres; 0: no limit
+    double power = 0;               ///< with a distance only
+    std::vector<std::string> poses; ///< "CLIP[@SECONDS,...]": of deformed meshes; none: the bind pose
+    bool refine = false;            ///< cones by nine harmonics
+};
+
+/// What hearth-bricks is told; else it decides itself.
+struct BrickOptions
+{
+    std::optional<double> voxel_size;     ///< metres
+    std::optional<uint64_t> memory_bytes; ///< of the GPU
+};
+
+/// What a cook makes of what: all that its graph is made from.
+struct CookSettings
+{
+    std::vector<std::string> sources;
+    std::string output;
+    std::vector<std::string> lods;               ///< "N=FILE": levels of detail of the only source
+    std::string profile;                         ///< TOML file that the cookers read; empty: none
+    std::optional<VisibilityOptions> visibility; ///< none: vertices do not say what they see
+    std::optional<BrickOptions> bricks;          ///< none: the pack has no grid of bricks
+    bool statistics = false;                     ///< cookers say what became of their input
+};
+
+// Names of outputs beside the parts, where statistics are asked for.
+inline constexpr const char* kClustersStatistics = "clusters.json";
+inline constexpr const char* kVisibilityStatistics = "visibility.json";
+inline constexpr const char* kVisibilityPicture = "visibility.png";
+inline constexpr const char* kBrickStatistics = "bricks.json";
+
+/// errors: usage where the levels of detail are not as they should be.
+Result<Graph> makeCookGraph(const CookSettings& settings);
+
+} // namespace hearth::graph

@@ -1,0 +1,365 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "pipelines/graph/executor.h"
+
+#include "cook/tools/read_list.h"
+#include "cook/tools/sha256.h"
+#include "pipelines/cache/folder_level.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <fmt/format.h>
+
+namespace hearth::graph
+{
+
+namespace
+{
+
+std::optional<uint64_t> sizeOf(const std::string& path)
+{
+    std::error_code error;
+    const uintmax_t size = std::filesystem::file_size(path, error);
+    return error ? std::nullopt : std::optional<uint64_t>(size);
+}
+
+/// What a child says names files in private folders; the user knows the source.
+std::string inUsersWords(std::string text, const std::vector<std::string>& paths, const std::string& subject)
+{
+    for (const std::string& path : paths)
+        for (size_t at = text.find(path); at != std::string::npos; at = text.find(path, at))
+        {
+            text.replace(at, path.size(), subject);
+            at += subject.size();
+        }
+    return text;
+}
+
+} // namespace
+
+Executor::Executor(const Graph& graph, Resolver& resolver, cache::Cache* cache, ActionCache* actions,
+                   ExecutorOptions options, ExecutorEvents events)
+    : graph_(graph),
+      resolver_(resolver),
+      cache_(cache),
+      actions_(actions),
+      options_(std::move(options)),
+      events_(std::move(events)),
+      states_(graph.actions.size(), State::waiting),
+      outcomes_(graph.actions.size())
+{
+}
+
+std::optional<Failure> Executor::makeFolders()
+{
+    if (parts_)
+        return std::nullopt;
+    Result<tools::PrivateFolder> beside =
+        tools::PrivateFolder::create(tools::folderOf(options_.output), options_.output);
+    if (!beside.ok())
+        return failureOf(beside.error(), graph_.source_count);
+    beside_.emplace(std::move(beside).value());
+    Result<tools::PrivateFolder> parts =
+        tools::PrivateFolder::create(tools::temporaryOr(beside_->path()), options_.output);
+    if (!parts.ok())
+        return failureOf(parts.error(), graph_.source_count);
+    parts_.emplace(std::move(parts).value());
+    return std::nullopt;
+}
+
+std::string Executor::readListOf(size_t action) const
+{
+    return fmt::format("{}/{}.reads", parts_->path(), action);
+}
+
+bool Executor::isPack(size_t action) const
+{
+    return action + 1 == graph_.actions.size();
+}
+
+/// Where the action's cooker writes.
+std::vector<std::string> Executor::pathsOf(size_t action) const
+{
+    std::vector<std::string> paths;
+    for (const std::string& output : graph_.actions[action].outputs)
+        // the pack lies where a rename can put it in place
+        paths.push_back(isPack(action)
+                            ? beside_->path() + "/" + output
+                            : fmt::format("{}/{}.{}", parts_->path(), graph_.actions[action].source, output));
+    return paths;
+}
+
+/// Where an output lies whose content is known: a name that is the same in every cook, since a cooker may write down what
+/// its input is called. What is the same is there once.
+std::string Executor::pathOf(size_t action, size_t output) const
+{
+    return isPack(action) ? pathsOf(action)[output]
+                          : parts_->path() + "/" + outcomes_[action].result.outputs[output].hash;
+}
+
+bool Executor::materialize(size_t action)
+{
+    ActionOutcome& outcome = outcomes_[action];
+    if (!outcome.paths.empty())
+        return true;
+    if (cache_ == nullptr || makeFolders())
+        return false;
+    // the pack becomes the user's, who may write into it
+    const cache::Use use = isPack(action) ? cache::Use::given_away : cache::Use::read_only;
+    std::vector<std::string> paths;
+    for (size_t i = 0; i < outcome.result.outputs.size(); ++i)
+    {
+        paths.push_back(pathOf(action, i));
+        if (!sizeOf(paths[i]) && !cache_->fetch(outcome.result.outputs[i].hash, paths[i], use))
+            return false;
+    }
+    outcome.paths = paths;
+    return true;
+}
+
+/// Have the files that the action reads; what the cache has lost is made again first.
+bool Executor::haveInputs(size_t action)
+{
+    bool have = true;
+    for (const Input& input : graph_.actions[action].inputs)
+    {
+        if (input.action == kNoAction || materialize(input.action))
+            continue;
+        have = false;
+        states_[input.action] = State::must_run;
+        outcomes_[input.action].causes = {"its result is not in the cache, or not whole"};
+        // what is made again may differ
+        states_[action] = State::waiting;
+    }
+    return have;
+}
+
+bool Executor::canStart(size_t action) const
+{
+    const uint64_t memory = graph_.actions[action].estimate.memory_bytes;
+    return children_.running() < options_.jobs &&
+           (children_.running() == 0 || memory_in_use_ + memory <= options_.memory_bytes);
+}
+
+std::optional<Failure> Executor::start(size_t index)
+{
+    const Action& action = graph_.actions[index];
+    if (auto failure = makeFolders())
+        return failure;
+    ActionPaths paths{{}, pathsOf(index)};
+    for (const Input& input : action.inputs)
+        paths.inputs.push_back(input.action == kNoAction ? input.path
+                                                         : outcomes_[input.action].paths.front());
+    std::vector<std::string> command = commandOf(action, options_.programs, paths);
+    if (action.finds_files && cache_ != nullptr)
+        command.insert(command.end(), {"--depfile", readListOf(index)});
+    if (events_.starting)
+        events_.starting(action, outcomes_[index], command);
+    const Result<size_t> child = children_.start(command);
+    if (!child.ok())
+        return failureOf(child.error(), action.source);
+    states_[index] = State::running;
+    memory_in_use_ += action.estimate.memory_bytes;
+    action_of_child_.push_back(index);
+    return std::nullopt;
+}
+
+/// One step of an action that waits or must run; whether anything has changed.
+bool Executor::advance(size_t index)
+{
+    const Action& action = graph_.actions[index];
+    const auto isIn = [&](State state)
+    {
+        return [this, state](const Input& input)
+        { return input.action != kNoAction && states_[input.action] == state; };
+    };
+    ActionOutcome& outcome = outcomes_[index];
+    if (std::any_of(action.inputs.begin(), action.inputs.end(), isIn(State::failed)))
+    {
+        states_[index] = State::failed;
+        outcome.ending = Ending::left_out;
+        return true;
+    }
+    const auto isReady = [&](const Input& input)
+    { return input.action == kNoAction || states_[input.action] == State::done; };
+    if (states_[index] != State::waiting || !std::all_of(action.inputs.begin(), action.inputs.end(), isReady))
+        return false;
+
+    std::vector<std::string> part_hashes;
+    for (const Input& input : action.inputs)
+        part_hashes.push_back(
+            input.action == kNoAction ? "" : outcomes_[input.action].result.outputs.front().hash);
+    Resolved resolved = resolver_.resolve(index, part_hashes);
+    outcome.record = resolved.record.value_or(Record());
+    outcome.causes = std::move(resolved.causes);
+    if (!resolved.result)
+    {
+        states_[index] = State::must_run;
+        return true;
+    }
+    states_[index] = State::done;
+    outcome.ending = Ending::kept;
+    outcome.result = std::move(*resolved.result);
+    if (events_.ended)
+        events_.ended(action, outcome, outcome.result.warnings);
+    return true;
+}
+
+std::optional<Failure> Executor::startWhatCan()
+{
+    for (bool has_changed = true; has_changed;)
+    {
+        has_changed = false;
+        for (size_t i = 0; i < graph_.actions.size(); ++i)
+        {
+            if (states_[i] == State::waiting || states_[i] == State::must_run)
+                has_changed |= advance(i);
+            const auto isReady = [&](const Input& input)
+            { return input.action == kNoAction || states_[input.action] == State::done; };
+            const std::vector<Input>& inputs = graph_.actions[i].inputs;
+            if (states_[i] != State::must_run || !canStart(i) ||
+                !std::all_of(inputs.begin(), inputs.end(), isReady))
+                continue;
+            has_changed = true;
+            if (!haveInputs(i))
+                continue;
+            if (auto failure = start(i))
+                return failure;
+        }
+    }
+    return std::nullopt;
+}
+
+void Executor::fail(size_t action, const Failure& failure)
+{
+    states_[action] = State::failed;
+    outcomes_[action].ending = Ending::failed;
+    failures_.push_back(failure);
+}
+
+/// The outputs are there, and become the outcome's; else a defect of the cooker.
+std::optional<Failure> Executor::checkOutputs(size_t index)
+{
+    ActionOutcome& outcome = outcomes_[index];
+    outcome.paths = pathsOf(index);
+    outcome.result.outputs.clear();
+    for (size_t i = 0; i < outcome.paths.size(); ++i)
+    {
+        const std::optional<uint64_t> bytes = sizeOf(outcome.paths[i]);
+        if (!bytes)
+            return failureOf({Issue::child_failed, graph_.actions[index].subject, "",
+                              "hearth-" + graph_.actions[index].cooker + " ended well, but made nothing"},
+                             graph_.actions[index].source);
+        outcome.result.outputs.push_back({"", *bytes});
+        if (cache_ == nullptr)
+            continue;
+        outcome.result.outputs.back().hash = tools::sha256OfFile(outcome.paths[i]).value_or("");
+        if (const std::string known = pathOf(index, i);
+            ::rename(outcome.paths[i].c_str(), known.c_str()) == 0)
+            outcome.paths[i] = known;
+    }
+    return std::nullopt;
+}
+
+void Executor::keepResult(size_t index)
+{
+    const Action& action = graph_.actions[index];
+    ActionOutcome& outcome = outcomes_[index];
+    if (cache_ == nullptr || outcome.record.empty())
+        return;
+    if (action.finds_files)
+    {
+        const std::optional<std::string> text = cache::readText(readListOf(index));
+        const auto reads = text ? tools::ReadList::parse(*text) : std::nullopt;
+        const auto whole = reads ? actions_->recordAfter(action, outcome.record, *reads) : std::nullopt;
+        if (!whole)
+            return;
+        outcome.record = *whole;
+    }
+    if (!cache_->isWritable())
+        return;
+    for (size_t i = 0; i < outcome.paths.size(); ++i)
+        cache_->put(outcome.result.outputs[i].hash, outcome.paths[i],
+                    isPack(index) ? cache::Use::given_away : cache::Use::read_only);
+    actions_->keep(action, outcome.record, outcome.result);
+}
+
+void Executor::takeEnd(const tools::ChildEnd& end)
+{
+    const size_t index = action_of_child_[end.id];
+    const Action& action = graph_.actions[index];
+    ActionOutcome& outcome = outcomes_[index];
+    memory_in_use_ -= action.estimate.memory_bytes;
+
+    std::vector<std::string> private_paths = pathsOf(index);
+    for (const Input& input : action.inputs)
+        if (input.action != kNoAction)
+            private_paths.push_back(outcomes_[input.action].paths.front());
+    const std::vector<std::string> lines = linesOf(inUsersWords(end.messages, private_paths, action.subject));
+    outcome.result.warnings.clear();
+    std::copy_if(lines.begin(), lines.end(), std::back_inserter(outcome.result.warnings), isWarning);
+    outcome.result.seconds = end.seconds;
+    outcome.result.cpu_seconds = end.cpu_seconds;
+    outcome.result.peak_rss_bytes = end.peak_rss_bytes;
+    std::optional<Failure> failure = failureOf(action, end, lines);
+    if (!failure)
+        failure = checkOutputs(index);
+    if (failure)
+        fail(index, *failure);
+    else
+    {
+        states_[index] = State::done;
+        outcome.ending = Ending::cooked;
+        keepResult(index);
+    }
+    if (events_.ended)
+        events_.ended(action, outcome, lines);
+    if (failure && events_.failed)
+        events_.failed(*failure);
+}
+
+/// Have the pack as a file where it is not there already; false where it must be linked again first.
+bool Executor::finishPack(const std::optional<std::string>& hash_there)
+{
+    const size_t last = graph_.actions.size() - 1;
+    if (states_[last] != State::done)
+        return true;
+    if (cache_ != nullptr && hash_there == outcomes_[last].result.outputs.front().hash)
+        return true;
+    if (!materialize(last))
+    {
+        states_[last] = State::must_run;
+        outcomes_[last].causes = {"its result is not in the cache, or not whole"};
+        return false;
+    }
+    pack_path_ = outcomes_[last].paths.front();
+    return true;
+}
+
+bool Executor::run(const std::optional<std::string>& hash_there)
+{
+    for (;;)
+    {
+        if (const auto failure = startWhatCan())
+        {
+            // a child or a folder that cannot be made: nothing else would go better
+            failures_.push_back(*failure);
+            if (events_.failed)
+                events_.failed(*failure);
+            return true;
+        }
+        if (children_.running() == 0)
+        {
+            if (finishPack(hash_there))
+                return true;
+            continue;
+        }
+        const std::optional<tools::ChildEnd> end = children_.wait();
+        if (!end)
+            return false;
+        takeEnd(*end);
+        if (!failures_.empty() && !options_.keeps_going)
+            return true;
+    }
+}
+
+} // namespace hearth::graph

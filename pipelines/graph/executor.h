@@ -1,0 +1,117 @@
+// Runs what must run of a graph as child processes of this machine, and takes the rest from the cache.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "cook/tools/child_processes.h"
+#include "cook/tools/private_folder.h"
+#include "pipelines/graph/cooker_end.h"
+#include "pipelines/graph/resolver.h"
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace hearth::graph
+{
+
+struct ExecutorOptions
+{
+    unsigned jobs = 2;         ///< cookers at once
+    uint64_t memory_bytes = 0; ///< that they may take together, by their estimates; one always runs
+    bool keeps_going = true;   ///< after a failure, with what does not depend on it
+    std::string programs;      ///< folder of the cookers
+    std::string output;        ///< the pack: temporary files are made beside it, or in TMPDIR
+};
+
+struct ActionOutcome
+{
+    Ending ending = Ending::unknown;
+    KeptResult result;
+    std::vector<std::string> causes;
+    Record record;
+    /// Where the outputs lie while the executor lives; empty: in the cache only.
+    std::vector<std::string> paths;
+};
+
+/// What it tells while it works; each may be empty.
+struct ExecutorEvents
+{
+    std::function<void(const Action& action, const ActionOutcome& outcome,
+                       const std::vector<std::string>& command)>
+        starting;
+    /// messages  what the cooker said, or the kept warnings of a result from the cache; paths in words of the user
+    std::function<void(const Action& action, const ActionOutcome& outcome,
+                       const std::vector<std::string>& messages)>
+        ended;
+    std::function<void(const Failure& failure)> failed;
+};
+
+/// While it lives, SIGINT, SIGTERM and SIGHUP end run() instead of the process; its temporary files go with it.
+class Executor
+{
+public:
+    /// cache, actions  null: every action runs, and nothing is kept
+    Executor(const Graph& graph, Resolver& resolver, cache::Cache* cache, ActionCache* actions,
+             ExecutorOptions options, ExecutorEvents events);
+
+    /// Make the pack, unless a file of that hash is there already.
+    /// returns  false where a signal ended it
+    bool run(const std::optional<std::string>& hash_there);
+
+    const std::vector<ActionOutcome>& outcomes() const { return outcomes_; }
+    /// What failed, in the order in which it did.
+    const std::vector<Failure>& failures() const { return failures_; }
+    /// The whole pack, to be moved into its place; empty where it has failed, or is there already.
+    const std::string& packPath() const { return pack_path_; }
+
+    /// Have the outputs of an action that was taken from the cache as files; false where the cache has lost them.
+    bool materialize(size_t action);
+
+private:
+    enum class State
+    {
+        waiting,
+        must_run,
+        running,
+        done,
+        failed,
+    };
+
+    std::optional<Failure> startWhatCan();
+    bool advance(size_t action);
+    bool canStart(size_t action) const;
+    std::optional<Failure> start(size_t action);
+    std::optional<Failure> makeFolders();
+    bool haveInputs(size_t action);
+    void takeEnd(const tools::ChildEnd& end);
+    std::optional<Failure> checkOutputs(size_t action);
+    void keepResult(size_t action);
+    bool finishPack(const std::optional<std::string>& hash_there);
+    void fail(size_t action, const Failure& failure);
+    bool isPack(size_t action) const;
+    std::string pathOf(size_t action, size_t output) const;
+    std::string readListOf(size_t action) const;
+    std::vector<std::string> pathsOf(size_t action) const;
+
+    const Graph& graph_;
+    Resolver& resolver_;
+    cache::Cache* cache_;
+    ActionCache* actions_;
+    ExecutorOptions options_;
+    ExecutorEvents events_;
+
+    // before the folders, so that it goes after them: signals wait until they are gone
+    tools::ChildProcesses children_;
+    std::optional<tools::PrivateFolder> beside_; ///< the pack, where a rename can put it in place
+    std::optional<tools::PrivateFolder> parts_;
+
+    std::vector<State> states_;
+    std::vector<ActionOutcome> outcomes_;
+    std::vector<size_t> action_of_child_;
+    std::vector<Failure> failures_;
+    uint64_t memory_in_use_ = 0;
+    std::string pack_path_;
+};
+
+} // namespace hearth::graph

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "pipelines/graph/file_hashes.h"
+
+#include "cook/tools/sha256.h"
+#include "cook/tools/whole_file.h"
+#include "pipelines/cache/entry_text.h"
+#include "pipelines/cache/folder_level.h"
+
+#include <ctime>
+#include <fmt/format.h>
+#include <sys/stat.h>
+
+namespace hearth::graph
+{
+
+namespace
+{
+
+constexpr int64_t kTooYoung_s = 2;
+
+/// Empty where there is no regular file.
+std::string looksOf(const struct stat& info)
+{
+    if (!S_ISREG(info.st_mode))
+        return "";
+    return fmt::format("{} {} {} {}.{:09} {}.{:09}", info.st_dev, info.st_ino, info.st_size,
+                       info.st_mtim.tv_sec, info.st_mtim.tv_nsec, info.st_ctim.tv_sec, info.st_ctim.tv_nsec);
+}
+
+} // namespace
+
+void FileHashes::load(const std::string& path)
+{
+    const std::optional<std::string> text = cache::readText(path);
+    const std::optional<cache::Fields> fields = text ? cache::entryFields(*text) : std::nullopt;
+    if (!fields)
+        return;
+    for (const auto& [file, value] : *fields)
+        if (const size_t blank = value.find(' '); blank != std::string::npos)
+            remembered_[file] = {value.substr(blank + 1), value.substr(0, blank)};
+    loaded_text_ = *text;
+}
+
+void FileHashes::save(const std::string& path) const
+{
+    cache::Fields fields;
+    for (const auto& [file, known] : seen_)
+        if (!known.looks.empty())
+            fields.emplace_back(file, known.hash + " " + known.looks);
+    // what it says is true or does no harm: an error is no matter
+    if (const std::string text = cache::entryText(fields); text != loaded_text_)
+        static_cast<void>(tools::writeText(path, text).ok());
+}
+
+std::optional<std::string> FileHashes::hashOf(const std::string& path)
+{
+    const std::string key = path.starts_with('/') ? path : folder_ + path;
+    if (const auto asked = hash_of_path_.find(key); asked != hash_of_path_.end())
+        return asked->second;
+    std::optional<std::string>& hash = hash_of_path_[key];
+    struct stat info = {};
+    timespec now = {};
+    // before the file is looked at: what happens after is younger
+    ::clock_gettime(CLOCK_REALTIME, &now);
+    if (::stat(key.c_str(), &info) != 0)
+        return hash;
+    std::string looks = looksOf(info);
+    if (looks.empty())
+        return hash;
+    if (const auto known = remembered_.find(key); known != remembered_.end() && known->second.looks == looks)
+    {
+        seen_[key] = known->second;
+        return hash = known->second.hash;
+    }
+    hash = tools::sha256OfFile(key);
+    ++files_read_;
+    const int64_t youngest = std::max(info.st_mtim.tv_sec, info.st_ctim.tv_sec);
+    if (hash && youngest + kTooYoung_s < now.tv_sec)
+        seen_[key] = {std::move(looks), *hash};
+    return hash;
+}
+
+} // namespace hearth::graph

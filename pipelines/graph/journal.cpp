@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "pipelines/graph/journal.h"
+
+#include "cook/tools/sha256.h"
+#include "pipelines/cache/entry_text.h"
+#include "pipelines/graph/plan_json.h"
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+
+namespace hearth::graph
+{
+
+namespace
+{
+
+constexpr const char* kSchema = "hearth.cook/1";
+constexpr std::array<std::string_view, 5> kEndings{"unknown", "cooked", "kept", "failed", "left out"};
+
+} // namespace
+
+std::string journalText(const Journal& journal)
+{
+    cache::Fields fields{{"schema", kSchema},
+                         {"folder", journal.folder},
+                         {"output", journal.output},
+                         {"output cause", journal.output_cause},
+                         {"plan", planJson(journal.graph)}};
+    for (const JournalAction& action : journal.actions)
+    {
+        fields.emplace_back("ending", kEndings[static_cast<size_t>(action.ending)]);
+        fields.emplace_back("record", cache::textOf(action.record));
+        for (const std::string& cause : action.causes)
+            fields.emplace_back("cause", cause);
+    }
+    return cache::entryText(fields);
+}
+
+std::optional<Journal> parseJournal(std::string_view text)
+{
+    const std::optional<cache::Fields> fields = cache::entryFields(text);
+    if (!fields || cache::valueOf(*fields, "schema") != kSchema)
+        return std::nullopt;
+    Journal journal;
+    journal.folder = cache::valueOf(*fields, "folder");
+    journal.output = cache::valueOf(*fields, "output");
+    journal.output_cause = cache::valueOf(*fields, "output cause");
+    Result<Graph> graph = parsePlan(cache::valueOf(*fields, "plan"), "");
+    if (!graph.ok())
+        return std::nullopt;
+    journal.graph = std::move(graph).value();
+    for (const auto& [name, value] : *fields)
+        if (name == "ending")
+        {
+            const auto ending = std::find(kEndings.begin(), kEndings.end(), value);
+            if (ending == kEndings.end())
+                return std::nullopt;
+            journal.actions.emplace_back().ending = static_cast<Ending>(ending - kEndings.begin());
+        }
+        else if (name == "record" && !journal.actions.empty())
+            journal.actions.back().record = cache::fieldsOf(value).value_or(Record());
+        else if (name == "cause" && !journal.actions.empty())
+            journal.actions.back().causes.push_back(value);
+    return journal.actions.size() == journal.graph.actions.size() ? std::optional(std::move(journal))
+                                                                  : std::nullopt;
+}
+
+std::string workingFolder()
+{
+    std::error_code error;
+    return std::filesystem::current_path(error).string();
+}
+
+std::string absolutePath(const std::string& path)
+{
+    std::error_code error;
+    return std::filesystem::absolute(path, error).lexically_normal().string();
+}
+
+std::string journalPath(const std::string& cache_folder, const std::string& output)
+{
+    return cache_folder + "/cooks/" + tools::sha256Of(absolutePath(output));
+}
+
+} // namespace hearth::graph

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "pipelines/graph/resolver.h"
+
+#include "pipelines/graph/causes.h"
+
+#include <algorithm>
+
+namespace hearth::graph
+{
+
+/// The record with the files that the last run found, as they are now: so that it can be compared with that run's.
+Record Resolver::comparable(size_t action, const std::optional<Record>& record)
+{
+    if (!record)
+        return {};
+    Record now = *record;
+    const std::optional<Journal>& journal = journal_();
+    const auto isFound = [](const auto& field) { return field.first.starts_with(kFound); };
+    if (!journal || std::any_of(now.begin(), now.end(), isFound) || !graph_.actions[action].finds_files)
+        return now;
+    if (const JournalAction* last = lastOf(graph_.actions[action], graph_, *journal))
+        for (const auto& field : actions_->refreshed(graph_.actions[action], last->record))
+            if (field.first.starts_with(kFound))
+                now.push_back(field);
+    return now;
+}
+
+Resolved Resolver::resolve(size_t index, const std::vector<std::string>& part_hashes)
+{
+    const Action& action = graph_.actions[index];
+    if (cache_ == nullptr)
+        return {std::nullopt, std::nullopt, {"no cache is used"}};
+    Situation situation;
+    Resolved resolved;
+    resolved.record = actions_->recordOf(action, part_hashes);
+    situation.is_forced = is_forced_;
+    if (resolved.record && !is_forced_)
+    {
+        const size_t damage_before = cache_->damageCount();
+        ActionCache::Found found = actions_->find(action, *resolved.record);
+        resolved.record = std::move(found.record);
+        resolved.result = std::move(found.result);
+        situation.is_damaged = cache_->damageCount() > damage_before;
+    }
+    if (resolved.result)
+        return resolved;
+    situation.record = comparable(index, resolved.record);
+    resolved.causes = causesOf(action, graph_, situation, journal_());
+    return resolved;
+}
+
+std::vector<std::string> Resolver::causesAfter(size_t index, const std::vector<std::string>& cookers) const
+{
+    if (cache_ == nullptr)
+        return {"no cache is used"};
+    Situation situation;
+    situation.is_forced = is_forced_;
+    situation.waits_for = cookers;
+    return causesOf(graph_.actions[index], graph_, situation, journal_());
+}
+
+Forecast forecast(const Graph& graph, Resolver& resolver)
+{
+    Forecast forecast;
+    std::vector<std::string> hash_of_action(graph.actions.size());
+    for (size_t i = 0; i < graph.actions.size(); ++i)
+    {
+        std::vector<std::string> part_hashes;
+        std::vector<std::string> runs_before;
+        for (const Input& input : graph.actions[i].inputs)
+        {
+            part_hashes.push_back(input.action == kNoAction ? "" : hash_of_action[input.action]);
+            const std::string cooker = input.action == kNoAction ? "" : graph.actions[input.action].cooker;
+            if (input.action != kNoAction && forecast.actions[input.action].runs &&
+                std::find(runs_before.begin(), runs_before.end(), cooker) == runs_before.end())
+                runs_before.push_back(cooker);
+        }
+        if (!runs_before.empty())
+        {
+            forecast.actions.push_back({true, resolver.causesAfter(i, runs_before)});
+            continue;
+        }
+        const Resolved resolved = resolver.resolve(i, part_hashes);
+        forecast.actions.push_back({!resolved.result, resolved.causes});
+        if (resolved.result)
+            hash_of_action[i] = resolved.result->outputs.front().hash;
+        if (resolved.result && i + 1 == graph.actions.size())
+            forecast.result = resolved.result->outputs.front();
+    }
+    return forecast;
+}
+
+} // namespace hearth::graph

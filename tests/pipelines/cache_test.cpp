@@ -1,0 +1,340 @@
+// The cache by itself: whatever becomes of its files, it hands out what was put in or nothing.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/tools/sha256.h"
+#include "cook/tools/whole_file.h"
+#include "pipelines/cache/cache.h"
+#include "pipelines/cache/entry_text.h"
+#include "pipelines/cache/folder_level.h"
+#include "pipelines/cache/open_cache.h"
+#include "pipelines/cache/upkeep.h"
+#include "tests/command/sandbox.h"
+
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace hearth::cache
+{
+
+namespace
+{
+
+namespace fs = std::filesystem;
+using test::Sandbox;
+using tools::sha256Of;
+
+const std::string kKey = sha256Of("key");
+const Fields kEntry{{"made", "abc"}, {"warning", "one\ttwo\nthree\\"}, {"warning", ""}};
+
+class CacheTest : public ::testing::Test
+{
+protected:
+    /// A cache over the named folders of the sandbox; "ro" after a name: read only.
+    Cache open(const std::vector<std::string>& names)
+    {
+        std::vector<std::unique_ptr<Level>> levels;
+        for (const std::string& name : names)
+        {
+            const bool writable = !name.ends_with(" ro");
+            levels.push_back(
+                std::make_unique<FolderLevel>(folder / name.substr(0, name.find(' ')), writable));
+        }
+        return Cache(std::move(levels),
+                     [this](const Error& error) { warnings.push_back(formatMessage(error)); });
+    }
+
+    std::string put(Cache& cache, const std::string& content)
+    {
+        folder.write("content", content);
+        cache.put(sha256Of(content), folder / "content", Use::given_away);
+        fs::remove(folder / "content");
+        return sha256Of(content);
+    }
+
+    /// What the cache has under the hash; "nothing" where it has nothing.
+    std::string get(Cache& cache, const std::string& hash, Use use = Use::read_only)
+    {
+        fs::remove(folder / "fetched");
+        return cache.fetch(hash, folder / "fetched", use) ? folder.read("fetched") : "nothing";
+    }
+
+    std::string pathOf(const std::string& kind, const std::string& name) const
+    {
+        return folder / ("a/" + kind + "/" + name.substr(0, 2) + "/" + name);
+    }
+
+    /// Write into a file that others may not write.
+    static void overwrite(const std::string& path, const std::string& content)
+    {
+        fs::permissions(path, fs::perms::owner_all);
+        std::ofstream(path, std::ios::binary | std::ios::trunc) << content;
+    }
+
+    Sandbox folder;
+    std::vector<std::string> warnings;
+};
+
+} // namespace
+
+TEST(Fields, comeBackFromTheirText)
+{
+    EXPECT_EQ(fieldsOf(textOf(kEntry)), kEntry);
+    EXPECT_EQ(fieldsOf(""), Fields());
+    const std::string text = entryText(kEntry);
+    EXPECT_EQ(entryFields(text), kEntry);
+    for (size_t size = 0; size < text.size(); ++size)
+        EXPECT_EQ(entryFields(text.substr(0, size)), std::nullopt) << size;
+    for (size_t i = 0; i < text.size(); ++i)
+    {
+        std::string flipped = text;
+        flipped[i] = static_cast<char>(flipped[i] ^ 1);
+        EXPECT_EQ(entryFields(flipped), std::nullopt) << i;
+    }
+}
+
+TEST(Fields, refuseWhatNobodyWrote)
+{
+    for (const char* text : {"a", "a\n", "a\tb", "a\tb\tc\n", "a\t\\x\n", "a\t\\"})
+        EXPECT_EQ(fieldsOf(text), std::nullopt) << text;
+}
+
+TEST_F(CacheTest, handsOutWhatWasPutIn)
+{
+    Cache cache = open({"a"});
+    EXPECT_EQ(cache.entry(kKey), std::nullopt);
+    cache.putEntry(kKey, kEntry);
+    EXPECT_EQ(cache.entry(kKey), kEntry);
+    const std::string hash = put(cache, "some bytes");
+    EXPECT_EQ(get(cache, hash), "some bytes");
+    EXPECT_EQ(get(cache, sha256Of("other")), "nothing");
+    EXPECT_EQ(warnings, std::vector<std::string>{});
+    EXPECT_TRUE(fs::is_empty(folder / "a/tmp"));
+}
+
+TEST_F(CacheTest, whoGetsAFileToKeepCannotHarmTheCache)
+{
+    Cache cache = open({"a"});
+    const std::string hash = put(cache, "some bytes");
+    ASSERT_EQ(get(cache, hash, Use::given_away), "some bytes");
+    overwrite(folder / "fetched", "scribble");
+    EXPECT_EQ(get(cache, hash), "some bytes");
+    struct stat stored = {};
+    struct stat fetched = {};
+    ::stat(pathOf("cas", hash).c_str(), &stored);
+    ::stat((folder / "fetched").c_str(), &fetched);
+    EXPECT_EQ(stored.st_ino, fetched.st_ino) << "what is only read need not be copied";
+}
+
+TEST_F(CacheTest, damageIsToldAndMendedByTheNextWriter)
+{
+    Cache cache = open({"a"});
+    cache.putEntry(kKey, kEntry);
+    const std::string hash = put(cache, "some bytes");
+    for (const std::string damage : {"", "some", "sOme bytes", "some bytes and more"})
+    {
+        warnings.clear();
+        overwrite(pathOf("cas", hash), damage);
+        EXPECT_EQ(get(cache, hash), "nothing");
+        EXPECT_EQ(warnings.size(), 1u);
+        EXPECT_EQ(put(cache, "some bytes"), hash);
+        EXPECT_EQ(get(cache, hash), "some bytes");
+    }
+    warnings.clear();
+    overwrite(pathOf("ac", kKey), "hearth.entry/1 torn");
+    EXPECT_EQ(cache.entry(kKey), std::nullopt);
+    ASSERT_EQ(warnings.size(), 1u);
+    EXPECT_NE(warnings[0].find("warning: entry " + kKey + " is damaged: it is made again [W4100]"),
+              std::string::npos)
+        << warnings[0];
+    cache.putEntry(kKey, kEntry);
+    EXPECT_EQ(cache.entry(kKey), kEntry);
+}
+
+TEST_F(CacheTest, nearLevelsTakeWhatFarOnesHave)
+{
+    {
+        Cache far = open({"b"});
+        far.putEntry(kKey, kEntry);
+        put(far, "some bytes");
+    }
+    {
+        Cache both = open({"a", "b ro"});
+        EXPECT_EQ(both.entry(kKey), kEntry);
+        EXPECT_EQ(get(both, sha256Of("some bytes")), "some bytes");
+        put(both, "new bytes");
+    }
+    Cache near = open({"a"});
+    EXPECT_EQ(near.entry(kKey), kEntry);
+    EXPECT_EQ(get(near, sha256Of("some bytes")), "some bytes");
+    EXPECT_EQ(get(near, sha256Of("new bytes")), "new bytes");
+    Cache far = open({"b"});
+    EXPECT_EQ(get(far, sha256Of("new bytes")), "nothing") << "it is read only";
+}
+
+TEST_F(CacheTest, aLevelThatFailsIsToldOfOnceAndLeftAlone)
+{
+    folder.write("a", "a file, where a folder should be");
+    Cache cache = open({"a", "b"});
+    cache.putEntry(kKey, kEntry);
+    cache.putEntry(sha256Of("other"), kEntry);
+    const std::string hash = put(cache, "some bytes");
+    EXPECT_EQ(warnings.size(), 1u);
+    EXPECT_EQ(cache.entry(kKey), kEntry);
+    EXPECT_EQ(get(cache, hash), "some bytes");
+}
+
+TEST_F(CacheTest, aFullDiskCostsOnlyWhatIsNotKept)
+{
+    // a limit on the size of files, in a process of its own, stands for the disk
+    const pid_t child = ::fork();
+    ASSERT_GE(child, 0);
+    if (child == 0)
+    {
+        std::signal(SIGXFSZ, SIG_IGN);
+        folder.write("content", std::string(100000, 'x'));
+        const rlimit limit{4096, 4096};
+        ::setrlimit(RLIMIT_FSIZE, &limit);
+        Cache cache = open({"a"});
+        cache.put(sha256Of(std::string(100000, 'x')), folder / "content", Use::given_away);
+        cache.putEntry(kKey, kEntry);
+        ::_exit(warnings.size() == 1 && !cache.isWritable() && fs::is_empty(folder / "a/tmp") ? 0 : 1);
+    }
+    int status = 0;
+    ::waitpid(child, &status, 0);
+    EXPECT_EQ(status, 0);
+    Cache cache = open({"a"});
+    EXPECT_EQ(get(cache, sha256Of(std::string(100000, 'x'))), "nothing");
+    EXPECT_EQ(warnings, std::vector<std::string>{}) << "nothing torn is there";
+}
+
+TEST_F(CacheTest, sixWritersOfOneKeyLeaveItWhole)
+{
+    const std::string content(300000, 'x');
+    folder.write("source", content);
+    std::vector<pid_t> writers;
+    for (int writer = 0; writer < 6; ++writer)
+    {
+        const pid_t child = ::fork();
+        ASSERT_GE(child, 0);
+        if (child != 0)
+        {
+            writers.push_back(child);
+            continue;
+        }
+        Cache cache = open({"a"});
+        for (int round = 0; round < 20; ++round)
+        {
+            cache.put(sha256Of(content), folder / "source", Use::given_away);
+            cache.putEntry(kKey, kEntry);
+            const std::string own = folder / std::to_string(writer);
+            static_cast<void>(cache.entry(kKey));
+            static_cast<void>(cache.fetch(sha256Of(content), own, Use::read_only));
+            fs::remove(own);
+            // others still write
+            if (writer == 0)
+                FolderLevel(folder / "a", true).removeContent(sha256Of(content));
+        }
+        ::_exit(warnings.empty() ? 0 : 1);
+    }
+    for (const pid_t writer : writers)
+    {
+        int status = 0;
+        ::waitpid(writer, &status, 0);
+        EXPECT_EQ(status, 0);
+    }
+    EXPECT_EQ(verifyFolder(folder / "a"), std::vector<std::string>{});
+    EXPECT_TRUE(fs::is_empty(folder / "a/tmp"));
+}
+
+TEST_F(CacheTest, garbageGoesFromWhatWasUsedLeast)
+{
+    Cache cache = open({"a"});
+    std::vector<std::string> keys;
+    for (int i = 0; i < 4; ++i)
+    {
+        const std::string hash = put(cache, std::string(10000, static_cast<char>('a' + i)));
+        keys.push_back(sha256Of(std::to_string(i)));
+        cache.putEntry(keys.back(), {{std::string(kContentField), hash}});
+        fs::last_write_time(pathOf("ac", keys.back()),
+                            fs::file_time_type::clock::now() - std::chrono::hours(24 * (4 - i)));
+    }
+    // asked for, it is the youngest
+    EXPECT_TRUE(cache.entry(keys[0]).has_value());
+    EXPECT_EQ(occupancyOf(folder / "a").contents, 4u);
+    // named by no entry, from yesterday
+    const std::string lost = put(cache, "lost");
+    fs::last_write_time(pathOf("cas", lost), fs::file_time_type::clock::now() - std::chrono::hours(24));
+
+    const Occupancy left = collectGarbage(folder / "a", 21000);
+    EXPECT_EQ(left.entries, 2u);
+    EXPECT_EQ(left.contents, 2u);
+    EXPECT_LE(left.bytes, 21000u);
+    EXPECT_EQ(occupancyOf(folder / "a").bytes, left.bytes);
+    EXPECT_TRUE(cache.entry(keys[0]).has_value());
+    EXPECT_TRUE(cache.entry(keys[3]).has_value());
+    EXPECT_EQ(get(cache, lost), "nothing");
+    EXPECT_EQ(verifyFolder(folder / "a"), std::vector<std::string>{});
+    EXPECT_EQ(collectGarbage(folder / "a", 1).bytes, 0u);
+}
+
+TEST_F(CacheTest, keepsItselfWithinItsLimit)
+{
+    Cache cache = open({"a"});
+    for (int i = 0; i < 10; ++i)
+    {
+        const std::string hash = put(cache, std::string(10000, static_cast<char>('a' + i)));
+        cache.putEntry(sha256Of(std::to_string(i)), {{std::string(kContentField), hash}});
+        noteAdded(folder / "a", 10200, 50000);
+        EXPECT_LE(occupancyOf(folder / "a").bytes, 50000u);
+    }
+    EXPECT_GE(occupancyOf(folder / "a").contents, 3u);
+}
+
+TEST_F(CacheTest, verifyFindsAndRemovesDamage)
+{
+    Cache cache = open({"a"});
+    const std::string hash = put(cache, "some bytes");
+    cache.putEntry(kKey, {{std::string(kContentField), hash}});
+    EXPECT_EQ(verifyFolder(folder / "a"), std::vector<std::string>{});
+    overwrite(pathOf("cas", hash), "same bytes");
+    EXPECT_EQ(verifyFolder(folder / "a"), (std::vector<std::string>{"content " + hash, "entry " + kKey}));
+    EXPECT_EQ(occupancyOf(folder / "a").bytes, 0u);
+}
+
+TEST(CacheSpecs, comeFromTheCommandLineElseTheEnvironmentElseTheUser)
+{
+    ::setenv("HEARTH_CACHE", "dir:/x;dir:/y,ro,size=3M", 1);
+    const auto specs = cacheSpecs({}).value();
+    ASSERT_EQ(specs.size(), 2u);
+    EXPECT_EQ(specs[0].folder, "/x");
+    EXPECT_TRUE(specs[0].writable);
+    EXPECT_EQ(specs[1].folder, "/y");
+    EXPECT_FALSE(specs[1].writable);
+    EXPECT_EQ(specs[1].limit_bytes, 3u << 20);
+    const std::vector<std::string> options{"dir:/z"};
+    EXPECT_EQ(cacheSpecs(options).value().at(0).folder, "/z");
+    ::setenv("HEARTH_CACHE", "off", 1);
+    EXPECT_TRUE(cacheSpecs({}).value().empty());
+    ::unsetenv("HEARTH_CACHE");
+    ::setenv("XDG_CACHE_HOME", "/home/x/caches", 1);
+    EXPECT_EQ(cacheSpecs({}).value().at(0).folder, "/home/x/caches/hearth");
+    ::unsetenv("XDG_CACHE_HOME");
+    ::setenv("HOME", "/home/x", 1);
+    EXPECT_EQ(cacheSpecs({}).value().at(0).folder, "/home/x/.cache/hearth");
+    for (const char* wrong : {"/x", "http://x", "dir:", "dir:/x,rw", "dir:/x,size=", "dir:/x,size=0",
+                              "dir:/x,size=9P", "dir:/x,size=99999999999T"})
+    {
+        const std::vector<std::string> option{wrong};
+        const auto refused = cacheSpecs(option);
+        ASSERT_FALSE(refused.ok()) << wrong;
+        EXPECT_EQ(refused.error().issue, Issue::usage);
+    }
+}
+
+} // namespace hearth::cache

@@ -1,0 +1,200 @@
+// The graph of a cook, and its JSON.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "pipelines/graph/causes.h"
+#include "pipelines/graph/cook_graph.h"
+#include "pipelines/graph/journal.h"
+#include "pipelines/graph/plan_json.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace hearth::graph
+{
+
+namespace
+{
+
+using Words = std::vector<std::string>;
+
+CookSettings allSettings()
+{
+    CookSettings settings;
+    settings.sources = {"props/a.obj"};
+    settings.output = "out/a.hearth";
+    settings.lods = {"2=b.obj", "1=low/a=b.obj"};
+    settings.profile = "house.toml";
+    settings.visibility = VisibilityOptions{"draft", "asset", 2.5, 1, {"Run@0.5,1", "Walk"}, true};
+    settings.bricks = BrickOptions{0.25, uint64_t{1} << 20};
+    settings.statistics = true;
+    return settings;
+}
+
+/// The command line of each action, files named after their roles.
+std::vector<Words> commandsOf(const Graph& graph)
+{
+    std::vector<Words> commands;
+    for (const Action& action : graph.actions)
+    {
+        ActionPaths paths;
+        for (const Input& input : action.inputs)
+            paths.inputs.push_back(input.action == kNoAction
+                                       ? input.path
+                                       : "{" + graph.actions[input.action].outputs.front() + "}");
+        for (const std::string& output : action.outputs)
+            paths.outputs.push_back("{" + output + "}");
+        commands.push_back(commandOf(action, "bin", paths));
+    }
+    return commands;
+}
+
+} // namespace
+
+TEST(CookGraph, runsEveryCookerWithWhatItIsTold)
+{
+    const std::vector<Words> commands = commandsOf(makeCookGraph(allSettings()).value());
+    ASSERT_EQ(commands.size(), 8u);
+    EXPECT_EQ(commands[0], (Words{"bin/hearth-import", "props/a.obj", "-o", "{import.part}", "--lod",
+                                  "1=low/a=b.obj", "--lod", "2=b.obj", "--profile", "house.toml"}));
+    EXPECT_EQ(commands[1], (Words{"bin/hearth-textures", "{import.part}", "-o", "{textures.part}"}));
+    EXPECT_EQ(commands[2], (Words{"bin/hearth-clusters", "{import.part}", "-o", "{clusters.part}",
+                                  "--profile", "house.toml", "--stats", "{clusters.json}", "--visibility"}));
+    EXPECT_EQ(commands[3],
+              (Words{"bin/hearth-skinning", "{import.part}", "{clusters.part}", "-o", "{skinning.part}"}));
+    EXPECT_EQ(commands[4], (Words{"bin/hearth-visibility",
+                                  "{import.part}",
+                                  "{clusters.part}",
+                                  "-o",
+                                  "{visibility.part}",
+                                  "--quality",
+                                  "draft",
+                                  "--occluders",
+                                  "asset",
+                                  "--distance",
+                                  "2.5",
+                                  "--power",
+                                  "1",
+                                  "--poses",
+                                  "Run@0.5,1",
+                                  "--poses",
+                                  "Walk",
+                                  "--refine-cones",
+                                  "--stats",
+                                  "{visibility.json}",
+                                  "--picture",
+                                  "{visibility.png}"}));
+    EXPECT_EQ(commands[5], (Words{"bin/hearth-specular", "-o", "{specular.part}"}));
+    EXPECT_EQ(commands[6], (Words{"bin/hearth-bricks", "{import.part}", "{clusters.part}", "{textures.part}",
+                                  "-o", "{bricks.part}", "--voxel-size", "0.25", "--memory", "1048576",
+                                  "--stats", "{bricks.json}"}));
+    EXPECT_EQ(commands[7], (Words{"bin/hearth-link", "{import.part}", "{visibility.part}", "{textures.part}",
+                                  "{skinning.part}", "--specular", "{specular.part}", "--bricks",
+                                  "{bricks.part}", "-o", "{pack.hearth}"}));
+}
+
+TEST(CookGraph, linksEverySourceInOrder)
+{
+    CookSettings settings;
+    settings.sources = {"a.obj", "b.obj", "a.obj"};
+    settings.output = "all.hearth";
+    const Graph graph = makeCookGraph(settings).value();
+    ASSERT_EQ(graph.actions.size(), 13u);
+    const Action& link = graph.actions.back();
+    EXPECT_EQ(link.cooker, "link");
+    EXPECT_EQ(link.subject, "all.hearth");
+    ASSERT_EQ(link.inputs.size(), 12u);
+    for (size_t i = 0; i < link.inputs.size(); ++i)
+        EXPECT_EQ(graph.actions[link.inputs[i].action].source, i / 4);
+}
+
+TEST(CookGraph, refusesLevelsOfDetailThatAreNone)
+{
+    CookSettings settings;
+    settings.sources = {"a.obj"};
+    settings.lods = {"one=b.obj"};
+    EXPECT_EQ(makeCookGraph(settings).error().issue, Issue::usage);
+}
+
+TEST(PlanJson, comesBack)
+{
+    const Graph graph = makeCookGraph(allSettings()).value();
+    const std::string json = planJson(graph);
+    EXPECT_EQ(nlohmann::json::parse(json)["schema"], "hearth.plan/1");
+    const Result<Graph> again = parsePlan(json, "plan.json");
+    ASSERT_TRUE(again.ok());
+    EXPECT_EQ(planJson(*again), json);
+    EXPECT_EQ(commandsOf(*again), commandsOf(graph));
+}
+
+TEST(PlanJson, refusesWhatDoesNotHoldTogether)
+{
+    const std::string json = planJson(makeCookGraph(allSettings()).value());
+    const auto refused = [](const nlohmann::json& plan)
+    {
+        const Result<Graph> graph = parsePlan(plan.dump(), "plan.json");
+        return !graph.ok() && graph.error().file == "plan.json";
+    };
+    nlohmann::json plan = nlohmann::json::parse(json);
+    EXPECT_FALSE(refused(plan));
+    const auto withChange = [&](const auto& change)
+    {
+        nlohmann::json changed = plan;
+        change(changed);
+        return changed;
+    };
+    EXPECT_TRUE(refused(withChange([](auto& p) { p["schema"] = "hearth.plan/2"; })));
+    EXPECT_TRUE(refused(withChange([](auto& p) { p["actions"] = nlohmann::json::array(); })));
+    EXPECT_TRUE(refused(withChange([](auto& p) { p["actions"][1].erase("cooker"); })));
+    EXPECT_TRUE(refused(withChange([](auto& p) { p["actions"][1]["inputs"][0]["action"] = 1; })));
+    EXPECT_TRUE(refused(withChange([](auto& p) { p["actions"][1]["words"][0]["input"] = 1; })));
+    EXPECT_TRUE(refused(withChange([](auto& p) { p["actions"][1]["outputs"] = nlohmann::json::array(); })));
+    EXPECT_TRUE(refused(withChange([](auto& p) { p["actions"][1]["source"] = "no number"; })));
+    EXPECT_TRUE(refused(withChange([](auto& p) { p["actions"][1]["words"][0] = 7; })));
+    EXPECT_EQ(parsePlan("{", "plan.json").error().issue, Issue::json_syntax);
+}
+
+TEST(Journal, comesBack)
+{
+    Journal journal;
+    journal.folder = "/here";
+    journal.output = "/there/a.hearth";
+    journal.output_cause = "it was not there";
+    journal.graph = makeCookGraph(allSettings()).value();
+    journal.actions.resize(journal.graph.actions.size());
+    journal.actions[1] = {Ending::failed, {"one", "two"}, {{"cooker", "textures"}, {"word", "tab\t"}}};
+    journal.actions[2].ending = Ending::kept;
+    const std::string text = journalText(journal);
+    const auto again = parseJournal(text);
+    ASSERT_TRUE(again.has_value());
+    EXPECT_EQ(journalText(*again), text);
+    EXPECT_EQ(again->actions[1].causes.size(), 2u);
+    EXPECT_EQ(again->actions[1].record, journal.actions[1].record);
+    EXPECT_EQ(parseJournal(text.substr(0, text.size() - 1)), std::nullopt);
+    EXPECT_EQ(parseJournal(""), std::nullopt);
+}
+
+TEST(Causes, tellParametersApart)
+{
+    CookSettings settings = allSettings();
+    const Graph before = makeCookGraph(settings).value();
+    Journal journal;
+    journal.graph = before;
+    for (const Action& action : before.actions)
+        journal.actions.push_back(
+            {Ending::cooked, {}, recordOf(action, "v", std::vector<std::string>(action.inputs.size(), "h"))});
+    settings.visibility->quality = "high";
+    settings.visibility->distance = 0;
+    const Graph now = makeCookGraph(settings).value();
+    const Action& visibility = now.actions[4];
+    ASSERT_EQ(visibility.cooker, "visibility");
+    Situation situation;
+    situation.record = recordOf(visibility, "v", {"h", "other"});
+    EXPECT_EQ(causesOf(visibility, now, situation, journal),
+              (std::vector<std::string>{"parameter --quality: draft -> high",
+                                        "parameter --distance 2.5: no longer given",
+                                        "parameter --power 1: no longer given",
+                                        "what clusters made of props/a.obj: its content has changed"}));
+    EXPECT_EQ(causesOf(visibility, now, situation, std::nullopt),
+              std::vector<std::string>{"never cooked into this pack before"});
+}
+
+} // namespace hearth::graph

@@ -1,0 +1,362 @@
+// Keys: what changes the bytes of a part changes its key, and nothing else does.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/tools/sha256.h"
+#include "pipelines/cache/folder_level.h"
+#include "pipelines/graph/action_cache.h"
+#include "pipelines/graph/cook_graph.h"
+#include "pipelines/graph/cooker_version.h"
+#include "pipelines/graph/elf_libraries.h"
+#include "tests/command/sandbox.h"
+
+#include <algorithm>
+#include <chrono>
+#include <clocale>
+#include <filesystem>
+#include <functional>
+#include <gtest/gtest.h>
+#include <map>
+#include <set>
+#include <sys/stat.h>
+#include <thread>
+#include <tuple>
+
+namespace hearth::graph
+{
+
+namespace
+{
+
+namespace fs = std::filesystem;
+using test::Sandbox;
+
+/// A folder with sources and cookers, and keys of everything that is cooked in it.
+class Keys : public ::testing::Test
+{
+protected:
+    Keys() { fill(folder); }
+
+    static void fill(const Sandbox& sandbox)
+    {
+        for (const char* name : {"a.obj", "low.obj", "house.toml", "wood.png"})
+            sandbox.write(name, name);
+        for (const char* cooker :
+             {"import", "textures", "clusters", "skinning", "visibility", "specular", "bricks", "link"})
+            sandbox.write(std::string("hearth-") + cooker, cooker, true);
+    }
+
+    static CookSettings settingsIn(const Sandbox& sandbox)
+    {
+        CookSettings settings;
+        settings.sources = {sandbox / "a.obj"};
+        settings.output = sandbox / "a.hearth";
+        settings.lods = {"1=" + sandbox / "low.obj"};
+        settings.profile = sandbox / "house.toml";
+        settings.visibility = VisibilityOptions{"default", "scene", 2, 1, {"Run@0.5"}, false};
+        settings.bricks = BrickOptions{0.5, uint64_t{1} << 20};
+        return settings;
+    }
+
+    /// The key of each action by its cooker; a part's content is taken to be its key. The import has found wood.png and
+    /// missed stone.png.
+    static std::map<std::string, std::string> keysIn(const Sandbox& sandbox, const CookSettings& settings)
+    {
+        cache::Cache cache({}, [](const Error&) {});
+        FileHashes hashes("/");
+        ActionCache actions(cache, hashes, sandbox.path());
+        const Graph graph = makeCookGraph(settings).value();
+        std::map<std::string, std::string> keys;
+        std::vector<std::string> parts;
+        for (const Action& action : graph.actions)
+        {
+            std::vector<std::string> part_hashes;
+            for (const Input& input : action.inputs)
+                part_hashes.push_back(input.action == kNoAction ? "" : parts[input.action]);
+            std::optional<Record> record = actions.recordOf(action, part_hashes);
+            if (record && action.finds_files)
+            {
+                tools::ReadList reads;
+                reads.addFile(sandbox / "wood.png");
+                reads.addFile(sandbox / "stone.png");
+                record = actions.recordAfter(action, *record, reads);
+            }
+            parts.push_back(record ? resultKey(*record) : "none");
+            keys[action.cooker] = parts.back();
+        }
+        return keys;
+    }
+
+    std::map<std::string, std::string> keys(const CookSettings& settings) { return keysIn(folder, settings); }
+
+    /// The cookers whose keys differ, in order of their names.
+    static std::set<std::string> changed(const std::map<std::string, std::string>& before,
+                                         const std::map<std::string, std::string>& after)
+    {
+        std::set<std::string> cookers;
+        for (const auto& [cooker, key] : after)
+            if (const auto old = before.find(cooker); old == before.end() || old->second != key)
+                cookers.insert(cooker);
+        for (const auto& [cooker, key] : before)
+            if (!after.contains(cooker))
+                cookers.insert(cooker);
+        return cookers;
+    }
+
+    Sandbox folder;
+};
+
+const std::set<std::string> kOfSource{"import",     "textures", "clusters", "skinning",
+                                      "visibility", "bricks",   "link"};
+
+} // namespace
+
+TEST_F(Keys, everyParameterChangesThem)
+{
+    const CookSettings settings = settingsIn(folder);
+    // a parameter more breaks these lines: it needs a row below
+    const auto& [sources, output, lods, profile, visibility, bricks, statistics] = settings;
+    const auto& [quality, occluders, distance, power, poses, refine] = *visibility;
+    const auto& [voxel_size, memory_bytes] = *bricks;
+    static_cast<void>(std::tie(sources, output, lods, profile, statistics, quality, occluders, distance,
+                               power, poses, refine, voxel_size, memory_bytes));
+
+    struct Row
+    {
+        const char* what;
+        std::function<void(CookSettings&)> change;
+        std::set<std::string> cookers;
+    };
+    const std::string low = folder / "low.obj";
+    const std::vector<Row> rows{
+        {"another source", [&](CookSettings& s) { s.sources = {low}; }, kOfSource},
+        {"a source more", [&](CookSettings& s) { s.sources.push_back(low); }, kOfSource},
+        {"no lod", [](CookSettings& s) { s.lods.clear(); }, kOfSource},
+        {"another level", [&](CookSettings& s) { s.lods = {"2=" + low}; }, kOfSource},
+        {"another lod", [&](CookSettings& s) { s.lods = {"1=" + s.sources[0]}; }, kOfSource},
+        {"no profile", [](CookSettings& s) { s.profile.clear(); }, kOfSource},
+        {"statistics",
+         [](CookSettings& s) { s.statistics = true; },
+         {"clusters", "skinning", "visibility", "bricks", "link"}},
+        {"no visibility",
+         [](CookSettings& s) { s.visibility.reset(); },
+         {"clusters", "skinning", "visibility", "specular", "bricks", "link"}},
+        {"quality", [](CookSettings& s) { s.visibility->quality = "draft"; }, {"visibility", "link"}},
+        {"occluders", [](CookSettings& s) { s.visibility->occluders = "asset"; }, {"visibility", "link"}},
+        {"distance", [](CookSettings& s) { s.visibility->distance = 3; }, {"visibility", "link"}},
+        {"no distance", [](CookSettings& s) { s.visibility->distance = 0; }, {"visibility", "link"}},
+        {"power", [](CookSettings& s) { s.visibility->power = 2; }, {"visibility", "link"}},
+        {"no poses", [](CookSettings& s) { s.visibility->poses.clear(); }, {"visibility", "link"}},
+        {"another pose", [](CookSettings& s) { s.visibility->poses = {"Run@1"}; }, {"visibility", "link"}},
+        {"refined cones", [](CookSettings& s) { s.visibility->refine = true; }, {"visibility", "link"}},
+        {"no bricks", [](CookSettings& s) { s.bricks.reset(); }, {"bricks", "link"}},
+        {"voxel size", [](CookSettings& s) { s.bricks->voxel_size = 0.25; }, {"bricks", "link"}},
+        {"no voxel size", [](CookSettings& s) { s.bricks->voxel_size.reset(); }, {"bricks", "link"}},
+        {"memory of bricks", [](CookSettings& s) { s.bricks->memory_bytes = 5; }, {"bricks", "link"}},
+        {"no memory of bricks", [](CookSettings& s) { s.bricks->memory_bytes.reset(); }, {"bricks", "link"}},
+        {"the output's name", [&](CookSettings& s) { s.output = folder / "b.hearth"; }, {}},
+    };
+    const auto before = keys(settings);
+    for (const Row& row : rows)
+    {
+        CookSettings other = settings;
+        row.change(other);
+        EXPECT_EQ(changed(before, keys(other)), row.cookers) << row.what;
+    }
+}
+
+TEST_F(Keys, everyFileChangesThem)
+{
+    const CookSettings settings = settingsIn(folder);
+    for (const char* name : {"a.obj", "low.obj", "house.toml", "wood.png", "stone.png", "hearth-import"})
+    {
+        const auto before = keys(settings);
+        folder.write(name, std::string("other ") + name);
+        EXPECT_EQ(changed(before, keys(settings)), kOfSource) << name;
+    }
+    const auto before = keys(settings);
+    folder.write("hearth-skinning", "another build", true);
+    EXPECT_EQ(changed(before, keys(settings)), (std::set<std::string>{"skinning", "link"}));
+    fs::rename(folder / "wood.png", folder / "wool.png");
+    EXPECT_EQ(changed(before, keys(settings)), kOfSource) << "a file that is gone";
+}
+
+TEST_F(Keys, aNameOfASourceIsInItsPart)
+{
+    CookSettings settings = settingsIn(folder);
+    const auto before = keys(settings);
+    fs::copy(folder / "a.obj", folder / "b.obj");
+    settings.sources = {folder / "b.obj"};
+    EXPECT_EQ(changed(before, keys(settings)), kOfSource);
+}
+
+TEST_F(Keys, nothingElseChangesThem)
+{
+    const CookSettings settings = settingsIn(folder);
+    const auto before = keys(settings);
+    // another folder, other times, another user's habits
+    const mode_t mask = ::umask(077);
+    const Sandbox elsewhere;
+    fill(elsewhere);
+    ::setenv("TZ", "Asia/Tokyo", 1);
+    ::setenv("LC_ALL", "de_DE.UTF-8", 1);
+    ::setenv("USER", "somebody", 1);
+    std::setlocale(LC_ALL, "");
+    fs::last_write_time(elsewhere / "a.obj", fs::file_time_type::clock::now() - std::chrono::hours(1000));
+    EXPECT_EQ(keysIn(elsewhere, settingsIn(elsewhere)), before);
+    std::setlocale(LC_ALL, "C");
+    ::umask(mask);
+    // by way of a link, and of a path that says the same
+    CookSettings other = settings;
+    fs::create_directory(folder / "sub");
+    fs::create_symlink("../a.obj", folder / "sub/a.obj");
+    other.sources = {folder / "sub/../sub/a.obj"};
+    EXPECT_EQ(keys(other), before);
+}
+
+TEST_F(Keys, hideNoPaths)
+{
+    cache::Cache cache({}, [](const Error&) {});
+    FileHashes hashes("/");
+    ActionCache actions(cache, hashes, folder.path());
+    const Graph graph = makeCookGraph(settingsIn(folder)).value();
+    for (const Action& action : graph.actions)
+        EXPECT_EQ(cache::textOf(*actions.recordOf(action, std::vector<std::string>(action.inputs.size())))
+                      .find(folder.path()),
+                  std::string::npos)
+            << action.cooker;
+}
+
+TEST_F(Keys, whatCannotBeReadHasNone)
+{
+    CookSettings settings = settingsIn(folder);
+    settings.profile = folder / "missing.toml";
+    EXPECT_EQ(keys(settings)["import"], "none");
+    settings = settingsIn(folder);
+    fs::remove(folder / "hearth-link");
+    EXPECT_EQ(keys(settings)["link"], "none");
+}
+
+TEST_F(Keys, differentWordsAreDifferentRecords)
+{
+    // what is one word must not be two, and a file no text that looks like it
+    Action action;
+    action.cooker = "x";
+    action.outputs = {"out"};
+    const auto keyOf = [&](std::vector<Word> words)
+    {
+        action.words = std::move(words);
+        return resultKey(recordOf(action, "v", {}));
+    };
+    const std::set<std::string> keys{keyOf({{Word::Kind::text, "a b", 0}}),
+                                     keyOf({{Word::Kind::text, "a", 0}, {Word::Kind::text, "b", 0}}),
+                                     keyOf({{Word::Kind::text, "a\tb", 0}}),
+                                     keyOf({{Word::Kind::text, "a\nword\ttext b", 0}}),
+                                     keyOf({{Word::Kind::text, "{out}", 0}}),
+                                     keyOf({{Word::Kind::output, "", 0}})};
+    EXPECT_EQ(keys.size(), 6u);
+}
+
+TEST_F(Keys, aResultIsFoundByTheStateOfWhatItRead)
+{
+    const Graph graph = makeCookGraph(settingsIn(folder)).value();
+    const Action& import = graph.actions[0];
+    const std::vector<std::string> parts(import.inputs.size());
+    const auto cacheHere = [&]
+    {
+        std::vector<std::unique_ptr<cache::Level>> levels;
+        levels.push_back(std::make_unique<cache::FolderLevel>(folder / "cache", true));
+        return cache::Cache(std::move(levels), [](const Error&) { FAIL(); });
+    };
+    const auto found = [&]() -> std::string
+    {
+        cache::Cache cache = cacheHere();
+        FileHashes hashes("/");
+        ActionCache actions(cache, hashes, folder.path());
+        const auto result = actions.find(import, *actions.recordOf(import, parts)).result;
+        return result ? result->outputs.at(0).hash + " " + result->warnings.at(0) : "nothing";
+    };
+    const auto keep = [&](const std::string& hash)
+    {
+        cache::Cache cache = cacheHere();
+        FileHashes hashes("/");
+        ActionCache actions(cache, hashes, folder.path());
+        tools::ReadList reads;
+        reads.addFile(folder / "a.obj");
+        reads.addFile(folder / "wood.png");
+        reads.addFile(folder / "stone.png");
+        const auto record = actions.recordAfter(import, *actions.recordOf(import, parts), reads);
+        actions.keep(import, *record, {{{hash, 3}}, {import.subject + "|x: warning: y [W1]"}, 1, 1, 1});
+    };
+    EXPECT_EQ(found(), "nothing");
+    keep("first");
+    EXPECT_EQ(found(), "first " + folder / "a.obj|x: warning: y [W1]");
+    folder.write("wood.png", "new wood");
+    EXPECT_EQ(found(), "nothing");
+    keep("second");
+    EXPECT_EQ(found().substr(0, 6), "second");
+    folder.write("stone.png", "now there is one");
+    EXPECT_EQ(found(), "nothing");
+    fs::remove(folder / "stone.png");
+    folder.write("wood.png", "wood.png");
+    EXPECT_EQ(found().substr(0, 5), "first") << "as it was at first";
+}
+
+TEST_F(Keys, whatChangedWhileItWasReadIsNotKept)
+{
+    const Graph graph = makeCookGraph(settingsIn(folder)).value();
+    cache::Cache cache({}, [](const Error&) {});
+    FileHashes hashes("/");
+    ActionCache actions(cache, hashes, folder.path());
+    const Record record = *actions.recordOf(graph.actions[0], std::vector<std::string>(3));
+    folder.write("a.obj", "edited while hearth-import reads it");
+    tools::ReadList reads;
+    reads.addFile(folder / "a.obj");
+    EXPECT_EQ(actions.recordAfter(graph.actions[0], record, reads), std::nullopt);
+    tools::ReadList outside;
+    outside.addAbsent("/nowhere/b.png");
+    EXPECT_EQ(actions.recordAfter(graph.actions[0], record, outside), std::nullopt);
+}
+
+TEST_F(Keys, hashesAreRememberedAsLongAsFilesLookUntouched)
+{
+    const std::string path = folder / "a.obj";
+    const auto ask = [&](size_t expected_reads)
+    {
+        FileHashes hashes("/");
+        hashes.load(folder / "hashes");
+        const auto hash = hashes.hashOf(path);
+        EXPECT_EQ(hash, tools::sha256OfFile(path));
+        EXPECT_EQ(hashes.hashOf(path), hash);
+        EXPECT_EQ(hashes.filesRead(), expected_reads);
+        hashes.save(folder / "hashes");
+    };
+    // a file of this moment is not remembered: an edit in the same tick would look the same
+    ask(1);
+    ask(1);
+    std::this_thread::sleep_for(std::chrono::milliseconds(3100));
+    ask(1);
+    ask(0);
+    const auto time = fs::last_write_time(path);
+    folder.write("a.obj", "A.obj");
+    fs::last_write_time(path, time);
+    ask(1);
+    folder.write("hashes", "damaged");
+    ask(1);
+}
+
+TEST(ElfLibraries, areThoseOfThisProgram)
+{
+    const std::vector<std::string> libraries = librariesOf("/proc/self/exe");
+    const auto has = [&](const std::string& name)
+    {
+        return std::any_of(libraries.begin(), libraries.end(),
+                           [&](const std::string& path)
+                           { return path.find("/" + name) != std::string::npos; });
+    };
+    EXPECT_TRUE(has("libc.so.6"));
+    EXPECT_TRUE(has("libstdc++.so.6"));
+    EXPECT_TRUE(has("libcrypto.so")) << "linked for SHA-256";
+    EXPECT_TRUE(librariesOf("/etc/passwd").empty());
+    EXPECT_TRUE(librariesOf("/nowhere").empty());
+}
+
+} // namespace hearth::graph
