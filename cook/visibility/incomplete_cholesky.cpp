@@ -18,7 +18,8 @@ constexpr size_t kBlock = 2048;
 // what follows grows without bound.
 constexpr double kLeastPivot = 0.02;
 
-// What is added to the diagonal of a block then, at first; twice as much each time, until it is enough.
+// What is added to the diagonal of a block then, at first; twice as much each time, until it is enough: entries are at most the
+// root of their diagonals' product, so that as many times the diagonal as a row has entries always is.
 constexpr double kFirstShift = 0.01;
 
 } // namespace

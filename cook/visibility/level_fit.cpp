@@ -25,6 +25,7 @@ struct SamplePoints
 {
     std::vector<Float3> positions;
     std::vector<Float3> normals; ///< not of length 1
+    std::vector<float> weights;
     double diagonal = 0;
 };
 
@@ -33,6 +34,7 @@ SamplePoints pointsOf(const MeshView& mesh, std::span<const SurfaceSample> sampl
     SamplePoints points;
     points.positions.resize(samples.size());
     points.normals.resize(samples.size());
+    points.weights.resize(samples.size());
     tbb::parallel_for(size_t{0}, samples.size(),
                       [&](size_t i)
                       {
@@ -43,6 +45,7 @@ SamplePoints pointsOf(const MeshView& mesh, std::span<const SurfaceSample> sampl
                                        ac = mesh.positions[corners[2]] - a;
                           points.positions[i] = a + ab * sample.u + ac * sample.v;
                           points.normals[i] = cross(ab, ac);
+                          points.weights[i] = sample.weight;
                       });
     Box3 box;
     for (const Float3 p : points.positions)
@@ -67,7 +70,7 @@ std::vector<SurfaceSample> transfer(const SamplePoints& points, const SampleChoi
                 const uint32_t sample = choice.samples[i];
                 const ClosestPoint::Found found =
                     surface.find(points.positions[sample], points.normals[sample], reach * reach, hint);
-                result[i] = {found.triangle, found.u, found.v, choice.areas[i]};
+                result[i] = {found.triangle, found.u, found.v, choice.areas[i], points.weights[sample]};
                 if (found.triangle != kNowhere)
                     hint = found.triangle;
             }

@@ -30,6 +30,8 @@ struct SurfaceSample
     float v = 0;
     float area = 0; ///< that the sample stands for, in the squared units of the positions; not negative
 
+    float weight = 1; ///< how much of its area counts, positive: less for what nobody looks at
+
     friend bool operator==(const SurfaceSample&, const SurfaceSample&) = default;
 };
 

@@ -31,6 +31,12 @@ struct TriangleSums
 {
     double mass[6] = {0, 0, 0, 0, 0, 0}; ///< corners 00, 11, 22, 01, 12, 20
     Block4 right[3];
+    double area = 0;                                                 ///< of the samples
+    double whole = 0;                                                ///< as if all of them counted
+    double corner_areas[3] = {0, 0, 0}, corner_whole[3] = {0, 0, 0}; ///< shared out to the corners
+
+    /// How much of the triangle counts.
+    double share() const { return whole > 0 ? area / whole : 1; }
 };
 
 std::vector<TriangleSums> sumSamples(size_t triangle_count, std::span<const SurfaceSample> samples,
@@ -43,7 +49,9 @@ std::vector<TriangleSums> sumSamples(size_t triangle_count, std::span<const Surf
         if (sample.triangle == kNowhere)
             continue;
         TriangleSums& sum = sums[sample.triangle];
-        const double u = sample.u, v = sample.v, area = sample.area;
+        const double u = sample.u, v = sample.v, whole = sample.area, area = whole * double{sample.weight};
+        sum.area += area;
+        sum.whole += whole;
         const double weights[3] = {1 - u - v, u, v};
         const Block4 value = blockOf(values[i]);
         for (size_t k = 0; k < 3; ++k)
@@ -51,6 +59,8 @@ std::vector<TriangleSums> sumSamples(size_t triangle_count, std::span<const Surf
             sum.mass[k] += weights[k] * weights[k] * area;
             sum.mass[3 + k] += weights[k] * weights[(k + 1) % 3] * area;
             sum.right[k].addScaled(value, weights[k] * area);
+            sum.corner_areas[k] += weights[k] * area;
+            sum.corner_whole[k] += weights[k] * whole;
         }
     }
     return sums;
@@ -159,14 +169,34 @@ std::vector<double> areasOfVertices(const Proxy& proxy)
     return areas;
 }
 
-void addJumps(NormalEquations& system, const Proxy& proxy, std::span<const double> areas, double alpha,
-              double stiffness)
+/// How much of what lies around each vertex counts.
+std::vector<double> sharesOfVertices(const Proxy& proxy, const std::vector<TriangleSums>& sums)
+{
+    std::vector<double> area(proxy.positions.size(), 0), whole(area.size(), 0);
+    for (size_t t = 0; t < sums.size(); ++t)
+        for (size_t k = 0; k < 3; ++k)
+        {
+            area[proxy.indices[t * 3 + k]] += sums[t].corner_areas[k];
+            whole[proxy.indices[t * 3 + k]] += sums[t].corner_whole[k];
+        }
+    for (size_t v = 0; v < area.size(); ++v)
+        area[v] = whole[v] > 0 ? area[v] / whole[v] : 1;
+    return area;
+}
+
+/// Jumps count no more than what lies around their vertices: a vertex that hardly counts would have nothing but jumps, which
+/// take hundreds of iterations, and would pass on what it has.
+void addJumps(NormalEquations& system, const Proxy& proxy, std::span<const double> areas,
+              std::span<const double> shares, double alpha, double stiffness)
 {
     for (const InteriorEdge& edge : proxy.edges)
     {
         std::array<double, 4> jump = gradientJump(proxy.positions, edge);
         const std::array<uint32_t, 4> vertices{edge.a, edge.b, edge.k, edge.l};
-        const double factor = softening(jump, vertices, areas, stiffness);
+        double share = 1;
+        for (const uint32_t vertex : vertices)
+            share = std::min(share, shares[vertex]);
+        const double factor = softening(jump, vertices, areas, stiffness) * std::sqrt(share);
         for (double& part : jump)
             part *= factor;
         for (size_t i = 0; i < 4; ++i)
@@ -197,7 +227,7 @@ void addMembrane(NormalEquations& system, const Proxy& proxy, const std::vector<
     for (size_t t = 0; t < sums.size(); ++t)
     {
         const uint32_t* corners = &proxy.indices[t * 3];
-        const double area = areaOf(proxy.positions, corners);
+        const double area = areaOf(proxy.positions, corners) * sums[t].share();
         const double weight = share * area * poverty(sums[t], area);
         if (!(weight > 0))
             continue;
@@ -262,7 +292,8 @@ NormalEquations assemble(const Proxy& proxy, std::span<const SurfaceSample> samp
     system.right.resize(proxy.positions.size());
     system.mass.assign(proxy.positions.size(), 0);
     addMass(system, proxy, sums);
-    addJumps(system, proxy, areasOfVertices(proxy), settings.alpha, settings.stiffness);
+    addJumps(system, proxy, areasOfVertices(proxy), sharesOfVertices(proxy, sums), settings.alpha,
+             settings.stiffness);
     addMembrane(system, proxy, sums, settings.membrane);
     system.island = islandsOf(proxy);
     return system;

@@ -13,7 +13,8 @@ namespace hearth::visibility
 struct GreyPicture
 {
     uint32_t width = 0, height = 0;
-    std::vector<uint8_t> texels; ///< row by row from the top, 255 times the occlusion: as light, it would be paler
+    std::vector<uint8_t>
+        texels; ///< row by row from the top, 255 times the occlusion: as light, it would be paler
 
     friend bool operator==(const GreyPicture&, const GreyPicture&) = default;
 };

@@ -303,7 +303,7 @@ std::vector<SurfaceSample> samplesOnProxy(const Proxy& proxy, const MeshView& so
         const double reach = longestEdge(source, sample.triangle) * proxy.thinness * kBeside;
         const ClosestPoint::Found found =
             surface->find(a + ab * sample.u + ac * sample.v, cross(ab, ac), reach * reach, hint);
-        return SurfaceSample{found.triangle, found.u, found.v, sample.area};
+        return SurfaceSample{found.triangle, found.u, found.v, sample.area, sample.weight};
     };
     tbb::parallel_for(size_t{0}, (samples.size() + kBlock - 1) / kBlock,
                       [&](size_t block)

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/visibility/sampled_moments.h"
 
+#include "cook/visibility/buried.h"
 #include "formats/double3.h"
 
+#include <algorithm>
 #include <array>
 
 #include <tbb/parallel_for.h>
@@ -22,6 +24,25 @@ Turn turnOf(const Affine3& world_from_mesh)
     const auto& m = world_from_mesh.m;
     return {Float3{m[0][0], m[1][0], m[2][0]}, Float3{m[0][1], m[1][1], m[2][1]},
             Float3{m[0][2], m[1][2], m[2][2]}};
+}
+
+// Of the longest edge of a sample's triangle: what covers it from nearer by hides parts of it that its corners cannot tell from
+// the rest.
+constexpr float kClose = 0.02f;
+
+std::vector<float> reachOf(std::span<const Float3> positions, std::span<const uint32_t> corners,
+                           std::span<const SurfaceSample> samples, const Affine3& world_from_mesh)
+{
+    std::vector<float> reach(samples.size());
+    for (size_t s = 0; s < samples.size(); ++s)
+    {
+        const uint32_t* corner = &corners[size_t{samples[s].triangle} * 3];
+        for (size_t k = 0; k < 3; ++k)
+            reach[s] = std::max(
+                reach[s], kClose * length(transformVector(world_from_mesh, positions[corner[(k + 1) % 3]] -
+                                                                               positions[corner[k]])));
+    }
+    return reach;
 }
 
 std::array<Float3, 3> frameOf(std::span<const Float3> positions, const uint32_t* corners)
@@ -86,6 +107,7 @@ std::optional<SampledMoments> sampledMoments(const MeshView& mesh, std::span<con
     SampledMoments result;
     result.moments.resize(samples.size());
     result.second.resize(with_second ? samples.size() : 0);
+    result.buried.assign(samples.size(), 1);
     const float share = 1 / static_cast<float>(places.size());
     const uint32_t first_ray = settings.first_ray;
     for (size_t i = 0; i < places.size(); ++i)
@@ -103,6 +125,7 @@ std::optional<SampledMoments> sampledMoments(const MeshView& mesh, std::span<con
                                        : turnBack(place.posed, mesh.positions,
                                                   &mesh.indices[size_t{samples[s].triangle} * 3]);
         };
+        std::vector<Moments> here(samples.size());
         const auto tell = [&](uint64_t done, uint64_t total) { return progress(i, done, total); };
         if (with_second)
         {
@@ -112,18 +135,25 @@ std::optional<SampledMoments> sampledMoments(const MeshView& mesh, std::span<con
             tbb::parallel_for(size_t{0}, samples.size(),
                               [&](size_t s)
                               {
-                                  add(result.moments[s], (*seen)[s].moments, turn(s), share);
+                                  here[s] = (*seen)[s].moments;
+                                  add(result.moments[s], here[s], turn(s), share);
                                   add(result.second[s], (*seen)[s].second, turn(s), share);
                               });
         }
         else
         {
-            const auto seen = visibilityMoments(*place.occluders, points, settings, tell);
+            auto seen = visibilityMoments(*place.occluders, points, settings, tell);
             if (!seen)
                 return std::nullopt;
+            here = std::move(*seen);
             tbb::parallel_for(size_t{0}, samples.size(),
-                              [&](size_t s) { add(result.moments[s], (*seen)[s], turn(s), share); });
+                              [&](size_t s) { add(result.moments[s], here[s], turn(s), share); });
         }
+        const std::vector<uint8_t> buried =
+            buriedPoints(*place.occluders, points, here,
+                         reachOf(positions, mesh.indices, samples, place.world_from_mesh), settings.seed);
+        for (size_t s = 0; s < samples.size(); ++s)
+            result.buried[s] &= buried[s];
         result.rays += samples.size() * uint64_t{settings.rays_per_sample};
     }
     return result;

@@ -26,6 +26,7 @@ struct SampledMoments
 {
     std::vector<Moments> moments;      ///< one for each sample, in the space of the mesh
     std::vector<SecondMoments> second; ///< only where asked for
+    std::vector<uint8_t> buried;       ///< 1: closely covered in all places, so that nobody looks at it
     uint64_t rays = 0;
 };
 

@@ -30,6 +30,9 @@ constexpr size_t kMostInstances = 8;
 // around a vertex, of which a quarter go where area wants them. README.md, "Noise".
 constexpr double kLeastOfVertex = 2.25;
 
+// Not 0, so that what is buried everywhere has a fit.
+constexpr float kBuriedWeight = 1e-3f;
+
 double secondsSince(std::chrono::steady_clock::time_point start)
 {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -142,10 +145,16 @@ private:
         else
             places = chosen(world, transforms_[mesh], statistics);
         const auto start = std::chrono::steady_clock::now();
-        const std::vector<SurfaceSample> samples = samplesOf(finest);
+        std::vector<SurfaceSample> samples = samplesOf(finest);
         const std::optional<SampledMoments> seen = trace(finest, samples, places, statistics);
         if (!seen)
             return std::optional<MeshStatistics>();
+        for (size_t s = 0; s < samples.size(); ++s)
+            if (seen->buried[s] != 0)
+            {
+                samples[s].weight = kBuriedWeight;
+                ++statistics.buried;
+            }
         statistics.ray_seconds = secondsSince(start);
         fit(levels, samples, *seen, statistics);
         return std::optional(std::move(statistics));
@@ -351,6 +360,7 @@ nlohmann::ordered_json jsonOf(const MeshStatistics& mesh)
         {"vertices", mesh.vertices},
         {"clamped", mesh.clamped},
         {"unseen", mesh.unseen},
+        {"buried", mesh.buried},
     };
     if (mesh.refined)
         json["refined"] = {{"cones", mesh.refined->cones},

@@ -39,6 +39,7 @@ struct MeshStatistics
     uint32_t levels = 0;
     uint64_t samples = 0;
     uint64_t rays = 0;
+    uint64_t buried = 0; ///< samples that something covers so closely that they hardly count
     double ray_seconds = 0;
     double fit_seconds = 0;
     ProxyStatistics proxy; ///< of the finest level

@@ -386,6 +386,34 @@ TEST_F(Occlusion, inABowlIsTheSameEverywhere)
     EXPECT_LT(axisError(towardsOpening), 1);
 }
 
+TEST_F(Occlusion, ofAFloorThatGoesOnBelowARugIsThatOfWhatIsBesideIt)
+{
+    // a rug of two centimetres covers a third of a floor of two triangles, which is open beside it but for the rug's rim
+    Shape shape;
+    shape.addGrid({-3, 0, 3}, {6, 0, 0}, {0, 0, -6}, 1, 1);
+    const float low = 0.005f, high = 0.02f;
+    const Float3 side{4, 0, 0}, back{0, 0, -4}, up{0, high - low, 0};
+    shape.addGrid({-2, high, 2}, side, back, 8, 8);
+    shape.addGrid({-2, low, 2}, back, side, 8, 8);
+    shape.addGrid({-2, low, 2}, side, up, 8, 1);
+    shape.addGrid({2, low, 2}, back, up, 8, 1);
+    shape.addGrid({2, low, -2}, side * -1.0f, up, 8, 1);
+    shape.addGrid({-2, low, -2}, back * -1.0f, up, 8, 1);
+    bake(shape, {"--report", "report.json"});
+    size_t corners = 0;
+    for (const Seen& vertex : seen_)
+        if (std::abs(vertex.position.y) < 1e-4f)
+        {
+            ++corners;
+            EXPECT_GT(vertex.ao, 0.95f);
+        }
+    EXPECT_EQ(corners, 4u);
+    const auto report = nlohmann::json::parse(sandbox_.read("report.json"));
+    const auto& mesh = report["assets"][0]["visibility"]["meshes"][0];
+    EXPECT_GT(mesh["buried"], 3);
+    EXPECT_LE(mesh["solve"]["iterations"], 20);
+}
+
 TEST_F(Occlusion, hasNoSeamWhereVerticesMeet)
 {
     // a bent sheet of three strips that share no vertex; the middle one is twice as fine, so that its neighbours have
