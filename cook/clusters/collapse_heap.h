@@ -65,7 +65,7 @@ public:
         size_t hole = 0;
         for (size_t child = 1; child + 1 < count; child = hole * 2 + 1)
         {
-            child += entries_[child + 1] < entries_[child] ? 1 : 0;
+            child += entries_[child + 1] < entries_[child] ? 1u : 0u;
             entries_[hole] = entries_[child];
             hole = child;
         }

@@ -138,7 +138,8 @@ private:
     {
         std::vector<uint8_t> moved(simplified_.placement.remade);
         for (uint32_t position = 0; position < moved.size(); ++position)
-            moved[position] |= simplified_.target_of_position[position] != position ? 1 : 0;
+            moved[position] =
+                simplified_.target_of_position[position] != position ? uint8_t{1} : moved[position];
         return moved;
     }
 

@@ -156,12 +156,13 @@ public:
         // an axis too short for floats has one bin
         for (size_t axis = 0; axis < 3; ++axis)
             if (half_sides_[axis] > 1e-35f)
-                scale_[axis] = kAllBins / half_sides_[axis];
+                scale_[axis] = kBinCount / half_sides_[axis];
     }
 
     LaneMask operator()(const SplitItem& item) const
     {
-        return __builtin_convertvector((centerLanes(item) * allLanes(0.5f) - half_low_) * scale_, LaneMask);
+        const Lanes bin = (centerLanes(item) * allLanes(0.5f) - half_low_) * scale_;
+        return __builtin_convertvector(minimum(bin, allLanes(kBinCount - 1)), LaneMask);
     }
 
     size_t longestAxis() const
@@ -171,9 +172,6 @@ public:
     }
 
 private:
-    // a little less than kBinCount, so that what is at the far end is in the last bin, however it is rounded
-    static constexpr float kAllBins = kBinCount * (1 - 1e-6f);
-
     Lanes half_low_, half_sides_;
     Lanes scale_{};
 };

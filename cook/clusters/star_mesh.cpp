@@ -236,7 +236,7 @@ void StarMesh::collapse(uint32_t from, uint32_t to, std::span<const WedgeMove> m
     for (const Corner corner : star_from)
     {
         removed_[removed_count] = triangleOf(corner);
-        removed_count += has(triangleOf(corner), to) ? 1 : 0;
+        removed_count += has(triangleOf(corner), to) ? 1u : 0u;
     }
     for (size_t i = 0; i < removed_count; ++i)
         remove(removed_[i]);
