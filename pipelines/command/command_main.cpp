@@ -148,6 +148,8 @@ void addCook(CLI::App& app, Work& run)
         ->check(CLI::Range(uint64_t{1}, uint64_t{1} << 40).description(""))
         ->needs(bricks);
     verb->add_option("--report", options->report_file, "write a report as JSON");
+    verb->add_option("--events", options->events_file,
+                     "write what happens while it happens, a JSON object a line");
     verb->add_flag("--fail-fast", options->fail_fast, "end at the first failure, not after all sources");
     addCaches(*verb, options->caches);
     auto* no_cache = verb->add_flag("--no-cache", options->no_cache, "run every cooker and keep nothing");

@@ -6,6 +6,7 @@
 #include "formats/pack_view.h"
 #include "pipelines/command/cook_memory.h"
 #include "pipelines/command/dry_run.h"
+#include "pipelines/command/event_log.h"
 #include "pipelines/graph/causes.h"
 #include "pipelines/graph/executor.h"
 
@@ -61,26 +62,33 @@ void printStage(const graph::Action& action, const graph::ActionOutcome& outcome
                             readableSize(outcome.result.outputs.front().bytes), action.subject)));
 }
 
-graph::ExecutorEvents eventsFor(const CookOptions& options)
+/// log  null: none
+graph::ExecutorEvents eventsFor(const CookOptions& options, EventLog* log)
 {
     graph::ExecutorEvents events;
-    events.starting = [&options](const graph::Action& action, const graph::ActionOutcome& outcome,
-                                 const std::vector<std::string>& command)
+    events.starting = [&options, log](const graph::Action& action, const graph::ActionOutcome& outcome,
+                                      const std::vector<std::string>& command)
     {
+        if (log != nullptr)
+            log->start(action, outcome);
         if (options.explain)
             print(fmt::format("{:<11}{}: {}", action.cooker, action.subject, joined(outcome.causes, "; ")));
         if (options.verbosity == Verbosity::all)
             print(faint(joined(command, " ")));
     };
-    events.ended = [&options](const graph::Action& action, const graph::ActionOutcome& outcome,
-                              const std::vector<std::string>& messages)
+    events.ended = [&options, log](const graph::Action& action, const graph::ActionOutcome& outcome,
+                                   const std::vector<std::string>& messages)
     {
+        if (log != nullptr)
+            log->end(action, outcome);
         passOn(messages, options.verbosity);
         if (outcome.ending == Ending::cooked && options.verbosity != Verbosity::quiet)
             printStage(action, outcome);
     };
-    events.failed = [](const Failure& failure)
+    events.failed = [log](const Failure& failure)
     {
+        if (log != nullptr)
+            log->error(failure.error);
         if (!failure.is_told)
             print(failure.error);
     };
@@ -258,7 +266,7 @@ bool placePack(const graph::Executor& executor, const std::optional<std::string>
 }
 
 /// Cook, with what is known of cooks before (null: nothing).
-void cookGraph(const graph::Graph& graph, CookMemory* memory, const CookOptions& options,
+void cookGraph(const graph::Graph& graph, CookMemory* memory, const CookOptions& options, EventLog* log,
                CookOutcome& outcome)
 {
     cache::Cache* cache = memory == nullptr ? nullptr : &memory->cache();
@@ -271,7 +279,7 @@ void cookGraph(const graph::Graph& graph, CookMemory* memory, const CookOptions&
     graph::Executor executor(
         graph, resolver, cache, actions,
         {options.jobs, memoryFor(options), !options.fail_fast, programFolder(), options.output},
-        eventsFor(options));
+        eventsFor(options, log));
     const bool interrupted = !executor.run(hash_there);
     std::string output_cause;
     if (interrupted)
@@ -303,7 +311,7 @@ void cookGraph(const graph::Graph& graph, CookMemory* memory, const CookOptions&
         print(fmt::format("{:<11}{}: {}", "pack", options.output, output_cause));
 }
 
-void cookInto(const CookOptions& options, CookOutcome& outcome)
+void cookInto(const CookOptions& options, EventLog* log, CookOutcome& outcome)
 {
     const auto failed = [&](const Error& error) { fail(error, options.sources.size(), outcome); };
     if (const Status status = checkOutput(options); !status.ok())
@@ -311,8 +319,10 @@ void cookInto(const CookOptions& options, CookOutcome& outcome)
     const Result<graph::Graph> graph = graph::makeCookGraph(options);
     if (!graph.ok())
         return failed(graph.error());
+    if (log != nullptr)
+        log->cook(*graph);
     if (options.no_cache)
-        return cookGraph(*graph, nullptr, options, outcome);
+        return cookGraph(*graph, nullptr, options, log, outcome);
     const auto warn = [&](const Error& warning)
     {
         if (options.verbosity != Verbosity::quiet)
@@ -321,7 +331,7 @@ void cookInto(const CookOptions& options, CookOutcome& outcome)
     const auto memory = CookMemory::open(options.caches, options.output, graph::workingFolder(), warn);
     if (!memory.ok())
         return failed(memory.error());
-    cookGraph(*graph, (*memory)->cache().isEmpty() ? nullptr : memory->get(), options, outcome);
+    cookGraph(*graph, (*memory)->cache().isEmpty() ? nullptr : memory->get(), options, log, outcome);
     (*memory)->finish();
 }
 
@@ -335,8 +345,21 @@ int cook(const CookOptions& chosen)
         return dryRun(options);
     const auto start = std::chrono::steady_clock::now();
     CookOutcome outcome;
-    cookInto(options, outcome);
+    std::optional<EventLog> log;
+    if (!options.events_file.empty())
+    {
+        Result<EventLog> created = EventLog::create(options.events_file);
+        if (!created.ok())
+        {
+            print(formatMessage(created.error()));
+            return exitCode(created.error());
+        }
+        log.emplace(std::move(created).value());
+    }
+    cookInto(options, log ? &*log : nullptr, outcome);
     outcome.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    if (log)
+        log->done(outcome.exit_code, outcome.seconds);
     if (outcome.exit_code == 0 && options.verbosity != Verbosity::quiet)
         print(fmt::format("{:<10}{:>8.2f} s {:>12}  {}", outcome.is_up_to_date ? "up to date" : "cooked",
                           outcome.seconds, readableSize(outcome.output_bytes), options.output));

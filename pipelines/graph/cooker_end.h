@@ -24,7 +24,9 @@ struct Failure
 
 Failure failureOf(const Error& error, size_t source);
 
-/// What a cooker was told, where it said nothing clear itself: E7001 that names the subject and the cooker's last words.
+/// What is wrong where a cooker did not end well: its own error line, or E7001 with the subject and its last words where it
+/// said nothing clear. nullopt where it ended well.
+/// lines  that it has written to stderr
 std::optional<Failure> failureOf(const Action& action, const tools::ChildEnd& end,
                                  const std::vector<std::string>& lines);
 

@@ -411,6 +411,39 @@ TEST_F(SecondCook, aCacheThatCannotBeUsedOnlyWarns)
     EXPECT_EQ(cook({"house.obj", "-o", "a.hearth", "--cache", "http://host/x"}).exit_code, 2);
 }
 
+TEST_F(SecondCook, tellsWatchersWhatHappens)
+{
+    const auto eventsOf = [&](const std::vector<std::string>& arguments)
+    {
+        cook(arguments);
+        std::istringstream lines(folder.read("events"));
+        std::vector<nlohmann::json> events;
+        for (std::string line; std::getline(lines, line);)
+            events.push_back(nlohmann::json::parse(line));
+        return events;
+    };
+    const auto first = eventsOf({"house.obj", "-o", "a.hearth", "--events", "events"});
+    ASSERT_EQ(first.size(), 12u) << "a start and an end of five cookers, and of the cook";
+    EXPECT_EQ(first.front()["schema"], "hearth.events/1");
+    EXPECT_EQ(first.front()["actions"], 5);
+    EXPECT_EQ(first[1]["event"], "start");
+    EXPECT_EQ(first[1]["why"][0], "never cooked into this pack before");
+    EXPECT_EQ(first[2]["state"], "cooked");
+    EXPECT_GT(first[2]["bytes"], 0);
+    EXPECT_EQ(first.back()["event"], "done");
+    EXPECT_EQ(first.back()["exit"], 0);
+    const auto second = eventsOf({"house.obj", "-o", "a.hearth", "--events", "events"});
+    ASSERT_EQ(second.size(), 7u);
+    EXPECT_EQ(second[1]["state"], "kept");
+    folder.write("tree.bin", "short");
+    const auto failed = eventsOf({"tree.gltf", "-o", "a.hearth", "--events", "events"});
+    ASSERT_EQ(failed.size(), 5u);
+    EXPECT_EQ(failed[2]["state"], "failed");
+    EXPECT_EQ(failed[3]["event"], "error");
+    EXPECT_EQ(failed.back()["exit"], 65);
+    EXPECT_EQ(cook({"house.obj", "-o", "a.hearth", "--events", "nowhere/events"}).exit_code, 73);
+}
+
 TEST_F(SecondCook, reportsWhatWasKept)
 {
     ran(cook({"house.obj", "-o", "a.hearth", "--report", "a.json"}));
