@@ -22,8 +22,8 @@ inline constexpr uint32_t kChunkBrickEmission = fourCC("BRKE"); ///< u32[], one 
 inline constexpr uint32_t kChunkBrickLighting = fourCC("BRKL"); ///< u32[], one for each face, R11G11B10F
 
 /// All of them, in the order in which files have them.
-inline constexpr std::array kBrickChunks{kChunkBrickGrid,   kChunkBrickGroups,  kChunkBricks,
-                                         kChunkBrickOpacity, kChunkBrickAlbedo,   kChunkBrickNormals,
+inline constexpr std::array kBrickChunks{kChunkBrickGrid,     kChunkBrickGroups,  kChunkBricks,
+                                         kChunkBrickOpacity,  kChunkBrickAlbedo,  kChunkBrickNormals,
                                          kChunkBrickEmission, kChunkBrickLighting};
 constexpr bool isBrickChunk(uint32_t type)
 {

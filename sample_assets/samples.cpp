@@ -5,6 +5,7 @@
 #include "sample_assets/field.h"
 #include "sample_assets/grass.h"
 #include "sample_assets/hearth_scene.h"
+#include "sample_assets/land.h"
 #include "sample_assets/noise.h"
 #include "sample_assets/rock.h"
 #include "sample_assets/room.h"
@@ -130,6 +131,11 @@ Document generateField(const SampleOptions& options)
     return makeField(trianglesOr(options, 2000000), textureSizeOr(options, 4096));
 }
 
+Document generateLand(const SampleOptions& options)
+{
+    return makeLand(trianglesOr(options, 2000000), textureSizeOr(options, 2048));
+}
+
 constexpr std::array kKinds{
     SampleKind{"rock", "a boulder of 50k triangles with colour, roughness and normal textures", generateRock},
     SampleKind{"terrain", "a tile of eroded ground, 131k triangles, coloured by slope", generateTerrain},
@@ -144,6 +150,8 @@ constexpr std::array kKinds{
                generateScene},
     SampleKind{"field", "the benchmark: 40 rocks of 2 million triangles, 4096 tiles of ground, 10,000 tufts",
                generateField},
+    SampleKind{"land", "512 m of hills, 2 million triangles, with 120 rocks and 12 houses: to be lit by bricks",
+               generateLand},
 };
 
 } // namespace

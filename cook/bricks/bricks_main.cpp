@@ -1,6 +1,7 @@
-// hearth-bricks: makes the bricks of one or more sources.
+// hearth-bricks: makes the bricks of one or more sources, and marches rays through what it made.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "cook/bricks/grid_part.h"
+#include "cook/bricks/bake.h"
+#include "cook/bricks/march_rows.h"
 #include "cook/tools/open_part.h"
 #include "cook/tools/whole_file.h"
 #include "formats/program.h"
@@ -22,11 +23,13 @@ struct Arguments
 {
     std::vector<std::string> parts;
     std::string output;
+    std::string rays;
     std::string statistics;
     double voxel_size = 0;
     std::vector<double> min, max;
     std::vector<std::vector<double>> seeds;
     GridSettings settings;
+    std::optional<uint32_t> bounces; ///< none: no light is baked
     size_t jobs = 0;
 };
 
@@ -58,7 +61,10 @@ void warn(const GridStatistics& statistics, const std::string& output)
         std::snprintf(distance, sizeof(distance), "%.4g", statistics.dropped.from_distance);
         print(std::to_string(statistics.dropped.bricks) + " of " +
               std::to_string(statistics.dropped.bricks + statistics.bricks) +
-              " bricks do not fit the memory: those from " + distance + " m on from what matters");
+              " bricks do not fit the memory: those from " + distance + " m on from what matters" +
+              (statistics.dropped.tiles > 0 ? "; " + std::to_string(statistics.dropped.tiles) +
+                                                  " tiles farther away were not looked at"
+                                            : ""));
     }
 }
 
@@ -66,7 +72,9 @@ Status cook(const Arguments& arguments)
 {
     HEARTH_ASSIGN_OR_RETURN(const std::vector<SourceParts> sources, openSources(arguments.parts));
     HEARTH_ASSIGN_OR_RETURN(const StaticScene scene, staticScene(sources));
-    HEARTH_ASSIGN_OR_RETURN(const CookedGrid grid, cookGrid(scene, arguments.settings));
+    HEARTH_ASSIGN_OR_RETURN(CookedGrid grid, cookGrid(scene, arguments.settings));
+    if (arguments.bounces)
+        HEARTH_TRY(bakeLight(scene, {.bounces = *arguments.bounces}, grid));
     HEARTH_TRY(writeGridPart(arguments.output, grid));
     warn(grid.statistics, arguments.output);
     if (arguments.statistics.empty())
@@ -82,11 +90,13 @@ int run(const Arguments& arguments)
     if (arguments.jobs > 0)
         limit = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism,
                                                       arguments.jobs);
-    const Status cooked = cook(arguments);
-    if (cooked.ok())
+    const Status done = arguments.rays.empty()
+                            ? cook(arguments)
+                            : marchFile(arguments.parts[0], arguments.rays, arguments.output);
+    if (done.ok())
         return 0;
-    std::fprintf(stderr, "%s\n", formatMessage(cooked.error()).c_str());
-    return exitCode(cooked.error());
+    std::fprintf(stderr, "%s\n", formatMessage(done.error()).c_str());
+    return exitCode(done.error());
 }
 
 Double3 point(const std::vector<double>& values)
@@ -96,8 +106,12 @@ Double3 point(const std::vector<double>& values)
 
 void addOptions(CLI::App& app, Arguments& arguments)
 {
-    app.add_option("PARTS", arguments.parts, "import, clusters and textures part of each source")->required();
-    app.add_option("-o,--output", arguments.output, "bricks part to write")->required();
+    app.add_option("PARTS", arguments.parts,
+                   "import, clusters and textures part of each source; with --march: a pack or bricks part")
+        ->required();
+    app.add_option("-o,--output", arguments.output,
+                   "bricks part to write; with --march: the CSV file, - is standard output")
+        ->required();
     app.add_option(
         "--voxel-size", arguments.voxel_size,
         "metres; by default 512 voxels along the longest side, 0.1 m at least where that makes 64, and "
@@ -110,24 +124,40 @@ void addOptions(CLI::App& app, Arguments& arguments)
     app.add_option_function<std::vector<double>>(
            "--seed", [&arguments](const std::vector<double>& values) { arguments.seeds.push_back(values); },
            "a place that is seen from, as cameras are: what is sealed off from all of them has no faces; may "
-           "be "
-           "given again")
+           "be given again")
         ->delimiter(',')
         ->expected(3)
         ->trigger_on_parse()
         ->type_name("X,Y,Z");
     app.add_option("--memory", arguments.settings.memory,
                    "bytes that the grid may take on the GPU, 20971520 by default; farther bricks are dropped")
+        ->check(CLI::Range(uint64_t{1}, uint64_t{1} << 40).description(""))
         ->type_name("BYTES");
     app.add_option("--error", arguments.settings.error_share,
                    "how far clusters may be off, in voxels; 0.25 by default, 0: the finest triangles")
         ->check(CLI::Range(0.0, 16.0).description(""));
+    app.add_option(
+           "--bake", arguments.bounces,
+           "light the faces by the scene's lights with so many bounces, as the start value; else they "
+           "start dark, but for what shines")
+        ->check(CLI::Range(0, 64).description(""))
+        ->type_name("BOUNCES");
     app.add_option("--stats", arguments.statistics,
                    "write what became of the scene as JSON, and print the memory; - is standard output");
     app.add_option("-j,--jobs", arguments.jobs, "threads to use; the result does not depend on it");
+    const auto of_cooking = {"--voxel-size", "--min",   "--max",   "--seed",
+                             "--memory",     "--error", "--stats", "--jobs"};
+    CLI::Option* march = app.add_option(
+        "--march", arguments.rays,
+        "CSV file of origin_x,origin_y,origin_z,direction_x,direction_y,direction_z in metres: write "
+        "hit,x,y,z,face,t for each ray: 1, the first solid voxel, the face by which it is entered (none "
+        "where the ray starts inside) and the distance in metres; 0,,,,, where it meets none");
+    for (const char* option : of_cooking)
+        march->excludes(app.get_option(option));
     app.footer(
         "Example: hearth-bricks room.import.part room.clusters.part room.textures.part -o room.bricks.part "
         "--voxel-size 0.1\n"
+        "         hearth-bricks room.bricks.part --march rays.csv -o hits.csv\n"
         "Exit codes: 0 done, 2 usage, 65 malformed input, 66 input missing, 70 internal, 73 cannot write, "
         "74 I/O");
 }
@@ -141,7 +171,9 @@ int program(int argc, char** argv)
     try
     {
         app.parse(argc, argv);
-        if (arguments.parts.size() % 3 != 0)
+        if (!arguments.rays.empty() && arguments.parts.size() != 1)
+            throw CLI::ValidationError("--march", "one file is marched through");
+        if (arguments.rays.empty() && arguments.parts.size() % 3 != 0)
             throw CLI::ValidationError("PARTS", "three parts are needed for each source");
     }
     catch (const CLI::ParseError& error)

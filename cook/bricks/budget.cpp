@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/bricks/budget.h"
 
+#include "cook/bricks/focus.h"
+
 #include <algorithm>
 #include <numeric>
 
@@ -10,22 +12,12 @@ namespace hearth::bricks
 namespace
 {
 
-/// Distance of each brick's middle from the nearest focus, metres.
+/// Of each brick.
 std::vector<double> distancesOf(const SolidGrid& grid, std::span<const Float3> foci)
 {
     std::vector<double> distances;
     for (const Cell& cell : grid.brickCells())
-    {
-        const auto along = [&](size_t axis) {
-            return grid.frame.origin[static_cast<int>(axis)] +
-                   double{grid.frame.voxel_size} * (cell[axis] + 2.0);
-        };
-        const Double3 middle{along(0), along(1), along(2)};
-        double nearest = std::numeric_limits<double>::infinity();
-        for (const Float3& focus : foci)
-            nearest = std::min(nearest, length(middle - widen(focus)));
-        distances.push_back(nearest);
-    }
+        distances.push_back(brickDistance(grid.frame, foci, cell));
     return distances;
 }
 
@@ -48,25 +40,28 @@ FacedGrid faced(SolidGrid solid, std::span<const Float3> seen_points)
     return grid;
 }
 
-/// The grid with the bricks that are kept.
-SolidGrid filtered(const SolidGrid& grid, const std::vector<bool>& kept)
+/// The grid with the bricks that are kept, and their faces.
+FacedGrid filtered(const FacedGrid& whole, const std::vector<bool>& kept)
 {
-    SolidGrid some{grid.frame, {}, {}, {}};
-    for (const MaskedCells& group : grid.groups)
+    FacedGrid some{{whole.solid.frame, {}, {}, {}}, {}, whole.seen, {}};
+    for (const MaskedCells& group : whole.solid.groups)
     {
-        MaskedCells of_group{0, static_cast<uint32_t>(some.bricks.size())};
+        MaskedCells of_group{0, static_cast<uint32_t>(some.solid.bricks.size())};
         uint32_t brick = group.first;
         for (uint64_t rest = group.mask; rest != 0; rest &= rest - 1, ++brick)
         {
             if (!kept[brick])
                 continue;
             of_group.mask |= rest & (~rest + 1);
-            const MaskedCells& solid = grid.bricks[brick];
-            some.bricks.push_back({solid.mask, static_cast<uint32_t>(some.voxels.size())});
-            const auto first = grid.voxels.begin() + solid.first;
-            some.voxels.insert(some.voxels.end(), first, first + std::popcount(solid.mask));
+            const MaskedCells& solid = whole.solid.bricks[brick];
+            some.solid.bricks.push_back({solid.mask, static_cast<uint32_t>(some.solid.voxels.size())});
+            const auto count = std::popcount(solid.mask);
+            const auto first = whole.solid.voxels.begin() + solid.first;
+            some.solid.voxels.insert(some.solid.voxels.end(), first, first + count);
+            const auto first_face = whole.faces.begin() + solid.first;
+            some.faces.insert(some.faces.end(), first_face, first_face + count);
         }
-        some.groups.push_back(of_group);
+        some.solid.groups.push_back(of_group);
     }
     return some;
 }
@@ -88,35 +83,24 @@ FacedGrid withinBudget(SolidGrid solid, std::span<const Float3> seen_points, std
     if (grid.bytes().total() <= memory)
         return grid;
 
-    const SolidGrid whole = std::move(grid.solid);
-    const std::vector<double> distances = distancesOf(whole, foci);
-    std::vector<uint64_t> bytes(whole.bricks.size());
-    for (uint32_t brick = 0; brick < bytes.size(); ++brick)
-        bytes[brick] = bytesOfBrick(whole, grid.faces, brick);
-    std::vector<uint32_t> nearest_first(whole.bricks.size());
+    const std::vector<double> distances = distancesOf(grid.solid, foci);
+    std::vector<uint32_t> nearest_first(distances.size());
     std::iota(nearest_first.begin(), nearest_first.end(), 0u);
     std::ranges::stable_sort(nearest_first, {}, [&](uint32_t brick) { return distances[brick]; });
-
-    uint64_t allowed = memory;
-    for (;;)
+    std::vector<bool> kept(distances.size());
+    uint64_t used = bytesOf(grid.solid.groups.size(), 0, 0, 0).total();
+    size_t count = 0;
+    for (;; ++count)
     {
-        std::vector<bool> kept(whole.bricks.size());
-        uint64_t used = bytesOf(whole.groups.size(), 0, 0, 0).total();
-        size_t count = 0;
-        for (; count < nearest_first.size() && used + bytes[nearest_first[count]] <= allowed; ++count)
-        {
-            used += bytes[nearest_first[count]];
-            kept[nearest_first[count]] = true;
-        }
-        grid = faced(filtered(whole, kept), seen_points);
-        grid.dropped = {whole.bricks.size() - count, whole.voxels.size() - grid.solid.voxels.size(),
-                        distances[nearest_first[count]]};
-        const uint64_t total = grid.bytes().total();
-        if (total <= memory)
-            return grid;
-        // what stood behind dropped bricks has faces now
-        allowed -= std::min(allowed, total - memory);
+        used += bytesOfBrick(grid.solid, grid.faces, nearest_first[count]);
+        if (used > memory)
+            break;
+        kept[nearest_first[count]] = true;
     }
+    FacedGrid some = filtered(grid, kept);
+    some.dropped = {distances.size() - count, grid.solid.voxels.size() - some.solid.voxels.size(), 0,
+                    distances[nearest_first[count]]};
+    return some;
 }
 
 } // namespace hearth::bricks

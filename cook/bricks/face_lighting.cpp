@@ -3,62 +3,38 @@
 
 #include "formats/assert.h"
 
-#include <tbb/parallel_for.h>
-
-#include <bit>
+#include <algorithm>
 #include <cmath>
+#include <tbb/parallel_for.h>
 
 namespace hearth::bricks
 {
 
 using namespace shared;
 
-namespace
-{
-
-uint64_t maskOf(uint32_t low, uint32_t high)
-{
-    return uint64_t{high} << 32 | low;
-}
-
-} // namespace
-
 FaceLighting::FaceLighting(const BrickView& bricks)
-    : bricks_(bricks), corners_(bricks.masks.bricks.size()), next_(bricks.lighting.size())
+    : bricks_(bricks), places_(facePlaces(bricks.masks)), next_(places_.size())
 {
+    HEARTH_ASSERT(places_.size() == bricks.lighting.size());
     faces_.reserve(bricks.lighting.size());
     for (const uint32_t code : bricks.lighting)
         faces_.push_back({code, 0});
-    const uint32_t groups_x = brickGroups(bricks.masks.grid.voxels_x);
-    const uint32_t groups_y = brickGroups(bricks.masks.grid.voxels_y);
-    for (uint32_t g = 0; g < bricks.masks.groups.size(); ++g)
-    {
-        const BrickGroup& group = bricks.masks.groups[g];
-        uint32_t brick = group.first_brick;
-        for (uint64_t mask = maskOf(group.brick_mask_low, group.brick_mask_high); mask != 0; mask &= mask - 1)
-        {
-            const auto bit = static_cast<uint32_t>(std::countr_zero(mask));
-            corners_[brick++] = {kGroupVoxels * (g % groups_x) + kBrickVoxels * (bit & 3),
-                                 kGroupVoxels * (g / groups_x % groups_y) + kBrickVoxels * (bit >> 2 & 3),
-                                 kGroupVoxels * (g / groups_x / groups_y) + kBrickVoxels * (bit >> 4)};
-        }
-    }
 }
 
 void FaceLighting::light(const Lighting& lighting, const FrameShare& share)
 {
     HEARTH_ASSERT(share.period > 0 && share.rays > 0);
-    const auto bricks = static_cast<uint32_t>(corners_.size());
-    const uint32_t first = brickSliceBegin(bricks, frame_, share.period);
-    const uint32_t end = brickSliceEnd(bricks, frame_, share.period);
+    const std::span<const Brick> bricks = bricks_.masks.bricks;
+    const auto brick_count = static_cast<uint32_t>(bricks.size());
+    const auto firstFace = [&](uint32_t brick)
+    { return brick < brick_count ? size_t{bricks[brick].first_face} : faces_.size(); };
+    const size_t first = firstFace(brickSliceBegin(brick_count, frame_, share.period));
+    const size_t end = firstFace(brickSliceEnd(brick_count, frame_, share.period));
     ++frame_;
-    tbb::parallel_for(first, end, [&](uint32_t brick) { lightBrick(lighting, share.rays, brick); });
-    if (first == end)
-        return;
-    const uint32_t first_face = bricks_.masks.bricks[first].first_face;
-    const auto end_face = end < bricks ? bricks_.masks.bricks[end].first_face : faces_.size();
-    std::copy(next_.begin() + first_face, next_.begin() + static_cast<ptrdiff_t>(end_face),
-              faces_.begin() + first_face);
+    tbb::parallel_for(first, end,
+                      [&](size_t face) { next_[face] = encodeBrickLight(lit(lighting, share.rays, face)); });
+    std::copy(next_.begin() + static_cast<ptrdiff_t>(first), next_.begin() + static_cast<ptrdiff_t>(end),
+              faces_.begin() + static_cast<ptrdiff_t>(first));
 }
 
 void FaceLighting::sweep(const Lighting& lighting, uint32_t rays, uint32_t sweeps)
@@ -76,25 +52,9 @@ std::vector<uint32_t> FaceLighting::codes() const
     return codes;
 }
 
-void FaceLighting::lightBrick(const Lighting& lighting, uint32_t rays, uint32_t brick)
+Float3 FaceLighting::lit(const Lighting& lighting, uint32_t rays, size_t face) const
 {
-    const Brick& record = bricks_.masks.bricks[brick];
-    uint32_t face = record.first_face;
-    for (uint32_t side = 0; side < kVoxelFaces; ++side)
-        for (uint64_t mask = maskOf(record.face_masks[2 * side], record.face_masks[2 * side + 1]); mask != 0;
-             mask &= mask - 1)
-        {
-            const auto bit = static_cast<uint32_t>(std::countr_zero(mask));
-            next_[face] = encodeBrickLight(lightFace(lighting, rays, brick, bit, side, face));
-            ++face;
-        }
-}
-
-Float3 FaceLighting::lightFace(const Lighting& lighting, uint32_t rays, uint32_t brick, uint32_t bit,
-                               uint32_t side, uint32_t face) const
-{
-    const Corner& corner = corners_[brick];
-    const uint32_t x = corner.x + (bit & 3), y = corner.y + (bit >> 2 & 3), z = corner.z + (bit >> 4);
+    const auto [x, y, z, side] = places_[face];
     const BrickScene scene = this->scene();
     const BrickStart start = brickFaceStart(scene, x, y, z, side, decodeFaceNormal(bricks_.normals[face]));
     const Float3 middle = brickFaceMiddle(x, y, z, side);

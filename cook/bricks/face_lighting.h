@@ -3,6 +3,7 @@
 #pragma once
 
 #include "cook/bricks/brick_view.h"
+#include "cook/bricks/face_places.h"
 #include "formats/shared/brick_lighting.h"
 
 #include <vector>
@@ -40,18 +41,10 @@ public:
     shared::BrickScene scene() const { return {bricks_.masks, bricks_.opacity, faces_}; }
 
 private:
-    /// Least voxel of a brick.
-    struct Corner
-    {
-        uint32_t x, y, z;
-    };
-
-    void lightBrick(const shared::Lighting& lighting, uint32_t rays, uint32_t brick);
-    Float3 lightFace(const shared::Lighting& lighting, uint32_t rays, uint32_t brick, uint32_t bit,
-                     uint32_t side, uint32_t face) const;
+    Float3 lit(const shared::Lighting& lighting, uint32_t rays, size_t face) const;
 
     BrickView bricks_;
-    std::vector<Corner> corners_; ///< of bricks
+    std::vector<FacePlace> places_;
     std::vector<shared::BrickLight> faces_;
     std::vector<shared::BrickLight> next_; ///< of the faces that this frame lights
     uint32_t frame_ = 0;

@@ -61,8 +61,10 @@ Result<std::optional<CookedGrid>> cookAt(const StaticScene& scene, const GridSet
     HEARTH_ASSIGN_OR_RETURN(const GridFrame frame, frameOf(settings, scene.box(), size));
     const double error = size * settings.error_share;
     auto start = std::chrono::steady_clock::now();
-    HEARTH_ASSIGN_OR_RETURN(Voxelised voxelised,
-                            voxelise(scene, clustersOfCut(scene, static_cast<float>(error)), frame));
+    const std::vector<Float3> foci = fociOf(scene, settings);
+    HEARTH_ASSIGN_OR_RETURN(
+        Voxelised voxelised,
+        voxelise(scene, clustersOfCut(scene, static_cast<float>(error)), frame, foci, settings.memory));
     hideSheets(voxelised.grid);
     mixSides(voxelised.grid);
     const double voxelise_seconds = secondsSince(start);
@@ -70,9 +72,9 @@ Result<std::optional<CookedGrid>> cookAt(const StaticScene& scene, const GridSet
     start = std::chrono::steady_clock::now();
     std::vector<Float3> seen_points = scene.cameras;
     seen_points.insert(seen_points.end(), settings.seeds.begin(), settings.seeds.end());
-    const FacedGrid faced =
-        withinBudget(std::move(voxelised.grid), seen_points, fociOf(scene, settings), settings.memory);
-    if (keep_all && faced.dropped.bricks > 0)
+    FacedGrid faced = withinBudget(std::move(voxelised.grid), seen_points, foci, settings.memory);
+    faced.dropped.tiles = voxelised.tiles_skipped;
+    if (keep_all && faced.dropped.any())
         return std::optional<CookedGrid>();
     CookedGrid grid = cooked(scene, voxelised, faced);
     grid.statistics.error = error;
@@ -165,6 +167,7 @@ std::string statisticsJson(const GridStatistics& statistics)
     json["sealed"] = {{"spaces", statistics.sealed_spaces}, {"sides", statistics.sealed_sides}};
     json["dropped"] = {{"bricks", statistics.dropped.bricks},
                        {"voxels", statistics.dropped.voxels},
+                       {"tiles", statistics.dropped.tiles},
                        {"from_distance", statistics.dropped.from_distance}};
     json["memory"] = Json::array();
     for (const Row& row : rowsOf(statistics.bytes))

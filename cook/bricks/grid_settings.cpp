@@ -36,7 +36,7 @@ double roundedUp(double size)
             for (int i = 0; i < std::abs(exponent); ++i)
                 power *= 10;
             const double candidate = exponent < 0 ? step / power : step * power;
-            if (candidate >= size * (1 - 1e-9))
+            if (candidate >= size * (1 - 1e-6))
                 return candidate;
         }
     return size;
@@ -133,9 +133,10 @@ Result<GridFrame> frameOf(const GridSettings& settings, const Box3& box, double 
     }
     const uint64_t groups = frame.groupCount() * sizeof(formats::BrickGroupRecord);
     if (groups > settings.memory)
-        return usage("--memory", std::to_string(settings.memory) +
-                                     " bytes are less than the empty grid takes, " + std::to_string(groups) +
-                                     ": give more, a larger --voxel-size or a smaller extent (--min, --max)");
+        return usage("memory of bricks",
+                     std::to_string(settings.memory) + " bytes are less than the empty grid takes, " +
+                         std::to_string(groups) +
+                         ": give more, a larger --voxel-size or a smaller extent (--min, --max)");
     return frame;
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/bricks/voxelise.h"
 
+#include "cook/bricks/brick_tables.h"
+#include "cook/bricks/focus.h"
 #include "cook/bricks/tile.h"
 
 #include <algorithm>
@@ -13,6 +15,9 @@ using namespace formats;
 
 namespace
 {
+
+// Tiles between two looks at whether the memory is full: enough for many threads.
+constexpr size_t kBatch = 256;
 
 /// A cluster in one of the tiles that it reaches.
 struct Item
@@ -69,6 +74,7 @@ struct TileRange
 {
     uint32_t tile;
     std::span<const Item> items;
+    double distance = 0; ///< metres from the nearest focus
 };
 
 std::vector<TileRange> tileRanges(std::span<const Item> items)
@@ -79,11 +85,76 @@ std::vector<TileRange> tileRanges(std::span<const Item> items)
         size_t end = begin;
         while (end < items.size() && items[end].tile == items[begin].tile)
             ++end;
-        ranges.push_back({items[begin].tile, items.subspan(begin, end - begin)});
+        ranges.push_back({items[begin].tile, items.subspan(begin, end - begin), 0});
         begin = end;
     }
     return ranges;
 }
+
+std::vector<TileRange> nearestFirst(std::vector<TileRange> ranges, const GridFrame& frame,
+                                    std::span<const Float3> foci)
+{
+    for (TileRange& range : ranges)
+    {
+        const Cell at = tileAt(frame, range.tile);
+        const Double3 low{at[0] * double{kTileVoxels}, at[1] * double{kTileVoxels},
+                          at[2] * double{kTileVoxels}};
+        range.distance =
+            focusDistance(frame, foci, low, low + Double3{kTileVoxels, kTileVoxels, kTileVoxels});
+    }
+    std::ranges::stable_sort(ranges, {}, &TileRange::distance);
+    return ranges;
+}
+
+/// What the bricks that lie nearer than something need without any face.
+class NearBricks
+{
+public:
+    NearBricks(const GridFrame& frame, std::span<const Float3> foci)
+        : frame_(frame), foci_(foci), within_(bytesOf(frame.groupCount(), 0, 0, 0).total())
+    {
+    }
+
+    void add(const TileVoxels& tile)
+    {
+        for (const TileVoxels::Group& group : tile.groups)
+        {
+            uint32_t brick = group.bricks.first;
+            for (uint64_t rest = group.bricks.mask; rest != 0; rest &= rest - 1, ++brick)
+            {
+                const auto bit = static_cast<uint32_t>(std::countr_zero(rest));
+                const Cell cell{group.cell[0] + (bit & 3) * 4, group.cell[1] + (bit >> 2 & 3) * 4,
+                                group.cell[2] + (bit >> 4) * 4};
+                const auto voxels = static_cast<uint64_t>(std::popcount(tile.bricks[brick].mask));
+                beyond_.push_back({brickDistance(frame_, foci_, cell), bytesOf(0, 1, voxels, 0).total()});
+            }
+        }
+    }
+
+    /// distance  no less than before
+    uint64_t bytesWithin(double distance)
+    {
+        std::erase_if(beyond_,
+                      [&](const Brick& brick)
+                      {
+                          const bool is_within = brick.distance < distance;
+                          within_ += is_within ? brick.bytes : 0;
+                          return is_within;
+                      });
+        return within_;
+    }
+
+private:
+    struct Brick
+    {
+        double distance;
+        uint64_t bytes;
+    };
+    const GridFrame& frame_;
+    std::span<const Float3> foci_;
+    uint64_t within_;
+    std::vector<Brick> beyond_;
+};
 
 /// The sums of one tile.
 Result<TileVoxels> voxeliseTile(const StaticScene& scene, std::span<const PlacedCluster> placed,
@@ -128,26 +199,35 @@ Status textureStatus(const StaticScene& scene)
 } // namespace
 
 Result<Voxelised> voxelise(const StaticScene& scene, std::span<const PlacedCluster> placed,
-                           const GridFrame& frame)
+                           const GridFrame& frame, std::span<const Float3> foci, uint64_t memory)
 {
     const std::vector<Affine3d> transforms = transformsOf(scene, frame);
     const std::vector<Item> items = itemsOf(scene, placed, frame, transforms);
-    const std::vector<TileRange> ranges = tileRanges(items);
+    const std::vector<TileRange> ranges = nearestFirst(tileRanges(items), frame, foci);
     std::vector<TileVoxels> tiles(ranges.size());
     std::vector<Status> ends(ranges.size(), success());
-    tbb::parallel_for(size_t{0}, ranges.size(),
-                      [&](size_t i)
-                      {
-                          auto tile = voxeliseTile(scene, placed, ranges[i], frame, transforms);
-                          if (tile.ok())
-                              tiles[i] = std::move(*tile);
-                          else
-                              ends[i] = tile.error();
-                      });
-    for (Status& end : ends)
-        HEARTH_TRY(std::move(end));
+    NearBricks near(frame, foci);
+    size_t done = 0;
+    while (done < ranges.size() && (done == 0 || near.bytesWithin(ranges[done].distance) <= memory))
+    {
+        const size_t end = std::min(done + kBatch, ranges.size());
+        tbb::parallel_for(done, end,
+                          [&](size_t i)
+                          {
+                              auto tile = voxeliseTile(scene, placed, ranges[i], frame, transforms);
+                              if (tile.ok())
+                                  tiles[i] = std::move(*tile);
+                              else
+                                  ends[i] = tile.error();
+                          });
+        for (; done < end; ++done)
+        {
+            HEARTH_TRY(std::move(ends[done]));
+            near.add(tiles[done]);
+        }
+    }
     HEARTH_TRY(textureStatus(scene));
-    Voxelised result{mergedTiles(frame, tiles), {}};
+    Voxelised result{mergedTiles(frame, tiles), {}, ranges.size() - done};
     result.counts.clusters = placed.size();
     for (const PlacedCluster& at : placed)
         result.counts.triangles += scene.sources[at.source].clusters.clusters()[at.cluster].triangle_count;

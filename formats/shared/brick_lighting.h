@@ -34,6 +34,8 @@ HEARTH_CONSTANT float kBrickFaceMargin = 0.001953125f;
 /// Voxels along the normal within which a surface's point finds the air before it.
 HEARTH_CONSTANT float kBrickMostBuried = 3.0f;
 
+/// A light has no size: what stands nearer than this, and half of a voxel, would be as bright as one likes. It counts as a part
+/// of the lamp and gets none of its light.
 HEARTH_CONSTANT float kBrickLampMetres = 0.1f;
 
 HEARTH_CONSTANT float kBrickPi = 3.14159265f;
@@ -402,27 +404,35 @@ HEARTH_FUNCTION Float3 brickLampPlace(HEARTH_IN(BrickScene) scene, Float3 lamp)
     return place;
 }
 
-/// Irradiance over pi that a light gives a face through the bricks.
-/// middle  of the face, in voxels: distance and angle are taken there
-HEARTH_FUNCTION Float3 brickDirect(HEARTH_IN(BrickScene) scene, HEARTH_IN(BrickStart) start, Float3 middle,
-                                   HEARTH_IN(Light) light)
+/// What a light gives a face if nothing is in the way, and where it is looked for then.
+struct BrickIncident
 {
-    BrickGrid grid = brickGridOf(brickMasksOf(scene));
+    Float3 arrived; ///< irradiance over pi; 0: the light need not be looked for
+    Float3 way;     ///< unit, from the start of rays
+    float far;      ///< to the light, in voxels
+};
+
+/// middle  of the face, in voxels: distance and angle are taken there
+/// lamp    from where the light shines, in voxels: brickLampPlace, or where it stands. Suns have none
+HEARTH_FUNCTION BrickIncident brickIncident(HEARTH_IN(BrickGrid) grid, HEARTH_IN(BrickStart) start,
+                                            Float3 middle, HEARTH_IN(Light) light, Float3 lamp)
+{
+    BrickIncident incident;
+    incident.arrived = Float3(0.0f, 0.0f, 0.0f);
+    incident.way = -light.direction;
+    incident.far = kBrickFar;
     if (light.type == kBrickLightDirectional)
     {
-        float facing = -dot(start.normal, light.direction);
-        if (facing <= 0.0f)
-            return Float3(0.0f, 0.0f, 0.0f);
-        return light.intensity *
-               (facing / kBrickPi * brickRayThrough(scene, start.place, -light.direction, kBrickFar));
+        incident.arrived = light.intensity * (max(dot(start.normal, incident.way), 0.0f) / kBrickPi);
+        return incident;
     }
-    Float3 lamp = (light.position - grid.origin) * (1.0f / grid.voxel_size);
-    Float3 to_lamp = lamp - middle;
-    // as if the face were no nearer than half of its edge: the mean over a face is finite
-    float distance = sqrt(max(dot(to_lamp, to_lamp), 0.25f));
-    to_lamp = to_lamp * (1.0f / distance);
+    Float3 to_light = (light.position - grid.origin) * (1.0f / grid.voxel_size) - middle;
+    float distance = sqrt(dot(to_light, to_light));
     float metres = distance * grid.voxel_size;
-    float share = dot(start.normal, to_lamp) / (metres * metres);
+    if (metres < kBrickLampMetres + 0.5f * grid.voxel_size)
+        return incident;
+    to_light = to_light * (1.0f / distance);
+    float share = max(dot(start.normal, to_light), 0.0f) / (kBrickPi * metres * metres);
     if (light.range > 0.0f)
     {
         float ratio = metres / light.range;
@@ -431,16 +441,29 @@ HEARTH_FUNCTION Float3 brickDirect(HEARTH_IN(BrickScene) scene, HEARTH_IN(BrickS
     if (light.type == kBrickLightSpot)
     {
         float cone =
-            min(max(light.cone_offset - dot(light.direction, to_lamp) * light.cone_scale, 0.0f), 1.0f);
+            min(max(light.cone_offset - dot(light.direction, to_light) * light.cone_scale, 0.0f), 1.0f);
         share *= cone * cone;
     }
-    if (share <= 0.0f || metres < kBrickLampMetres + 0.5f * grid.voxel_size)
-        return Float3(0.0f, 0.0f, 0.0f);
-    Float3 way = brickLampPlace(scene, lamp) - start.place;
-    float far = sqrt(dot(way, way));
-    if (far > 0.0f)
-        share *= brickRayThrough(scene, start.place, way * (1.0f / far), far);
-    return light.intensity * (share / kBrickPi);
+    Float3 way = lamp - start.place;
+    incident.far = sqrt(dot(way, way));
+    incident.way = incident.far > 0.0f ? way * (1.0f / incident.far) : start.normal;
+    incident.arrived = light.intensity * share;
+    return incident;
+}
+
+/// Irradiance over pi that a light gives a face through the bricks.
+/// middle  of the face, in voxels
+HEARTH_FUNCTION Float3 brickDirect(HEARTH_IN(BrickScene) scene, HEARTH_IN(BrickStart) start, Float3 middle,
+                                   HEARTH_IN(Light) light)
+{
+    BrickGrid grid = brickGridOf(brickMasksOf(scene));
+    Float3 lamp = Float3(0.0f, 0.0f, 0.0f);
+    if (light.type != kBrickLightDirectional)
+        lamp = brickLampPlace(scene, (light.position - grid.origin) * (1.0f / grid.voxel_size));
+    BrickIncident incident = brickIncident(grid, start, middle, light, lamp);
+    if (incident.arrived.x + incident.arrived.y + incident.arrived.z <= 0.0f || incident.far <= 0.0f)
+        return incident.arrived;
+    return incident.arrived * brickRayThrough(scene, start.place, incident.way, incident.far);
 }
 
 /// The radiance that a face sends out.

@@ -66,6 +66,8 @@ void addCook(CLI::App& app, Work& run)
     {
         bool bakes_visibility = false;
         command::VisibilityOptions baked;
+        bool makes_bricks = false;
+        command::BrickOptions bricked;
         bool quiet = false;
         bool verbose = false;
     };
@@ -99,6 +101,21 @@ void addCook(CLI::App& app, Work& run)
                      "visibility of what is t metres away is (t / distance)^power; nothing by default")
         ->check(CLI::Range(0.0, 16.0))
         ->needs(distance);
+    auto* bricks = verb->add_flag("--bricks", options->makes_bricks,
+                                  "make the grid of bricks that global illumination is marched through");
+    verb->add_option("--voxel-size", options->bricked.voxel_size,
+                     "metres, of the bricks' voxels; by default as their memory allows")
+        ->check(
+            [](const std::string& text)
+            {
+                const double value = std::strtod(text.c_str(), nullptr);
+                return std::isfinite(value) && value > 0 ? std::string() : text + " is not a size in metres";
+            })
+        ->needs(bricks);
+    verb->add_option("--brick-memory", options->bricked.memory_bytes,
+                     "bytes that the bricks may take on the GPU; 20 MiB by default")
+        ->check(CLI::Range(uint64_t{1}, uint64_t{1} << 40).description(""))
+        ->needs(bricks);
     verb->add_option("--report", options->report_file, "write a report as JSON");
     auto* quiet = verb->add_flag("-q,--quiet", options->quiet, "print errors only");
     verb->add_flag("-v,--verbose", options->verbose, "print the command line of every stage")
@@ -113,6 +130,8 @@ void addCook(CLI::App& app, Work& run)
                                                     : command::Verbosity::normal;
             if (options->bakes_visibility)
                 options->visibility = options->baked;
+            if (options->makes_bricks)
+                options->bricks = options->bricked;
             run = [options] { return command::cook(*options); };
         });
 }

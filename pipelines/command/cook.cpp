@@ -52,6 +52,12 @@ std::string statisticsFile(const std::string& folder, size_t index)
     return fmt::format("{}/{}.clusters.json", folder, index);
 }
 
+/// What hearth-bricks says of all sources.
+std::string brickStatisticsFile(const std::string& folder)
+{
+    return folder + "/bricks.json";
+}
+
 /// The flags of hearth-visibility.
 std::vector<std::string> visibilityFlags(const VisibilityOptions& options)
 {
@@ -117,6 +123,33 @@ std::string addSpecular(Plan& plan, const std::string& programs, const std::stri
     return part;
 }
 
+/// The grid of all sources' scenes.
+std::string addBricks(Plan& plan, const std::string& programs, const std::string& folder,
+                      const CookOptions& options)
+{
+    const std::string part = folder + "/bricks.part";
+    Stage stage{"bricks", options.sources.size(), {programs + "/hearth-bricks"}, part, {}, options.output};
+    for (size_t source = 0; source < options.sources.size(); ++source)
+        for (const char* kind : {"import", "clusters", "textures"})
+            for (size_t i = 0; i < plan.size(); ++i)
+                if (plan[i].source == source && plan[i].name == kind)
+                {
+                    stage.command.push_back(plan[i].output);
+                    stage.after.push_back(i);
+                }
+    stage.command.insert(stage.command.end(), {"-o", part});
+    if (options.bricks->voxel_size)
+        stage.command.insert(stage.command.end(),
+                             {"--voxel-size", fmt::format("{}", *options.bricks->voxel_size)});
+    if (options.bricks->memory_bytes)
+        stage.command.insert(stage.command.end(),
+                             {"--memory", fmt::format("{}", *options.bricks->memory_bytes)});
+    if (!options.report_file.empty())
+        stage.command.insert(stage.command.end(), {"--stats", brickStatisticsFile(folder)});
+    plan.push_back(std::move(stage));
+    return part;
+}
+
 /// inputs  stages whose parts the link reads, in this order
 void addLink(Plan& plan, const std::string& programs, const std::string& folder, const std::string& packed,
              const std::vector<size_t>& inputs, const CookOptions& options)
@@ -126,6 +159,8 @@ void addLink(Plan& plan, const std::string& programs, const std::string& folder,
         link.command.push_back(plan[input].output);
     if (options.visibility)
         link.command.insert(link.command.end(), {"--specular", addSpecular(plan, programs, folder, options)});
+    if (options.bricks)
+        link.command.insert(link.command.end(), {"--bricks", addBricks(plan, programs, folder, options)});
     link.command.insert(link.command.end(), {"-o", packed});
     for (size_t i = 0; i < plan.size(); ++i)
         link.after.push_back(i);
@@ -203,7 +238,7 @@ struct Failure
 /// The exit codes by which a cooker says what is wrong; any other is a defect.
 bool isClearCode(int code)
 {
-    return code == 65 || code == 66 || code == 70 || code == 73 || code == 74;
+    return code == 2 || code == 65 || code == 66 || code == 70 || code == 73 || code == 74;
 }
 
 /// Tell of a child that did not end as cookers do; its last words help to find the defect.
@@ -385,6 +420,8 @@ std::optional<Failure> cookInPrivate(const CookOptions& options, CookOutcome& ou
     if (!options.report_file.empty())
         for (size_t i = 0; i < options.sources.size(); ++i)
             outcome.cluster_statistics.push_back(textOf(statisticsFile(parts->path(), i)));
+    if (!options.report_file.empty() && options.bricks)
+        outcome.brick_statistics = textOf(brickStatisticsFile(parts->path()));
     outcome.output_bytes = sizeOf(packed);
     if (::rename(packed.c_str(), options.output.c_str()) != 0)
         return fail(

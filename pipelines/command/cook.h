@@ -21,6 +21,13 @@ struct VisibilityOptions
     double power = 0;    ///< with a distance only
 };
 
+/// What hearth-bricks is told; else it decides itself.
+struct BrickOptions
+{
+    std::optional<double> voxel_size;     ///< metres
+    std::optional<uint64_t> memory_bytes; ///< of the GPU
+};
+
 struct CookOptions
 {
     std::vector<std::string> sources;
@@ -33,12 +40,14 @@ struct CookOptions
     std::string profile;                         ///< TOML file that the cookers read; empty: none
     std::string report_file;                     ///< empty: none
     std::optional<VisibilityOptions> visibility; ///< none: vertices do not say what they see
+    std::optional<BrickOptions> bricks;          ///< none: the pack has no grid of bricks
 };
 
 /// One cooker's run.
 struct StageRecord
 {
-    std::string stage; ///< "import", "clusters", "textures", "skinning", "visibility", "specular", "link"
+    std::string
+        stage; ///< "import", "clusters", "textures", "skinning", "visibility", "specular", "bricks", "link"
     size_t source = 0; ///< index of the source; their number for what is not of one source
     double seconds = 0;
     double cpu_seconds = 0;
@@ -53,6 +62,7 @@ struct CookOutcome
     size_t failed_source = 0;
     std::vector<StageRecord> stages;             ///< in the order of the plan, those that ended well
     std::vector<std::string> cluster_statistics; ///< of each source, JSON of hearth-clusters; for the report
+    std::string brick_statistics;                ///< JSON of hearth-bricks; for the report
     double seconds = 0;
     uint64_t output_bytes = 0;
 };

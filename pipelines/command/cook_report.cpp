@@ -87,6 +87,8 @@ std::string reportJson(const CookOptions& options, const CookOutcome& outcome, s
     for (const StageRecord& stage : outcome.stages)
         if (stage.source == options.sources.size())
             report[stage.stage] = stageJson(stage);
+    if (const Json grid = Json::parse(outcome.brick_statistics, nullptr, false); grid.is_object())
+        report["bricks"]["grid"] = grid;
     report["sources"] = sources;
     report["messages"] = listOf(meta, "messages");
     report["dropped"] = listOf(meta, "dropped");

@@ -61,8 +61,9 @@ Status extractBricks(const std::string& path, const std::string& output)
     if (file.brickGrid().empty())
         return Error{Issue::chunk_missing, path, chunkName(kChunkBrickGrid, 0), "the file has no bricks"};
     HEARTH_ASSIGN_OR_RETURN(tools::WholeFile csv, tools::WholeFile::create(output));
-    csv.write("x,y,z,face,opacity,albedo_r,albedo_g,albedo_b,normal_x,normal_y,normal_z,emissive_r,emissive_g,"
-              "emissive_b,lighting_r,lighting_g,lighting_b\n");
+    csv.write(
+        "x,y,z,face,opacity,albedo_r,albedo_g,albedo_b,normal_x,normal_y,normal_z,emissive_r,emissive_g,"
+        "emissive_b,lighting_r,lighting_g,lighting_b\n");
     std::string text;
     forBricks(file.brickGrid()[0], file.brickGroups(),
               [&](uint32_t index, VoxelPlace first)

@@ -176,20 +176,30 @@ Json chunkJson(const ChunkEntry& entry)
             {"codec", codecName(entry.codec)}};
 }
 
-/// One row for each chunk, but one for all of the bricks, which make sense together alone.
+/// All chunks of the bricks, which make sense together alone.
+Json brickChunksJson(const PackView& pack)
+{
+    const BricksSummary summary = summarizeBricks(pack);
+    Json json{{"kind", "bricks"},
+              {"index", 0},
+              {"size", summary.bytes},
+              {"stored", summary.stored_bytes},
+              {"chunks", Json::array()}};
+    for (const ChunkEntry& entry : pack.container().chunks())
+        if (isBrickChunk(entry.type))
+            json["chunks"].push_back(chunkJson(entry));
+    return json;
+}
+
+/// A row for each chunk, in the order of the file, but one for all of the bricks.
 Json chunksJson(const PackView& pack)
 {
     Json list = Json::array();
-    Json brick_chunks = Json::array();
     for (const ChunkEntry& entry : pack.container().chunks())
-        (isBrickChunk(entry.type) ? brick_chunks : list).push_back(chunkJson(entry));
-    const BricksSummary bricks = summarizeBricks(pack);
-    if (!brick_chunks.empty())
-        list.push_back({{"kind", "bricks"},
-                        {"index", 0},
-                        {"size", bricks.bytes},
-                        {"stored", bricks.stored_bytes},
-                        {"chunks", std::move(brick_chunks)}});
+        if (!isBrickChunk(entry.type))
+            list.push_back(chunkJson(entry));
+        else if (entry.type == kBrickChunks[0])
+            list.push_back(brickChunksJson(pack));
     return list;
 }
 

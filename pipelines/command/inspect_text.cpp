@@ -64,11 +64,12 @@ std::string bricksText(const PackView& pack)
     std::string text;
     const BricksSummary summary = summarizeBricks(pack);
     for (const BrickGridRecord& grid : pack.brickGrid())
-        text += fmt::format("bricks     {} x {} x {} voxels of {} m from ({}, {}, {}): {} solid in {} bricks, {} faces; "
-                            "{} stored of {}\n",
-                            grid.voxels[0], grid.voxels[1], grid.voxels[2], grid.voxel_size, grid.origin.x,
-                            grid.origin.y, grid.origin.z, grid.solid_count, grid.brick_count, grid.face_count,
-                            readableSize(summary.stored_bytes), readableSize(summary.bytes));
+        text += fmt::format(
+            "bricks     {} x {} x {} voxels of {} m from ({}, {}, {}): {} solid in {} bricks, {} faces; "
+            "{} stored of {}\n",
+            grid.voxels[0], grid.voxels[1], grid.voxels[2], grid.voxel_size, grid.origin.x, grid.origin.y,
+            grid.origin.z, grid.solid_count, grid.brick_count, grid.face_count,
+            readableSize(summary.stored_bytes), readableSize(summary.bytes));
     return text;
 }
 
@@ -158,7 +159,8 @@ std::string chunksText(const PackView& pack)
 
 std::string inspectText(const PackView& pack, const PackSummary& summary)
 {
-    std::string text = headText(pack, summary) + sceneText(pack, summary) + specularText(pack) + bricksText(pack);
+    std::string text =
+        headText(pack, summary) + sceneText(pack, summary) + specularText(pack) + bricksText(pack);
     for (size_t i = 0; i < summary.meshes.size(); ++i)
         text += meshText(summary.meshes[i], i);
     return text + imagesText(pack) + messagesText(summary.meta) + chunksText(pack);

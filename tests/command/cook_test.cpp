@@ -1,5 +1,6 @@
 // hearth cook from the outside: what appears, what is left behind, and how it ends.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "formats/container_reader.h"
 #include "pipelines/command/verify.h"
 #include "tests/command/sandbox.h"
 #include "tests/command/small_parts.h"
@@ -49,6 +50,20 @@ constexpr const char* kSkinning = R"(#!/bin/sh
 cp "PARTS.skinning.part" "$4"
 )";
 
+constexpr const char* kBricks = R"(#!/bin/sh
+case "$*" in
+  *"--voxel-size 7"*) echo "--voxel-size: error: is bad [E1000] hint: another" >&2; exit 2 ;;
+  *"--memory 4096"*) echo "$5: warning: too little [W1400]" >&2 ;;
+esac
+while [ $# -gt 0 ]; do
+  case "$1" in
+    -o) cp "PARTS.bricks.part" "$2" ;;
+    --stats) echo '{"voxel_size": 0.5}' > "$2" ;;
+  esac
+  shift
+done
+)";
+
 std::string withParts(std::string script, const std::string& parts)
 {
     return script.replace(script.find("PARTS"), 5, parts);
@@ -68,6 +83,8 @@ protected:
         programs.write("hearth-textures", withParts(kTextures, parts), true);
         programs.write("hearth-clusters", withParts(kClusters, parts), true);
         programs.write("hearth-skinning", withParts(kSkinning, parts), true);
+        programs.write("hearth-bricks", withParts(kBricks, parts), true);
+        writeBricksPart(model, parts + ".bricks.part");
         std::filesystem::copy(HEARTH_BIN "/hearth", programs / "hearth");
         std::filesystem::copy(HEARTH_BIN "/hearth-link", programs / "hearth-link");
     }
@@ -209,6 +226,45 @@ TEST_F(Cook, anOldOutputStaysAsItWasUntilTheNewOneIsWhole)
     EXPECT_EQ(folder.read("a.hearth"), "old");
     EXPECT_EQ(cook({"good.gltf", "-o", "a.hearth"}).exit_code, 0);
     EXPECT_TRUE(command::verifyFile(folder / "a.hearth").ok());
+}
+
+TEST_F(Cook, makesTheBricksOfAllSourcesWhereAsked)
+{
+    const std::vector<std::string> sources{"a.gltf", "b.gltf", "-o", "a.hearth", "-v"};
+    EXPECT_EQ(countOf(cook(sources).err, "hearth-bricks"), 0u);
+    auto arguments = sources;
+    arguments.insert(arguments.end(),
+                     {"--bricks", "--voxel-size", "0.5", "--brick-memory", "4096", "--report", "r.json"});
+    const ProgramEnd end = cook(arguments);
+    ASSERT_EQ(end.exit_code, 0) << end.err;
+    std::string command = end.err.substr(end.err.find("hearth-bricks "));
+    command.resize(command.find('\n'));
+    for (const char* part :
+         {"/0.import.part ", "/0.clusters.part ", "/0.textures.part ", "/1.import.part ", "/1.clusters.part ",
+          "/1.textures.part ", " --voxel-size 0.5 --memory 4096 --stats "})
+    {
+        const size_t at = command.find(part);
+        EXPECT_NE(at, std::string::npos) << part << " in " << command;
+        command.erase(0, at); // in this order
+    }
+    EXPECT_EQ(countOf(end.err, "warning: too little [W1400]"), 1u) << end.err;
+    EXPECT_TRUE(command::verifyFile(folder / "a.hearth").ok());
+    const auto reader = formats::ContainerReader::open(folder / "a.hearth");
+    ASSERT_TRUE(reader.ok());
+    EXPECT_NE(reader->find(formats::kChunkBrickGrid), nullptr);
+    const auto report = nlohmann::json::parse(folder.read("r.json"));
+    EXPECT_EQ(report["bricks"]["stage"], "bricks");
+    EXPECT_EQ(report["bricks"]["grid"]["voxel_size"], 0.5);
+}
+
+TEST_F(Cook, aVoxelSizeThatMakesNoSenseIsAWrongCommandLine)
+{
+    expectFailure(cook({"a.gltf", "-o", "a.hearth", "--bricks", "--voxel-size", "7"}), 2,
+                  "--voxel-size: error: is bad [E1000]");
+    for (const char* size : {"0", "-1", "nan", "inf", "wide"})
+        EXPECT_EQ(cook({"a.gltf", "-o", "a.hearth", "--bricks", "--voxel-size", size}).exit_code, 2);
+    EXPECT_EQ(cook({"a.gltf", "-o", "a.hearth", "--bricks", "--brick-memory", "-1"}).exit_code, 2);
+    EXPECT_EQ(cook({"a.gltf", "-o", "a.hearth", "--voxel-size", "1"}).exit_code, 2);
 }
 
 TEST_F(Cook, saysWhereItCannotWrite)

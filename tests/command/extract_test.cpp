@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/command/extract.h"
+#include "pipelines/command/extract_bricks.h"
 #include "pipelines/command/extract_specular.h"
 
+#include "formats/shared/brick_codes.h"
 #include "pipelines/command/open_pack.h"
+#include "pipelines/command/verify.h"
 #include "tests/command/sandbox.h"
 #include "tests/command/small_parts.h"
 
@@ -272,6 +275,73 @@ TEST(ExtractSpecular, refusesFilesWithoutATable)
     model.specular_tables.clear();
     writePackFile(model, sandbox / "small.hearth");
     EXPECT_EQ(command::extractSpecular(sandbox / "small.hearth", sandbox / "t").error().issue,
+              Issue::chunk_missing);
+    EXPECT_FALSE(sandbox.has("t"));
+}
+
+namespace
+{
+
+std::vector<std::string> linesOf(const std::string& text)
+{
+    std::istringstream stream(text);
+    std::vector<std::string> lines;
+    for (std::string line; std::getline(stream, line);)
+        lines.push_back(line);
+    return lines;
+}
+
+} // namespace
+
+TEST(ExtractBricks, writesEveryFaceOfEverySolidVoxel)
+{
+    const Sandbox sandbox;
+    writePackFile(smallPack(), sandbox / "small.hearth");
+    ASSERT_TRUE(command::extractBricks(sandbox / "small.hearth", sandbox / "faces.csv").ok());
+    const std::vector<std::string> lines = linesOf(sandbox.read("faces.csv"));
+    ASSERT_EQ(lines.size(), 1 + 22u);
+    EXPECT_EQ(lines[0], "x,y,z,face,opacity,albedo_r,albedo_g,albedo_b,normal_x,normal_y,normal_z,emissive_r,"
+                        "emissive_g,emissive_b,lighting_r,lighting_g,lighting_b");
+    // the row of two: the first has no face towards the second
+    EXPECT_EQ(lines[1], "2,4,2,x-,1,1,1,1,-1,0,0,0,0,0,0,0,0");
+    EXPECT_EQ(lines[2].substr(0, 11), "2,4,2,y-,1,");
+    EXPECT_EQ(lines[5].substr(0, 11), "2,4,2,z+,1,");
+    EXPECT_EQ(lines[6].substr(0, 13), "3,4,2,x+,0.2,");
+    EXPECT_EQ(lines[22].substr(0, 10), "18,4,2,z+,");
+    // faces 2 and 3 of the first brick are y- of its two voxels
+    EXPECT_EQ(lines[2], "2,4,2,y-,1,1,0.200391,0,0,-1,0,0,0,0,0,0,0");
+    EXPECT_EQ(lines[7], "3,4,2,y-,0.2,1,1,1,0,-1,0,4,2,0.5,4,2,0.5");
+
+    writeBricksPart(smallPack(), sandbox / "bricks.part");
+    ASSERT_TRUE(command::extractBricks(sandbox / "bricks.part", sandbox / "part.csv").ok());
+    EXPECT_EQ(sandbox.read("part.csv"), sandbox.read("faces.csv"));
+}
+
+TEST(ExtractBricks, writesVoxelsWithoutFacesOnce)
+{
+    const Sandbox sandbox;
+    PackModel model = smallPack();
+    // 3 x 3 x 3 voxels: the middle one has no faces
+    model.bricks = brickModel({3, 3, 3}, [](uint32_t, uint32_t, uint32_t) { return true; });
+    model.brick_grids = {model.bricks.grid};
+    writeBricksPart(model, sandbox / "bricks.part");
+    ASSERT_TRUE(command::extractBricks(sandbox / "bricks.part", sandbox / "faces.csv").ok());
+    const std::string text = sandbox.read("faces.csv");
+    EXPECT_EQ(linesOf(text).size(), 1 + 54 + 1u);
+    EXPECT_NE(text.find("\n1,1,1,none,1,0,0,0,0,0,0,0,0,0,0,0,0\n"), std::string::npos);
+}
+
+TEST(ExtractBricks, refusesFilesWithoutBricks)
+{
+    const Sandbox sandbox;
+    PackModel model = smallPack();
+    model.bricks.normals[0] = 0x8080;
+    writeBricksPart(model, sandbox / "wrong.part");
+    EXPECT_EQ(command::extractBricks(sandbox / "wrong.part", sandbox / "t").error().issue,
+              Issue::meaning_value);
+    EXPECT_FALSE(command::verifyFile(sandbox / "wrong.part").ok());
+    writeSpecularPart(model, sandbox / "specular.part");
+    EXPECT_EQ(command::extractBricks(sandbox / "specular.part", sandbox / "t").error().issue,
               Issue::chunk_missing);
     EXPECT_FALSE(sandbox.has("t"));
 }

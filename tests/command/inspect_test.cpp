@@ -96,6 +96,36 @@ TEST_F(Inspect, countsWhatEachMeshHas)
     EXPECT_EQ(json["totals"]["bytes"]["bounds"], 48 + 48 + 2 * 4);
 }
 
+TEST_F(Inspect, describesTheBricks)
+{
+    PackModel model = smallPack();
+    Json json = inspected(model);
+    EXPECT_EQ(json["bricks"]["voxel_size"], 0.5);
+    EXPECT_EQ(json["bricks"]["origin"], (Json{-4, 0, -1}));
+    EXPECT_EQ(json["bricks"]["dims"], (Json{19, 5, 3}));
+    EXPECT_EQ(json["bricks"]["groups"], 2);
+    EXPECT_EQ(json["bricks"]["bricks"], 3);
+    EXPECT_EQ(json["bricks"]["solid_voxels"], 4);
+    EXPECT_EQ(json["bricks"]["faces"], 22);
+    const uint64_t bytes = 48 + 2 * 12 + 3 * 64 + 4 + 22 * (4 + 2 + 4 + 4);
+    EXPECT_EQ(json["bricks"]["bytes"], bytes);
+    const auto row = std::find_if(json["chunks"].begin(), json["chunks"].end(),
+                                  [](const Json& chunk) { return chunk["kind"] == "bricks"; });
+    ASSERT_NE(row, json["chunks"].end());
+    EXPECT_EQ((*row)["size"], bytes);
+    EXPECT_EQ((*row)["stored"], bytes);
+    EXPECT_EQ((*row)["chunks"].size(), 8u);
+    EXPECT_NE(
+        text.find("bricks     19 x 5 x 3 voxels of 0.5 m from (-4, 0, -1): 4 solid in 3 bricks, 22 faces"),
+        std::string::npos)
+        << text;
+
+    model.brick_grids.clear();
+    model.bricks = {};
+    json = inspected(model);
+    EXPECT_FALSE(json.contains("bricks"));
+}
+
 TEST_F(Inspect, countsTheScene)
 {
     const Json scene = inspected(smallPack())["scene"];
@@ -159,7 +189,7 @@ TEST_F(Inspect, listsEveryChunk)
 {
     const PackModel model = smallPack();
     const Json chunks = inspected(model)["chunks"];
-    ASSERT_EQ(chunks.size(), model.chunks().size());
+    ASSERT_EQ(chunks.size(), model.chunks().size() - (kBrickChunks.size() - 1));
     EXPECT_EQ(chunks[0]["kind"], "META");
     EXPECT_EQ(chunks.back()["kind"], "IMGD");
     EXPECT_EQ(chunks.back()["index"], 1);

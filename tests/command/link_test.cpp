@@ -43,7 +43,7 @@ protected:
         return pack;
     }
 
-    Status link() { return link::linkPack(sources, sandbox / "out.hearth", specular); }
+    Status link() { return link::linkPack(sources, sandbox / "out.hearth", specular, bricks); }
 
     PackView linked()
     {
@@ -56,6 +56,7 @@ protected:
     Sandbox sandbox;
     std::vector<link::SourceParts> sources;
     std::vector<std::string> specular;
+    std::string bricks;
 };
 
 template <typename T>
@@ -182,6 +183,41 @@ TEST_F(LinkPack, takesOneTableOfSpecularOcclusion)
 
     specular = {sandbox / "a.clusters.part"};
     EXPECT_EQ(link().error().issue, Issue::chunk_missing);
+}
+
+TEST_F(LinkPack, takesTheBricksOfAPart)
+{
+    addParts(smallPack(), "a");
+    EXPECT_TRUE(linked().brickGrid().empty()) << "those of an import part are none";
+    writeBricksPart(smallPack(), sandbox / "bricks.part");
+    bricks = sandbox / "bricks.part";
+    const PackView pack = linked();
+    const BrickModel& expected = smallPack().bricks;
+    EXPECT_TRUE(sameBytes(pack.brickGrid(), smallPack().brick_grids));
+    EXPECT_TRUE(sameBytes(pack.brickGroups(), expected.groups));
+    EXPECT_TRUE(sameBytes(pack.bricks(), expected.bricks));
+    EXPECT_TRUE(sameBytes(pack.brickOpacity(), expected.opacity));
+    EXPECT_TRUE(sameBytes(pack.brickAlbedo(), expected.albedo));
+    EXPECT_TRUE(sameBytes(pack.brickNormals(), expected.normals));
+    EXPECT_TRUE(sameBytes(pack.brickEmission(), expected.emission));
+    EXPECT_TRUE(sameBytes(pack.brickLighting(), expected.lighting));
+}
+
+TEST_F(LinkPack, refusesWrongBricksAndNone)
+{
+    addParts(smallPack(), "a");
+    bricks = sandbox / "a.clusters.part";
+    EXPECT_EQ(link().error().issue, Issue::chunk_missing);
+
+    PackModel model = smallPack();
+    model.bricks.opacity[0] = 0;
+    bricks = sandbox / "wrong.part";
+    writeBricksPart(model, bricks);
+    const Status wrong = link();
+    ASSERT_FALSE(wrong.ok());
+    EXPECT_EQ(wrong.error().issue, Issue::meaning_value);
+    EXPECT_EQ(wrong.error().file, bricks);
+    EXPECT_FALSE(sandbox.has("out.hearth"));
 }
 
 TEST_F(LinkPack, refusesAWrongTableOfSpecularOcclusion)

@@ -85,6 +85,15 @@ void writeSpecularPart(const PackModel& pack, const std::string& path)
     writeFile(path, assemble(ContainerKind::part, chunks));
 }
 
+void writeBricksPart(const PackModel& pack, const std::string& path)
+{
+    std::vector<ChunkImage> chunks;
+    for (const ChunkImage& chunk : pack.chunks(true))
+        if (isBrickChunk(chunk.entry.type))
+            chunks.push_back(chunk);
+    writeFile(path, assemble(ContainerKind::part, chunks));
+}
+
 void writePackFile(const PackModel& pack, const std::string& path)
 {
     writeFile(path, pack.bytes());

@@ -16,6 +16,9 @@ void writeParts(const PackModel& pack, const std::string& folder, const std::str
 /// Write a part with the specular tables of `pack`.
 void writeSpecularPart(const PackModel& pack, const std::string& path);
 
+/// Write a part with the bricks of `pack`.
+void writeBricksPart(const PackModel& pack, const std::string& path);
+
 /// A META text as hearth-import writes it, of an asset called `name`.
 std::string importMeta(const std::string& name);
 

@@ -48,15 +48,15 @@ void addLamp(Lighting& lighting, Float3 position, Float3 candela, float range = 
     lamp.range = range;
 }
 
-struct FacePlace
+struct LitFace
 {
     uint32_t x, y, z, side, face;
 };
 
 /// All faces whose middle lies in the box, in voxels.
-std::vector<FacePlace> facesIn(const BrickTables& tables, Float3 low, Float3 high)
+std::vector<LitFace> facesIn(const BrickTables& tables, Float3 low, Float3 high)
 {
-    std::vector<FacePlace> faces;
+    std::vector<LitFace> faces;
     for (uint32_t z = 0; z < tables.grid.voxels[2]; ++z)
         for (uint32_t y = 0; y < tables.grid.voxels[1]; ++y)
             for (uint32_t x = 0; x < tables.grid.voxels[0]; ++x)
@@ -74,7 +74,7 @@ std::vector<FacePlace> facesIn(const BrickTables& tables, Float3 low, Float3 hig
 struct Room
 {
     BrickTables tables;
-    std::vector<FacePlace> inner;
+    std::vector<LitFace> inner;
 
     Room(std::array<uint32_t, 3> inside, const Voxel& wall, float voxel_size = 1)
     {
@@ -131,7 +131,7 @@ TEST_P(Furnace, goesToEmissionOverOneLessAlbedo)
         const float exact = decodeAlbedo(encodeAlbedo({albedo, albedo, albedo})).x;
         const Float3 expected = decodeRadiance(encodeRadiance(emission)) / (1 - exact);
         const std::vector<uint32_t> codes = lighting.codes();
-        for (const FacePlace& place : room.inner)
+        for (const LitFace& place : room.inner)
         {
             expectRelative(radianceOf(lighting, place.face), expected, 2e-3f);
             // what others read is off by half of a step besides: 1/128, of blue 1/64
@@ -188,7 +188,7 @@ TEST(BrickLight, doesNotDriftInHue)
     FaceLighting lighting(view);
     lighting.sweep(darkness(), 16, 64);
     const Float3 emission = decodeRadiance(tables.emission[0]);
-    for (const FacePlace& place : room.inner)
+    for (const LitFace& place : room.inner)
     {
         const Float3 light = radianceOf(lighting, place.face);
         EXPECT_NEAR(light.z / light.x, emission.z / emission.x, 1e-3f);
@@ -225,7 +225,7 @@ TEST(FaceLighting, aSealedRoomIsExactlyDark)
         for (const BrickLight& face : lighting.faces())
             outer = std::max(outer, largest(decodeBrickLight(face)));
         EXPECT_GT(outer, 1) << "the light is on";
-        for (const FacePlace& place : room.inner)
+        for (const LitFace& place : room.inner)
         {
             EXPECT_EQ(lighting.faces()[place.face].code, 0u);
             EXPECT_EQ(lighting.faces()[place.face].rest, 0u);
@@ -260,7 +260,7 @@ TEST_P(Decay, isBelowOneHundredthInTheStatedFrames)
     const auto brightest = [&]
     {
         float most = 0;
-        for (const FacePlace& place : room.inner)
+        for (const LitFace& place : room.inner)
             most = std::max(most, largest(radianceOf(lighting, place.face)));
         return most;
     };
@@ -309,7 +309,7 @@ TEST(FaceLighting, sunOnAPlaneIsItsCosine)
     addSun(sun, {0.3f, -0.8f, 0.4f}, {3, 2, 1});
     lighting.sweep(sun, 4, 1);
     const float cosine = -sun.lights[0].direction.y;
-    for (const FacePlace& place : facesIn(tables, {0, 1, 0}, {20, 2, 20}))
+    for (const LitFace& place : facesIn(tables, {0, 1, 0}, {20, 2, 20}))
         expectRelative(radianceOf(lighting, place.face), Float3{3, 2, 1} * (albedo * cosine / kPi), 1e-3f);
 }
 
@@ -345,7 +345,7 @@ TEST(FaceLighting, aLampOverAPlaneFollowsTheInverseSquare)
     addLamp(lit, lamp, {5, 5, 5}, 6);
     lighting.sweep(lit, 4, 1);
     uint32_t shadowed = 0;
-    for (const FacePlace& place : facesIn(tables, {0, 1, 0}, {32, 2, 32}))
+    for (const LitFace& place : facesIn(tables, {0, 1, 0}, {32, 2, 32}))
     {
         const Float3 middle = brickFaceMiddle(place.x, place.y, place.z, place.side) * kSize;
         const float d = length(lamp - middle);

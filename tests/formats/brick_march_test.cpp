@@ -526,8 +526,8 @@ TEST(BrickMarch, measuresInMetresFromTheGridsOrigin)
     EXPECT_EQ(cellOf(found), (Cell{17, 10, 8}));
     EXPECT_EQ(found.face, 0u);
     EXPECT_EQ(brickDistance(model.masks().grid, found), 2 + 17 * 0.5f);
-    EXPECT_TRUE(marchIn(model, {-10, 105, 8}, {1, 0, 0}, 10.5f).inside);
-    EXPECT_FALSE(marchIn(model, {-10, 105, 8}, {1, 0, 0}, 10.49f).inside);
+    EXPECT_TRUE(marchIn(model, {-10, 105, 8}, {1, 0, 0}, 10.51f).inside);
+    EXPECT_FALSE(marchIn(model, {-10, 105, 8}, {1, 0, 0}, 10.5f).inside);
 }
 
 TEST(BrickMarch, takesAFaceForWhatLiesBehindIt)

@@ -124,7 +124,8 @@ void useBricks(const PackView& view)
     const Float3 end{static_cast<float>(masks.grid.voxels_x), static_cast<float>(masks.grid.voxels_y),
                      static_cast<float>(masks.grid.voxels_z)};
     const float size = length(end);
-    for (const Float3 corner : {Float3{0, 0, 0}, Float3{end.x, 0, 0}, Float3{0, end.y, 0}, Float3{0, 0, end.z}})
+    for (const Float3 corner :
+         {Float3{0, 0, 0}, Float3{end.x, 0, 0}, Float3{0, end.y, 0}, Float3{0, 0, end.z}})
     {
         const Float3 way = (end - corner * 2) / size;
         shared::BrickRay ray = shared::brickRayInVoxels(masks.grid, corner, way, shared::kBrickFar);
