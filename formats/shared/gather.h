@@ -1,16 +1,16 @@
 // Light that is gathered for the picture: once for each tile of 8 x 8 pixels, at one of its points. What the passes that
 // find the points, gather and shade agree on, written once for C++ and GLSL. See runtime/gpu/README.md, "The light of bricks".
-//
-// The light that falls on a point is kept as cosine-weighted moments of the radiance over the hemisphere of its normal n:
-// the mean m0, which is irradiance / pi, and the mean of radiance times direction, of which the part across n is m1. For
-// radiance that is linear in the direction, L0 + dot(L1, d), the part of L1 across n is 4 m1, so that irradiance / pi at
-// another normal is m0 + 8 / 3 dot(m1, normal), and the radiance itself m0 + 4 dot(m1, d) (the part of L1 along n is taken
-// for none: what it does at n itself is in m0).
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #ifndef HEARTH_SHARED_GATHER_H
 #define HEARTH_SHARED_GATHER_H
 
 #include "formats/shared/language.h"
+
+// The light that falls on a point is kept as cosine-weighted moments of the radiance over the hemisphere of its normal n:
+// the mean m0, which is irradiance / pi, and the mean of radiance times direction, of which the part across n is m1. For
+// radiance that is linear in the direction, L0 + dot(L1, d), the part of L1 across n is 4 m1, so that irradiance / pi at
+// another normal is m0 + 8 / 3 dot(m1, normal), and the radiance itself m0 + 4 dot(m1, d) (the part of L1 along n is taken
+// for none: what it does at n itself is in m0).
 
 HEARTH_SHARED_BEGIN
 

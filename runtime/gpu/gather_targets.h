@@ -9,7 +9,7 @@
 namespace hearth::gpu
 {
 
-/// Of FrameTargets: 4.5 bytes a pixel.
+/// Of FrameTargets: 3.5 bytes a pixel.
 class GatherTargets
 {
 public:
@@ -23,7 +23,7 @@ public:
     VkExtent2D tiles() const { return tiles_; }
     const Image& texels() const { return texels_; }
     const Buffer& view() const { return view_; } ///< shared::GatherView
-    /// shared::GatherPoint for each tile, rows from top to bottom: of this frame, with what recordable frames leave.
+    /// shared::GatherPoint for each tile, rows from top to bottom: of the last frame.
     const Buffer& points() const { return points_[current_]; }
     VkDescriptorSet pointSet() const { return point_sets_[current_]; }
     VkDescriptorSet gatherSet() const { return gather_sets_[current_]; }

@@ -220,7 +220,7 @@ TEST_F(BrickLightTest, lightsFacesLikeTheSolver)
     for (size_t i = 0; i < gpu_faces.size(); ++i)
     {
         const Float3 ours = decodeBrickLight(gpu_faces[i]), its = decodeBrickLight(solver.faces()[i]);
-        alike += gpu_faces[i].code == solver.faces()[i].code ? 1 : 0;
+        alike += gpu_faces[i].code == solver.faces()[i].code ? 1u : 0u;
         for (int c = 0; c < 3; ++c)
         {
             most = std::max(most, std::abs(ours[c] - its[c]) / std::max(its[c], 0.05f));

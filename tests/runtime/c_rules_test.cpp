@@ -168,7 +168,7 @@ TEST_F(CApiTest, otherVersionsAreRefused)
         description.api_version = version;
         EXPECT_EQ(hearth_renderer_create(&description, &renderer, message_, sizeof(message_)),
                   HEARTH_ERROR_USAGE);
-        EXPECT_THAT(message_, HasSubstr("the library is 1.3"));
+        EXPECT_THAT(message_, HasSubstr("the library is 1.4"));
     }
     description = c_caller_description(caller_);
     description.features = 1u << 31;
@@ -193,6 +193,9 @@ TEST_F(CFrameRulesTest, framesThatBreakRulesAreRefused)
     ASSERT_EQ(upload(HEARTH_SCENE_OPTIONS_INIT), HEARTH_OK) << hearth_last_error(renderer_);
     const hearth_lod_knot torn[] = {{1, 1}, {2, 4}};
     const hearth_shadow_sphere flat{.center = {0, 0, 0}, .radius = 0, .light = 0, .texels = 0};
+    hearth_light_change no_light{};
+    no_light.light = 1000;
+    const hearth_emission_scale negative{.box_min = {0, 0, 0}, .box_max = {1, 1, 1}, .factor = -1};
     const hearth_move nowhere{1000, {}};
     const auto refused = [&](const auto& change)
     {
@@ -208,7 +211,9 @@ TEST_F(CFrameRulesTest, framesThatBreakRulesAreRefused)
     EXPECT_THAT(refused([](F& f) { f.error_pixels = -1; }), HasSubstr("error_pixels"));
     EXPECT_THAT(refused([](F& f) { f.depth_scale = kNan; }), HasSubstr("depth_scale"));
     EXPECT_THAT(refused([](F& f) { f.cull_flags = 16; }), HasSubstr("cull_flags"));
-    EXPECT_THAT(refused([](F& f) { f.shown = 16; }), HasSubstr("shown"));
+    EXPECT_THAT(refused([](F& f) { f.shown = 19; }), HasSubstr("shown"));
+    EXPECT_THAT(refused([](F& f) { f.shown = HEARTH_SHOW_GATHERED; }), HasSubstr("has bricks"));
+    EXPECT_THAT(refused([](F& f) { f.constant_sky = 2; }), HasSubstr("constant_sky"));
     EXPECT_THAT(refused([](F& f) { f.ambient_occlusion = 4; }), HasSubstr("ambient_occlusion"));
     EXPECT_THAT(refused([](F& f) { f.specular_occlusion = 3; }), HasSubstr("specular_occlusion"));
     EXPECT_THAT(refused([](F& f) { f.shown = HEARTH_SHOW_SHADOW_MAPS; }), HasSubstr("with shadows"));
@@ -216,6 +221,12 @@ TEST_F(CFrameRulesTest, framesThatBreakRulesAreRefused)
     EXPECT_THAT(refused([](F& f) { f.move_count = 1; }), HasSubstr("moves is NULL"));
     EXPECT_THAT(refused([](F& f) { f.pose_count = 1; }), HasSubstr("poses is NULL"));
     EXPECT_THAT(refused([](F& f) { f.shadow_sphere_count = 1; }), HasSubstr("shadow_spheres is NULL"));
+    EXPECT_THAT(refused([](F& f) { f.light_count = 1; }), HasSubstr("lights is NULL"));
+    EXPECT_THAT(refused([&](F& f) { f.lights = &no_light, f.light_count = 1; }), HasSubstr("light 1000"));
+    EXPECT_THAT(refused([](F& f) { f.emission_count = 1; }), HasSubstr("emissions is NULL"));
+    EXPECT_THAT(refused([&](F& f) { f.emissions = &negative, f.emission_count = 1; }),
+                HasSubstr("emission 0"));
+    EXPECT_THAT(refused([&](F& f) { f.emissions = &negative, f.emission_count = 9; }), HasSubstr("above 8"));
     EXPECT_THAT(refused([&](F& f) { f.shadow_spheres = &flat, f.shadow_sphere_count = 1; }),
                 HasSubstr("shadow sphere 0"));
     EXPECT_THAT(refused([](F& f) { f.lod_knot_count = 1; }), HasSubstr("lod_knots is NULL"));
