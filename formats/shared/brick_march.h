@@ -5,15 +5,6 @@
 //     BrickRay ray = brickMarch(bricks, brickRay(grid, origin, direction, far));
 //     while (ray.inside)             // in a solid voxel: ray.brick, ray.bit, entered by ray.face after brickDistance(...)
 //         ray = brickMarch(bricks, brickPass(bricks, ray));
-//
-// A ray is a voxel and the place along the ray where it enters it. It moves on by leaving a cell of 1, 4 or 16 voxels across
-// the nearest of the three planes that it heads for: that coordinate of the voxel becomes the plane's other side, and the
-// other two are found from the place along the ray and kept between where they were and the cell's far side. So each step
-// moves one coordinate on at least, none ever moves back, and no two voxels with a common edge let a ray through between
-// them: there are at most as many steps as voxels that the ray crosses, whatever the rounding.
-//
-// A ray along a face belongs to the voxel above it, in x, y or z; one that starts on a face and heads into the voxel enters
-// it by that face, one that heads away does not meet it.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #ifndef HEARTH_SHARED_BRICK_MARCH_H
 #define HEARTH_SHARED_BRICK_MARCH_H
@@ -23,6 +14,15 @@
 #ifdef __cplusplus
 #include <span>
 #endif
+
+// A ray is a voxel and the place along the ray where it enters it. It moves on by leaving a cell of 1, 4 or 16 voxels across
+// the nearest of the three planes that it heads for: that coordinate of the voxel becomes the plane's other side. The other
+// two wait until something smaller is looked at; then they are found from the place along the ray and kept between where they
+// were and the cell's far side. So each step moves one coordinate on, none ever moves back, and no two voxels with a common
+// edge let a ray through between them: there are at most as many steps as voxels that the ray crosses, whatever the rounding.
+//
+// A ray along a face belongs to the voxel above it, in x, y or z; one that starts on a face and heads into the voxel enters
+// it by that face, one that heads away does not meet it.
 
 HEARTH_SHARED_BEGIN
 
@@ -69,7 +69,7 @@ struct BrickRay
     Float3 start;     ///< in the grid's box: its origin, or where it enters the box
     float start_t;    ///< how far that is from its origin
     Float3 direction; ///< of length 1, 0 along axes that it does not move along
-    float end;        ///< how far it goes from `start`
+    float end;        ///< how far it goes from `start`: to the end of the grid at most
     Float3 inverse;   ///< 1 / direction
     float t;          ///< where it enters the voxel, from `start`
     int x;            ///< the voxel
@@ -125,29 +125,37 @@ HEARTH_FUNCTION BrickRay brickRayInVoxels(HEARTH_IN(BrickGrid) grid, Float3 orig
     HEARTH_PRECISE float in_x = ((up_x ? 0.0f : most.x) - origin.x) * ray.inverse.x;
     HEARTH_PRECISE float in_y = ((up_y ? 0.0f : most.y) - origin.y) * ray.inverse.y;
     HEARTH_PRECISE float in_z = ((up_z ? 0.0f : most.z) - origin.z) * ray.inverse.z;
-    HEARTH_PRECISE float out_x = ((up_x ? most.x : 0.0f) - origin.x) * ray.inverse.x;
-    HEARTH_PRECISE float out_y = ((up_y ? most.y : 0.0f) - origin.y) * ray.inverse.y;
-    HEARTH_PRECISE float out_z = ((up_z ? most.z : 0.0f) - origin.z) * ray.inverse.z;
     float enter = max(max(in_x, in_y), max(in_z, 0.0f));
-    float leave = min(min(out_x, out_y), min(out_z, far));
-
-    HEARTH_PRECISE float start_x = min(max(origin.x + enter * ray.direction.x, 0.0f), most.x);
-    HEARTH_PRECISE float start_y = min(max(origin.y + enter * ray.direction.y, 0.0f), most.y);
-    HEARTH_PRECISE float start_z = min(max(origin.z + enter * ray.direction.z, 0.0f), most.z);
-    // the planes of the box that it enters through exactly
-    start_x = enter > 0.0f && in_x == enter ? (up_x ? 0.0f : most.x) : start_x;
-    start_y = enter > 0.0f && in_y == enter ? (up_y ? 0.0f : most.y) : start_y;
-    start_z = enter > 0.0f && in_z == enter ? (up_z ? 0.0f : most.z) : start_z;
+    float start_x = origin.x;
+    float start_y = origin.y;
+    float start_z = origin.z;
+    if (enter > 0.0f)
+    {
+        HEARTH_PRECISE float at_x = origin.x + enter * ray.direction.x;
+        HEARTH_PRECISE float at_y = origin.y + enter * ray.direction.y;
+        HEARTH_PRECISE float at_z = origin.z + enter * ray.direction.z;
+        // on the planes of the box that it enters through exactly
+        start_x = in_x < enter ? at_x : up_x ? 0.0f : most.x;
+        start_y = in_y < enter ? at_y : up_y ? 0.0f : most.y;
+        start_z = in_z < enter ? at_z : up_z ? 0.0f : most.z;
+    }
+    start_x = min(max(start_x, 0.0f), most.x);
+    start_y = min(max(start_y, 0.0f), most.y);
+    start_z = min(max(start_z, 0.0f), most.z);
     ray.start = Float3(start_x, start_y, start_z);
     ray.start_t = enter;
+    // by the same arithmetic as the planes of voxels: who is nearer than this has left the box nowhere. A ray that misses it
+    // stands now on a plane that it leaves through
+    HEARTH_PRECISE float end_x = ((up_x ? most.x : 0.0f) - start_x) * ray.inverse.x;
+    HEARTH_PRECISE float end_y = ((up_y ? most.y : 0.0f) - start_y) * ray.inverse.y;
+    HEARTH_PRECISE float end_z = ((up_z ? most.z : 0.0f) - start_z) * ray.inverse.z;
     HEARTH_PRECISE float rest = far - enter;
-    ray.end = rest;
+    ray.end = min(min(end_x, end_y), min(end_z, rest));
     ray.t = 0.0f;
-    // false where anything is not a number, too
-    ray.inside = leave > enter ? 1u : 0u;
-    ray.x = ray.inside != 0u ? brickVoxelAt(start_x, ray.inverse.x, grid.voxels_x) : 0;
-    ray.y = ray.inside != 0u ? brickVoxelAt(start_y, ray.inverse.y, grid.voxels_y) : 0;
-    ray.z = ray.inside != 0u ? brickVoxelAt(start_z, ray.inverse.z, grid.voxels_z) : 0;
+    ray.inside = ray.end > 0.0f ? 1u : 0u;
+    ray.x = brickVoxelAt(start_x, ray.inverse.x, grid.voxels_x);
+    ray.y = brickVoxelAt(start_y, ray.inverse.y, grid.voxels_y);
+    ray.z = brickVoxelAt(start_z, ray.inverse.z, grid.voxels_z);
     ray.face = kNoFace;
     // from outside, the box's plane alone: that another is met as well may be rounding
     if ((enter == 0.0f || in_z == enter) && brickEnters(start_z, ray.direction.z, ray.z))
@@ -179,44 +187,57 @@ HEARTH_FUNCTION float brickDistance(HEARTH_IN(BrickGrid) grid, HEARTH_IN(BrickRa
     return t;
 }
 
-/// A coordinate after a step that did not cross this axis's plane. base, edge  of the cell that was left, in voxels
-HEARTH_FUNCTION int brickAside(int voxel, int base, int edge, float place, float inverse)
+/// Leave the cell of `edge` voxels each way (1, 4 or 16) that the voxel lies in. Only the coordinate that is crossed is set;
+/// the others stay where they were in the cell: brickCatchUp moves them.
+HEARTH_FUNCTION BrickRay brickLeave(BrickRay ray, int edge)
 {
+    int up_x = ray.inverse.x > 0.0f ? -1 : 0;
+    int up_y = ray.inverse.y > 0.0f ? -1 : 0;
+    int up_z = ray.inverse.z > 0.0f ? -1 : 0;
+    int plane_x = (ray.x & -edge) + (edge & up_x);
+    int plane_y = (ray.y & -edge) + (edge & up_y);
+    int plane_z = (ray.z & -edge) + (edge & up_z);
+    HEARTH_PRECISE float t_x = (float(plane_x) - ray.start.x) * ray.inverse.x;
+    HEARTH_PRECISE float t_y = (float(plane_y) - ray.start.y) * ray.inverse.y;
+    HEARTH_PRECISE float t_z = (float(plane_z) - ray.start.z) * ray.inverse.z;
+    float t = min(t_x, min(t_y, t_z));
+    bool over_x = t_x <= t;
+    bool over_y = !over_x && t_y <= t;
+    bool over_z = !(over_x || over_y);
+    ray.x = over_x ? plane_x + ~up_x : ray.x;
+    ray.y = over_y ? plane_y + ~up_y : ray.y;
+    ray.z = over_z ? plane_z + ~up_z : ray.z;
+    ray.face = over_x ? uint(1 + up_x) : over_y ? uint(3 + up_y) : uint(5 + up_z);
+    // rounding may put a plane a little before where the ray is
+    ray.t = max(ray.t, t);
+    ++ray.steps;
+    ray.inside = ray.t < ray.end ? 1u : 0u;
+    return ray;
+}
+
+/// A coordinate that may have moved on inside its cell of `edge` voxels, to `place`.
+HEARTH_FUNCTION int brickReached(int voxel, int edge, float place, float inverse)
+{
+    int base = voxel & -edge;
     int least = inverse > 0.0f ? voxel : base;
     int most = inverse > 0.0f ? base + edge - 1 : voxel;
     int reached = int(place);
     return reached < least ? least : reached > most ? most : reached;
 }
 
-/// Leave the cell of `edge` voxels each way (1, 4 or 16) that the voxel lies in.
-HEARTH_FUNCTION BrickRay brickLeave(HEARTH_IN(BrickGrid) grid, BrickRay ray, int edge)
+/// The ray in the voxel where it enters its cell of `edge` voxels each way.
+HEARTH_FUNCTION BrickRay brickCatchUp(BrickRay ray, int edge)
 {
-    int base_x = ray.x & -edge;
-    int base_y = ray.y & -edge;
-    int base_z = ray.z & -edge;
-    bool up_x = ray.inverse.x > 0.0f;
-    bool up_y = ray.inverse.y > 0.0f;
-    bool up_z = ray.inverse.z > 0.0f;
-    HEARTH_PRECISE float t_x = (float(up_x ? base_x + edge : base_x) - ray.start.x) * ray.inverse.x;
-    HEARTH_PRECISE float t_y = (float(up_y ? base_y + edge : base_y) - ray.start.y) * ray.inverse.y;
-    HEARTH_PRECISE float t_z = (float(up_z ? base_z + edge : base_z) - ray.start.z) * ray.inverse.z;
-    bool over_x = t_x <= t_y && t_x <= t_z;
-    bool over_y = !over_x && t_y <= t_z;
-    // rounding may put a plane a little before where the ray is
-    ray.t = max(ray.t, over_x ? t_x : over_y ? t_y : t_z);
     HEARTH_PRECISE float place_x = ray.start.x + ray.t * ray.direction.x;
     HEARTH_PRECISE float place_y = ray.start.y + ray.t * ray.direction.y;
     HEARTH_PRECISE float place_z = ray.start.z + ray.t * ray.direction.z;
-    int aside_x = brickAside(ray.x, base_x, edge, place_x, ray.inverse.x);
-    int aside_y = brickAside(ray.y, base_y, edge, place_y, ray.inverse.y);
-    int aside_z = brickAside(ray.z, base_z, edge, place_z, ray.inverse.z);
-    ray.x = !over_x ? aside_x : up_x ? base_x + edge : base_x - 1;
-    ray.y = !over_y ? aside_y : up_y ? base_y + edge : base_y - 1;
-    ray.z = over_x || over_y ? aside_z : up_z ? base_z + edge : base_z - 1;
-    ray.face = over_x ? (up_x ? 0u : 1u) : over_y ? (up_y ? 2u : 3u) : (up_z ? 4u : 5u);
-    ++ray.steps;
-    bool within = uint(ray.x) < grid.voxels_x && uint(ray.y) < grid.voxels_y && uint(ray.z) < grid.voxels_z;
-    ray.inside = within && ray.t <= ray.end ? 1u : 0u;
+    // not along the axis that was crossed: there the voxel is known
+    if (ray.face > 1u)
+        ray.x = brickReached(ray.x, edge, place_x, ray.inverse.x);
+    if (ray.face < 2u || ray.face > 3u)
+        ray.y = brickReached(ray.y, edge, place_y, ray.inverse.y);
+    if (ray.face < 4u)
+        ray.z = brickReached(ray.z, edge, place_z, ray.inverse.z);
     return ray;
 }
 
@@ -226,38 +247,59 @@ HEARTH_FUNCTION BrickRay brickMarch(HEARTH_IN(BrickMasks) masks, BrickRay ray)
 {
     BrickGrid grid = brickGridOf(masks);
     uint groups_x = brickGroups(grid.voxels_x);
-    uint groups_y = brickGroups(grid.voxels_y);
+    uint groups_xy = groups_x * brickGroups(grid.voxels_y);
+    int known =
+        1; // edge of the cell that the ray's voxel is known to lie in: its place there may be an old one
     while (ray.inside != 0u)
     {
+        BrickGroup group = brickGroupAt(masks, uint(ray.x >> 4) + groups_x * uint(ray.y >> 4) +
+                                                   groups_xy * uint(ray.z >> 4));
+        if ((group.brick_mask_low | group.brick_mask_high) == 0u)
+        {
+            known = 16;
+            ray = brickLeave(ray, 16);
+            continue;
+        }
+        if (known == 16)
+        {
+            known = 1;
+            ray = brickCatchUp(ray, 16);
+        }
+        uint brick_bit = brickBit(uint(ray.x >> 2), uint(ray.y >> 2), uint(ray.z >> 2));
+        if (!maskHas(group.brick_mask_low, group.brick_mask_high, brick_bit))
+        {
+            known = 4;
+            ray = brickLeave(ray, 4);
+            continue;
+        }
+        if (known == 4)
+        {
+            known = 1;
+            ray = brickCatchUp(ray, 4);
+        }
+        ray.brick =
+            group.first_brick + maskCountBelow(group.brick_mask_low, group.brick_mask_high, brick_bit);
+        Brick brick = brickAt(masks, ray.brick);
+        uint low = brick.voxel_mask_low;
+        uint high = brick.voxel_mask_high;
         uint x = uint(ray.x);
         uint y = uint(ray.y);
         uint z = uint(ray.z);
-        int edge = 16;
-        BrickGroup group = brickGroupAt(masks, (x >> 4) + groups_x * ((y >> 4) + groups_y * (z >> 4)));
-        if ((group.brick_mask_low | group.brick_mask_high) != 0u)
+        while (ray.inside != 0u && ((uint(ray.x) ^ x) | (uint(ray.y) ^ y) | (uint(ray.z) ^ z)) < 4u)
         {
-            edge = 4;
-            uint brick_bit = brickBit(x >> 2, y >> 2, z >> 2);
-            if (maskHas(group.brick_mask_low, group.brick_mask_high, brick_bit))
-            {
-                edge = 1;
-                ray.brick = group.first_brick +
-                            maskCountBelow(group.brick_mask_low, group.brick_mask_high, brick_bit);
-                ray.bit = brickBit(x, y, z);
-                Brick brick = brickAt(masks, ray.brick);
-                if (maskHas(brick.voxel_mask_low, brick.voxel_mask_high, ray.bit))
-                    return ray;
-            }
+            ray.bit = brickBit(uint(ray.x), uint(ray.y), uint(ray.z));
+            if (maskHas(low, high, ray.bit))
+                return ray;
+            ray = brickLeave(ray, 1);
         }
-        ray = brickLeave(grid, ray, edge);
     }
     return ray;
 }
 
 /// The ray in the voxel after its own: how light goes on through one that is not opaque.
-HEARTH_FUNCTION BrickRay brickPass(HEARTH_IN(BrickMasks) masks, BrickRay ray)
+HEARTH_FUNCTION BrickRay brickPass(HEARTH_IN(BrickMasks), BrickRay ray)
 {
-    return brickLeave(brickGridOf(masks), ray, 1);
+    return brickLeave(ray, 1);
 }
 
 HEARTH_SHARED_END
