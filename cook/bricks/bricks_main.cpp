@@ -1,6 +1,6 @@
 // hearth-bricks: makes the bricks of one or more sources, and marches rays through what it made.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "cook/bricks/grid_part.h"
+#include "cook/bricks/bake.h"
 #include "cook/bricks/march_rows.h"
 #include "cook/tools/open_part.h"
 #include "cook/tools/whole_file.h"
@@ -29,6 +29,7 @@ struct Arguments
     std::vector<double> min, max;
     std::vector<std::vector<double>> seeds;
     GridSettings settings;
+    std::optional<uint32_t> bounces; ///< none: no light is baked
     size_t jobs = 0;
 };
 
@@ -71,7 +72,9 @@ Status cook(const Arguments& arguments)
 {
     HEARTH_ASSIGN_OR_RETURN(const std::vector<SourceParts> sources, openSources(arguments.parts));
     HEARTH_ASSIGN_OR_RETURN(const StaticScene scene, staticScene(sources));
-    HEARTH_ASSIGN_OR_RETURN(const CookedGrid grid, cookGrid(scene, arguments.settings));
+    HEARTH_ASSIGN_OR_RETURN(CookedGrid grid, cookGrid(scene, arguments.settings));
+    if (arguments.bounces)
+        HEARTH_TRY(bakeLight(scene, {.bounces = *arguments.bounces}, grid));
     HEARTH_TRY(writeGridPart(arguments.output, grid));
     warn(grid.statistics, arguments.output);
     if (arguments.statistics.empty())
@@ -133,6 +136,12 @@ void addOptions(CLI::App& app, Arguments& arguments)
     app.add_option("--error", arguments.settings.error_share,
                    "how far clusters may be off, in voxels; 0.25 by default, 0: the finest triangles")
         ->check(CLI::Range(0.0, 16.0).description(""));
+    app.add_option(
+           "--bake", arguments.bounces,
+           "light the faces by the scene's lights with so many bounces, as the start value; else they "
+           "start dark, but for what shines")
+        ->check(CLI::Range(0, 64).description(""))
+        ->type_name("BOUNCES");
     app.add_option("--stats", arguments.statistics,
                    "write what became of the scene as JSON, and print the memory; - is standard output");
     app.add_option("-j,--jobs", arguments.jobs, "threads to use; the result does not depend on it");

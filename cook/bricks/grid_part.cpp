@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/bricks/grid_part.h"
+#include "cook/bricks/side_mix.h"
 
 #include "cook/bricks/opacity.h"
 
@@ -65,6 +66,7 @@ Result<std::optional<CookedGrid>> cookAt(const StaticScene& scene, const GridSet
         Voxelised voxelised,
         voxelise(scene, clustersOfCut(scene, static_cast<float>(error)), frame, foci, settings.memory));
     hideSheets(voxelised.grid);
+    mixSides(voxelised.grid);
     const double voxelise_seconds = secondsSince(start);
 
     start = std::chrono::steady_clock::now();

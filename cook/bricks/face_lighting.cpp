@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/bricks/face_lighting.h"
+
+#include "formats/assert.h"
+
+#include <algorithm>
+#include <cmath>
+#include <tbb/parallel_for.h>
+
+namespace hearth::bricks
+{
+
+using namespace shared;
+
+FaceLighting::FaceLighting(const BrickView& bricks)
+    : bricks_(bricks), places_(facePlaces(bricks.masks)), next_(places_.size())
+{
+    HEARTH_ASSERT(places_.size() == bricks.lighting.size());
+    faces_.reserve(bricks.lighting.size());
+    for (const uint32_t code : bricks.lighting)
+        faces_.push_back({code, 0});
+}
+
+void FaceLighting::light(const Lighting& lighting, const FrameShare& share)
+{
+    HEARTH_ASSERT(share.period > 0 && share.rays > 0);
+    const std::span<const Brick> bricks = bricks_.masks.bricks;
+    const auto brick_count = static_cast<uint32_t>(bricks.size());
+    const auto firstFace = [&](uint32_t brick)
+    { return brick < brick_count ? size_t{bricks[brick].first_face} : faces_.size(); };
+    const size_t first = firstFace(brickSliceBegin(brick_count, frame_, share.period));
+    const size_t end = firstFace(brickSliceEnd(brick_count, frame_, share.period));
+    ++frame_;
+    tbb::parallel_for(first, end,
+                      [&](size_t face) { next_[face] = encodeBrickLight(lit(lighting, share.rays, face)); });
+    std::copy(next_.begin() + static_cast<ptrdiff_t>(first), next_.begin() + static_cast<ptrdiff_t>(end),
+              faces_.begin() + static_cast<ptrdiff_t>(first));
+}
+
+void FaceLighting::sweep(const Lighting& lighting, uint32_t rays, uint32_t sweeps)
+{
+    for (uint32_t i = 0; i < sweeps; ++i)
+        light(lighting, {.period = 1, .rays = rays});
+}
+
+std::vector<uint32_t> FaceLighting::codes() const
+{
+    std::vector<uint32_t> codes;
+    codes.reserve(faces_.size());
+    for (const BrickLight& face : faces_)
+        codes.push_back(face.code);
+    return codes;
+}
+
+Float3 FaceLighting::lit(const Lighting& lighting, uint32_t rays, size_t face) const
+{
+    const auto [x, y, z, side] = places_[face];
+    const BrickScene scene = this->scene();
+    const BrickStart start = brickFaceStart(scene, x, y, z, side, decodeFaceNormal(bricks_.normals[face]));
+    const Float3 middle = brickFaceMiddle(x, y, z, side);
+    const BrickSky sky{lighting.sky_zenith, lighting.sky_horizon, lighting.sky_ground};
+    Float3 arrived = brickGather(scene, sky, start, rays, brickFaceSeed(x, y, z, side));
+    for (uint32_t i = 0; i < lighting.light_count; ++i)
+        arrived += brickDirect(scene, start, middle, lighting.lights[i]);
+    return brickSentOut(decodeRadiance(bricks_.emission[face]), decodeAlbedo(bricks_.albedo[face]), arrived);
+}
+
+uint32_t sweepsToForget(float most_albedo, float share)
+{
+    const double kept = double{std::min(most_albedo, kBrickMostAlbedo)} * 1.0001;
+    return std::max(1u, static_cast<uint32_t>(std::ceil(std::log(double{share}) / std::log(kept))));
+}
+
+} // namespace hearth::bricks

@@ -1,0 +1,65 @@
+// How far the light that is gathered from bricks is from the truth, over points of a scene's surfaces.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "cook/bricks/brick_tables.h"
+#include "formats/shared/brick_lighting.h"
+#include "tests/reference/irradiance.h"
+
+#include <vector>
+
+namespace hearth::bench
+{
+
+/// A point of a surface, and the light that truly arrives there.
+struct LitPoint
+{
+    reference::ShadedPoint point;
+    reference::SurfaceLight truth;
+    bool near_lamp =
+        false; ///< within kNearLamp of a lamp, or of a surface that shines and is seen from there
+};
+
+/// Metres.
+inline constexpr double kNearLamp = 0.15;
+
+/// Points that are seen from the scene's cameras in all directions; where it has none, from straight above, but for the rim.
+std::vector<reference::ShadedPoint> seenPoints(const reference::ShadedScene& scene,
+                                               const formats::PackView& pack, uint32_t count);
+
+std::vector<LitPoint> litPoints(const reference::ShadedScene& scene,
+                                const std::vector<reference::ShadedPoint>& points, uint32_t paths);
+
+/// The lights and the sky of the reference, as shaders take them.
+shared::Lighting sharedLighting(const reference::SceneLighting& lighting);
+
+/// Light of bricks that has converged, and what arrives from it.
+class BrickGather
+{
+public:
+    /// rays  of each face
+    BrickGather(const bricks::BrickTables& tables, const shared::Lighting& lighting, uint32_t rays);
+
+    /// Irradiance over pi of all but the lights. rays  of the point
+    reference::Double3 at(const reference::ShadedPoint& point, uint32_t rays, uint32_t seed) const;
+
+private:
+    bricks::BrickTables tables_;
+    shared::BrickSky sky_;
+    std::vector<shared::BrickLight> faces_;
+};
+
+/// Root mean square of differences over the mean of the truth.
+struct LightError
+{
+    double whole = 0;    ///< over the mean of all light: its direct part has no error
+    double indirect = 0; ///< over that of the indirect part
+    double bias = 0;     ///< mean difference over the mean of the indirect part
+    size_t points = 0;
+};
+
+/// gathered  for each point
+LightError lightError(const std::vector<LitPoint>& points, const std::vector<reference::Double3>& gathered,
+                      bool with_near_lamps);
+
+} // namespace hearth::bench

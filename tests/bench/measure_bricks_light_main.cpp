@@ -1,0 +1,233 @@
+// hearth_measure_bricks_light: holds the light that is gathered from bricks against paths through the real geometry.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/bricks/grid_part.h"
+#include "cook/tools/open_part.h"
+#include "cook/tools/whole_file.h"
+#include "formats/program.h"
+#include "formats/shared/frame.h"
+#include "tests/bench/light_plot.h"
+#include "tests/reference/png_image.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <tbb/parallel_for.h>
+
+namespace
+{
+
+using namespace hearth;
+using namespace hearth::bench;
+using reference::Double3;
+
+constexpr uint32_t kFaceRays = 16;
+
+struct Arguments
+{
+    std::vector<std::string> scenes;
+    std::vector<double> sizes{1, 0.5, 0.2, 0.1, 0.05};
+    uint32_t points = 1000, paths = 1024, gather_rays = 512;
+    std::string plot;
+    double picture_voxel = 0; ///< metres; 0: no pictures
+};
+
+std::string nameOf(const std::string& prefix)
+{
+    return prefix.substr(prefix.find_last_of('/') + 1);
+}
+
+Result<formats::PackView> openPack(const std::string& path)
+{
+    HEARTH_ASSIGN_OR_RETURN(formats::ContainerReader reader, formats::ContainerReader::open(path));
+    return formats::PackView::read(std::move(reader));
+}
+
+Result<bricks::BrickTables> cookBricks(const bricks::StaticScene& scene, double voxel_size)
+{
+    bricks::GridSettings settings;
+    settings.voxel_size = voxel_size;
+    settings.memory = uint64_t{4} << 30;
+    HEARTH_ASSIGN_OR_RETURN(bricks::CookedGrid grid, bricks::cookGrid(scene, settings));
+    return std::move(grid.tables);
+}
+
+double secondsSince(std::chrono::steady_clock::time_point start)
+{
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+Result<LightCurve::Size> measureSize(const bricks::StaticScene& scene, const shared::Lighting& lighting,
+                                     const std::vector<LitPoint>& points, double voxel_size,
+                                     uint32_t gather_rays)
+{
+    const auto start = std::chrono::steady_clock::now();
+    HEARTH_ASSIGN_OR_RETURN(const bricks::BrickTables tables, cookBricks(scene, voxel_size));
+    const BrickGather gather(tables, lighting, kFaceRays);
+    std::vector<Double3> gathered(points.size());
+    tbb::parallel_for(size_t{0}, points.size(),
+                      [&](size_t i)
+                      { gathered[i] = gather.at(points[i].point, gather_rays, static_cast<uint32_t>(i)); });
+    const LightCurve::Size size{voxel_size, lightError(points, gathered, true),
+                                lightError(points, gathered, false)};
+    std::printf("  %5.3f m %9zu faces   %6.1f %% %8.1f %% %+8.1f %%   %6.1f %% of all points   %5.1f s\n",
+                voxel_size, tables.albedo.size(), 100 * size.away.whole, 100 * size.away.indirect,
+                100 * size.away.bias, 100 * size.all.whole, secondsSince(start));
+    return size;
+}
+
+/// What a camera sees: the scene's first, or one above a corner.
+shared::Camera cameraOf(const formats::PackView& pack)
+{
+    shared::Camera camera;
+    if (!pack.cameras().empty())
+    {
+        const formats::CameraRecord& record = pack.cameras()[0];
+        camera.position = transformPoint(record.world_from_camera, {0, 0, 0});
+        camera.target = transformPoint(record.world_from_camera, {0, 0, -1});
+        camera.y_fov_rad = record.y_fov_rad;
+        return camera;
+    }
+    Box3 box;
+    for (const formats::InstanceRecord& instance : pack.instances())
+        for (const Float3 corner :
+             {pack.meshes()[instance.mesh].box_min, pack.meshes()[instance.mesh].box_max})
+            box.add(transformPoint(instance.world_from_object, corner));
+    const Float3 size = box.max - box.min;
+    camera.position = box.center() + Float3{0.25f * size.x, 0.9f * size.y, 0.4f * size.z};
+    camera.target = box.center() - Float3{0, 0.3f * size.y, 0};
+    camera.y_fov_rad = 0.8f;
+    return camera;
+}
+
+/// Irradiance side by side: by paths, by bricks, and their difference, red where bricks have more and blue where less.
+Status writePicture(const reference::ShadedScene& scene, const formats::PackView& pack,
+                    const BrickGather& gather, double mean, const std::string& path)
+{
+    constexpr uint32_t kWidth = 320, kHeight = 214, kPaths = 64, kGatherRays = 64;
+    const shared::Camera camera = cameraOf(pack);
+    const Double3 eye(camera.position), forward = normalize(Double3(camera.target) - eye);
+    const Double3 right = normalize(cross(forward, {0, 1, 0})), up = cross(right, forward);
+    const double slope = std::tan(double{camera.y_fov_rad} / 2);
+    const auto shown = [&](double value)
+    {
+        return static_cast<uint8_t>(
+            std::lround(255 * reference::srgbFromLinear(1 - std::exp(-0.7 * value / mean))));
+    };
+    reference::Picture picture(3 * kWidth, kHeight);
+    const auto drawPixel = [&](uint32_t x, uint32_t y)
+    {
+        const double across = (2 * (x + 0.5) / kWidth - 1) * slope * kWidth / kHeight;
+        const Double3 ray =
+            normalize(forward + right * across + up * ((1 - 2 * (y + 0.5) / kHeight) * slope));
+        const auto point = scene.nearest({eye, ray}, 0);
+        if (!point)
+            return;
+        const uint32_t seed = y * kWidth + x;
+        const reference::SurfaceLight truth = reference::traceSurfaceLight(scene, *point, kPaths, seed);
+        const Double3 all = truth.direct + truth.indirect;
+        const Double3 ours = truth.direct + gather.at(*point, kGatherRays, seed);
+        const double off = (ours.x + ours.y + ours.z - all.x - all.y - all.z) / 3;
+        const Double3 values[] = {all, ours, {std::max(off, 0.0), 0, std::max(-off, 0.0)}};
+        for (uint32_t i = 0; i < 3; ++i)
+        {
+            uint8_t* const pixel = picture.at(size_t{i} * kWidth + x, y);
+            pixel[0] = shown(values[i].x);
+            pixel[1] = shown(values[i].y);
+            pixel[2] = shown(values[i].z);
+        }
+    };
+    tbb::parallel_for(0u, kHeight,
+                      [&](uint32_t y)
+                      {
+                          for (uint32_t x = 0; x < kWidth; ++x)
+                              drawPixel(x, y);
+                      });
+    return reference::writePng(path, picture);
+}
+
+Result<LightCurve> measureScene(const std::string& prefix, const Arguments& arguments)
+{
+    HEARTH_ASSIGN_OR_RETURN(formats::PackView pack, openPack(prefix + ".hearth"));
+    HEARTH_ASSIGN_OR_RETURN(reference::PackGeometry geometry, reference::PackGeometry::decode(pack));
+    HEARTH_ASSIGN_OR_RETURN(reference::TextureSet textures, reference::TextureSet::load(pack));
+    const reference::ShadedScene shaded(geometry, textures, nullptr);
+    HEARTH_ASSIGN_OR_RETURN(formats::PackView import, tools::openPart(prefix + ".import.part"));
+    HEARTH_ASSIGN_OR_RETURN(formats::PackView clusters, tools::openPart(prefix + ".clusters.part"));
+    HEARTH_ASSIGN_OR_RETURN(formats::PackView images, tools::openPart(prefix + ".textures.part"));
+    std::vector<bricks::SourceParts> sources;
+    sources.push_back({std::move(import), std::move(clusters), std::move(images)});
+    HEARTH_ASSIGN_OR_RETURN(const bricks::StaticScene scene, bricks::staticScene(sources));
+
+    const auto start = std::chrono::steady_clock::now();
+    const std::vector<LitPoint> points =
+        litPoints(shaded, seenPoints(shaded, pack, arguments.points), arguments.paths);
+    const auto near_lamps =
+        std::count_if(points.begin(), points.end(), [](const LitPoint& p) { return p.near_lamp; });
+    std::printf("%s: %zu points, %zu of them within %.2f m of lamps; paths took %.1f s\n"
+                "    voxel                   all light indirect     bias   of indirect\n",
+                nameOf(prefix).c_str(), points.size(), static_cast<size_t>(near_lamps), kNearLamp,
+                secondsSince(start));
+    LightCurve curve{nameOf(prefix), {}};
+    const shared::Lighting lighting = sharedLighting(shaded.lighting());
+    for (const double voxel_size : arguments.sizes)
+    {
+        HEARTH_ASSIGN_OR_RETURN(const LightCurve::Size size,
+                                measureSize(scene, lighting, points, voxel_size, arguments.gather_rays));
+        curve.sizes.push_back(size);
+    }
+    if (arguments.picture_voxel > 0)
+    {
+        HEARTH_ASSIGN_OR_RETURN(const bricks::BrickTables tables, cookBricks(scene, arguments.picture_voxel));
+        double mean = 0;
+        for (const LitPoint& point : points)
+            mean += length(point.truth.direct + point.truth.indirect) / std::sqrt(3.0);
+        HEARTH_TRY(writePicture(shaded, pack, BrickGather(tables, lighting, kFaceRays),
+                                mean / static_cast<double>(points.size()), prefix + ".light.png"));
+    }
+    return curve;
+}
+
+Status run(const Arguments& arguments)
+{
+    std::vector<LightCurve> curves;
+    for (const std::string& prefix : arguments.scenes)
+    {
+        HEARTH_ASSIGN_OR_RETURN(LightCurve curve, measureScene(prefix, arguments));
+        curves.push_back(std::move(curve));
+    }
+    return arguments.plot.empty() ? success() : tools::writeText(arguments.plot, lightPlot(curves));
+}
+
+int program(int argc, char** argv)
+{
+    std::setvbuf(stdout, nullptr, _IOLBF, 0); // a line for each size as it is there
+    CLI::App app("Holds the light that is gathered from bricks against paths through the real geometry.");
+    Arguments arguments;
+    app.add_option(
+           "SCENES", arguments.scenes,
+           "for each scene PREFIX: PREFIX.hearth and its PREFIX.import.part, .clusters.part, .textures.part")
+        ->required();
+    app.add_option("--voxel-sizes", arguments.sizes, "metres")->delimiter(',');
+    app.add_option("--points", arguments.points, "of surfaces");
+    app.add_option("--paths", arguments.paths, "of each point");
+    app.add_option("--gather-rays", arguments.gather_rays, "of each point through the bricks");
+    app.add_option("--plot", arguments.plot, "SVG file of the errors");
+    app.add_option(
+        "--picture", arguments.picture_voxel,
+        "also write PREFIX.light.png at this voxel size: irradiance by paths, by bricks, their difference");
+    CLI11_PARSE(app, argc, argv);
+    const Status end = run(arguments);
+    if (end.ok())
+        return 0;
+    std::fprintf(stderr, "%s\n", formatMessage(end.error()).c_str());
+    return exitCode(end.error());
+}
+
+} // namespace
+
+int main(int argc, char** argv)
+{
+    return hearth::runProgram("hearth_measure_bricks_light", [&] { return program(argc, argv); });
+}

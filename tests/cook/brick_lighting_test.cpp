@@ -1,0 +1,569 @@
+// Light among bricks against closed forms: furnaces, sealed rooms, planes, plates, and lights that go out.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/bricks/face_lighting.h"
+#include "tests/cook/voxel_model.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+#include <tbb/global_control.h>
+
+namespace hearth::bricks
+{
+namespace
+{
+
+using namespace shared;
+
+constexpr float kPi = 3.14159265f;
+constexpr uint32_t kUp = 3;
+
+Lighting darkness()
+{
+    return {};
+}
+
+Lighting constantSky(Float3 radiance)
+{
+    Lighting lighting{};
+    lighting.sky_zenith = lighting.sky_horizon = lighting.sky_ground = radiance;
+    return lighting;
+}
+
+void addSun(Lighting& lighting, Float3 direction, Float3 illuminance)
+{
+    Light& sun = lighting.lights[lighting.light_count++];
+    sun.type = kBrickLightDirectional;
+    sun.direction = direction / length(direction);
+    sun.intensity = illuminance;
+}
+
+void addLamp(Lighting& lighting, Float3 position, Float3 candela, float range = 0)
+{
+    Light& lamp = lighting.lights[lighting.light_count++];
+    lamp.type = 1;
+    lamp.position = position;
+    lamp.intensity = candela;
+    lamp.range = range;
+}
+
+struct LitFace
+{
+    uint32_t x, y, z, side, face;
+};
+
+/// All faces whose middle lies in the box, in voxels.
+std::vector<LitFace> facesIn(const BrickTables& tables, Float3 low, Float3 high)
+{
+    std::vector<LitFace> faces;
+    for (uint32_t z = 0; z < tables.grid.voxels[2]; ++z)
+        for (uint32_t y = 0; y < tables.grid.voxels[1]; ++y)
+            for (uint32_t x = 0; x < tables.grid.voxels[0]; ++x)
+                for (uint32_t side = 0; side < kVoxelFaces; ++side)
+                {
+                    const uint32_t face = faceAt(tables, x, y, z, side);
+                    const Float3 middle = brickFaceMiddle(x, y, z, side);
+                    if (face != kNoFace && middle == max(low, min(middle, high)))
+                        faces.push_back({x, y, z, side, face});
+                }
+    return faces;
+}
+
+/// A closed box with walls one voxel thick, with a voxel of air around it.
+struct Room
+{
+    BrickTables tables;
+    std::vector<LitFace> inner;
+
+    Room(std::array<uint32_t, 3> inside, const Voxel& wall, float voxel_size = 1)
+    {
+        const std::array<uint32_t, 3> size{inside[0] + 4, inside[1] + 4, inside[2] + 4};
+        VoxelModel model(size, voxel_size, {-3, 5, 0.5f});
+        model.shell({1, 1, 1}, {inside[0] + 3, inside[1] + 3, inside[2] + 3}, wall);
+        tables = model.build();
+        inner = facesIn(tables, {2, 2, 2},
+                        {static_cast<float>(inside[0] + 2), static_cast<float>(inside[1] + 2),
+                         static_cast<float>(inside[2] + 2)});
+    }
+};
+
+Float3 radianceOf(const FaceLighting& lighting, uint32_t face)
+{
+    return decodeBrickLight(lighting.faces()[face]);
+}
+
+void expectRelative(Float3 value, Float3 expected, float tolerance)
+{
+    for (int c = 0; c < 3; ++c)
+        EXPECT_NEAR(value[c], expected[c], tolerance * expected[c]) << "channel " << c;
+}
+
+float largest(Float3 v)
+{
+    return std::max({v.x, v.y, v.z});
+}
+
+// ---- the furnace
+
+class Furnace : public ::testing::TestWithParam<float>
+{
+};
+
+/// Whatever the shape, the size of voxels and where rays go.
+TEST_P(Furnace, goesToEmissionOverOneLessAlbedo)
+{
+    const float albedo = GetParam();
+    const Float3 emission{0.7f, 0.3f, 1.1f};
+    const struct
+    {
+        std::array<uint32_t, 3> inside;
+        float voxel_size;
+    } shapes[] = {{{2, 2, 2}, 1}, {{1, 1, 1}, 0.03f}, {{9, 2, 5}, 0.25f}, {{3, 14, 1}, 7}};
+    for (const auto& shape : shapes)
+    {
+        const Room room(shape.inside, makeVoxel({albedo, albedo, albedo}, emission), shape.voxel_size);
+        const BrickView view = brickViewOf(room.tables);
+        FaceLighting lighting(view);
+        Lighting outside = constantSky({5, 5, 5});
+        addSun(outside, {1, -2, 0.5f}, {30, 30, 30});
+        lighting.sweep(outside, 16, sweepsToForget(albedo, 1e-3f));
+        const float exact = decodeAlbedo(encodeAlbedo({albedo, albedo, albedo})).x;
+        const Float3 expected = decodeRadiance(encodeRadiance(emission)) / (1 - exact);
+        const std::vector<uint32_t> codes = lighting.codes();
+        for (const LitFace& place : room.inner)
+        {
+            expectRelative(radianceOf(lighting, place.face), expected, 2e-3f);
+            // what others read is off by half of a step besides: 1/128, of blue 1/64
+            expectRelative(decodeRadiance(codes[place.face]), expected, 0.018f);
+        }
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(albedos, Furnace, ::testing::Values(0.2f, 0.5f, 0.8f, 0.9f));
+
+/// What the rest is for: codes alone stop short of the goal.
+TEST(BrickLight, codesAloneWouldStopTheFurnaceShort)
+{
+    const float albedo = 0.9f, emission = 0.3f;
+    float code_only = 0;
+    BrickLight light{0, 0};
+    for (int sweep = 0; sweep < 400; ++sweep)
+    {
+        code_only = decodeRadiance(encodeRadiance(Float3{1, 1, 1} * (emission + albedo * code_only))).z;
+        light = encodeBrickLight(Float3{1, 1, 1} * (emission + albedo * decodeBrickLight(light).z));
+    }
+    EXPECT_LT(code_only, 0.95f * emission / (1 - albedo));
+    EXPECT_NEAR(decodeBrickLight(light).z, emission / (1 - albedo), 1e-3f);
+}
+
+TEST(BrickLight, keepsValuesToSixteenBits)
+{
+    std::mt19937 random(3);
+    std::uniform_real_distribution<float> power(-13.9f, 15.9f);
+    for (int i = 0; i < 100000; ++i)
+    {
+        const Float3 value{std::exp2(power(random)), std::exp2(power(random)), std::exp2(power(random))};
+        const BrickLight light = encodeBrickLight(value);
+        ASSERT_EQ(light.code, encodeRadiance(value));
+        const Float3 back = decodeBrickLight(light);
+        if (largest(value) < 64000)
+            for (int c = 0; c < 3; ++c)
+                ASSERT_NEAR(back[c], value[c], value[c] * 3.2e-5f);
+    }
+    EXPECT_EQ(decodeBrickLight({encodeRadiance({0.3f, 2, 7}), 0}),
+              decodeRadiance(encodeRadiance({0.3f, 2, 7})))
+        << "no rest: the code itself";
+    EXPECT_EQ(decodeBrickLight(encodeBrickLight({0, 0, 0})), (Float3{}));
+    EXPECT_EQ(decodeBrickLight(encodeBrickLight({1e9f, 1e9f, 1e9f})).x, kMostRedGreen * (1 + 0.5f / 127))
+        << "what is too bright is the brightest";
+}
+
+/// Grey stays grey over 64 bounces, though blue has coarser steps.
+TEST(BrickLight, doesNotDriftInHue)
+{
+    const Room room({3, 3, 3}, makeVoxel({0.85f, 0.85f, 0.85f}, {0.37f, 0.37f, 0.37f}));
+    BrickTables tables = room.tables;
+    const BrickView view = brickViewOf(tables);
+    FaceLighting lighting(view);
+    lighting.sweep(darkness(), 16, 64);
+    const Float3 emission = decodeRadiance(tables.emission[0]);
+    for (const LitFace& place : room.inner)
+    {
+        const Float3 light = radianceOf(lighting, place.face);
+        EXPECT_NEAR(light.z / light.x, emission.z / emission.x, 1e-3f);
+        EXPECT_NEAR(light.y / light.x, 1, 1e-3f);
+    }
+}
+
+// ---- leaks
+
+/// Not even by roundings, wherever the sun and lamps stand, and whatever normals the surfaces have.
+TEST(FaceLighting, aSealedRoomIsExactlyDark)
+{
+    std::mt19937 random(7);
+    std::uniform_real_distribution<float> number(-1, 1);
+    for (int i = 0; i < 6; ++i)
+    {
+        Voxel wall = makeVoxel({0.9f, 0.9f, 0.9f});
+        if (i % 2 == 1)
+            for (VoxelSide& side : wall.sides)
+                side.normal = {number(random), number(random), number(random)};
+        const Room room({3 + static_cast<uint32_t>(i), 4, 2}, wall, 0.5f);
+        const BrickView view = brickViewOf(room.tables);
+        FaceLighting lighting(view);
+        Lighting outside = constantSky({3, 4, 5});
+        for (int sun = 0; sun < 20; ++sun)
+            addSun(outside, {number(random), number(random), number(random)}, {50, 40, 30});
+        addSun(outside, {0, -1, 0}, {50, 40, 30});
+        addSun(outside, {1, 0, 0}, {50, 40, 30});
+        addSun(outside, {1, -1, 1}, {50, 40, 30});
+        // beside a wall, in the air: the wall's outer side is at z = 0.5 + 0.5
+        addLamp(outside, {-1.5f, 6.5f, 0.99f}, {90, 90, 90});
+        lighting.sweep(outside, 16, 4);
+        float outer = 0;
+        for (const BrickLight& face : lighting.faces())
+            outer = std::max(outer, largest(decodeBrickLight(face)));
+        EXPECT_GT(outer, 1) << "the light is on";
+        for (const LitFace& place : room.inner)
+        {
+            EXPECT_EQ(lighting.faces()[place.face].code, 0u);
+            EXPECT_EQ(lighting.faces()[place.face].rest, 0u);
+        }
+        // and a surface in the room gathers nothing: its point lies in the wall
+        const BrickSky sky{{3, 4, 5}, {3, 4, 5}, {3, 4, 5}};
+        const BrickStart start = brickSurfaceStart(lighting.scene(), {3.3f, 1.6f, 3.1f}, {0, 1, 0});
+        EXPECT_EQ(start.buried, 0u);
+        EXPECT_EQ(largest(brickGather(lighting.scene(), sky, start, 256, 5)), 0);
+    }
+}
+
+// ---- a light that goes out
+
+class Decay : public ::testing::TestWithParam<float>
+{
+};
+
+TEST_P(Decay, isBelowOneHundredthInTheStatedFrames)
+{
+    const float albedo = GetParam();
+    constexpr uint32_t kPeriod = 3, kRays = 8;
+    const Room room({4, 3, 4}, makeVoxel({albedo, albedo, albedo}));
+    const BrickView view = brickViewOf(room.tables);
+    FaceLighting lighting(view);
+    Lighting lit = darkness();
+    addLamp(lit, {0.6f, 8.4f, 3.3f}, {40, 30, 20});
+    const uint32_t sweeps = sweepsToForget(albedo, 0.01f);
+    // lit until nothing changes; the frames after that begin in the middle of a rotation
+    for (uint32_t frame = 0; frame < 3 * kPeriod * sweeps + 1; ++frame)
+        lighting.light(lit, {.period = kPeriod, .rays = kRays});
+    const auto brightest = [&]
+    {
+        float most = 0;
+        for (const LitFace& place : room.inner)
+            most = std::max(most, largest(radianceOf(lighting, place.face)));
+        return most;
+    };
+    const float before = brightest();
+    ASSERT_GT(before, 0.1f);
+    float late = before;
+    for (uint32_t frame = 0; frame < kPeriod * sweeps; ++frame)
+    {
+        lighting.light(darkness(), {.period = kPeriod, .rays = kRays});
+        if (frame + 1 == kPeriod * sweeps / 3)
+            late = brightest();
+    }
+    EXPECT_LT(brightest(), 0.01f * before);
+    if (albedo > 0.5f)
+        EXPECT_GT(late, 0.01f * before) << "the bound means something";
+}
+
+INSTANTIATE_TEST_SUITE_P(albedos, Decay, ::testing::Values(0.1f, 0.5f, 0.8f, 0.9f));
+
+TEST(SweepsToForget, areThoseOfThePowersOfTheAlbedo)
+{
+    EXPECT_EQ(sweepsToForget(0, 0.01f), 1u);
+    EXPECT_EQ(sweepsToForget(0.5f, 0.01f), 7u);
+    EXPECT_EQ(sweepsToForget(0.8f, 0.01f), 21u);
+    EXPECT_EQ(sweepsToForget(0.9f, 0.01f), 44u);
+    EXPECT_EQ(sweepsToForget(1, 0.01f), 90u) << "no face returns more than 95 %";
+}
+
+// ---- direct light and the sky
+
+/// A floor of `side` x `side` voxels at height 1, with air above.
+BrickTables floorOf(uint32_t side, uint32_t height, const Voxel& voxel, float voxel_size = 1)
+{
+    VoxelModel model({side, height, side}, voxel_size);
+    model.fill({0, 0, 0}, {side, 1, side}, voxel);
+    return model.build();
+}
+
+TEST(FaceLighting, sunOnAPlaneIsItsCosine)
+{
+    const BrickTables tables = floorOf(20, 8, makeVoxel({0.5f, 0.5f, 0.5f}));
+    const float albedo = decodeAlbedo(tables.albedo[0]).x;
+    const BrickView view = brickViewOf(tables);
+    FaceLighting lighting(view);
+    Lighting sun = darkness();
+    addSun(sun, {0.3f, -0.8f, 0.4f}, {3, 2, 1});
+    lighting.sweep(sun, 4, 1);
+    const float cosine = -sun.lights[0].direction.y;
+    for (const LitFace& place : facesIn(tables, {0, 1, 0}, {20, 2, 20}))
+        expectRelative(radianceOf(lighting, place.face), Float3{3, 2, 1} * (albedo * cosine / kPi), 1e-3f);
+}
+
+/// Voxels that are not opaque let the rest of the light through.
+TEST(FaceLighting, whatIsNotOpaqueStopsItsShare)
+{
+    VoxelModel model({9, 9, 9});
+    model.fill({0, 0, 0}, {9, 1, 9}, makeVoxel({0.5f, 0.5f, 0.5f}));
+    model.fill({0, 6, 0}, {9, 7, 9}, makeVoxel({0, 0, 0}, {}, 102)); // 0.4
+    const BrickTables tables = model.build();
+    const float albedo = decodeAlbedo(tables.albedo[faceAt(tables, 4, 0, 4, kUp)]).x;
+    const BrickView view = brickViewOf(tables);
+    FaceLighting lighting(view);
+    Lighting sun = darkness();
+    addSun(sun, {0, -1, 0}, {1, 1, 1});
+    lighting.sweep(sun, 4, 1);
+    expectRelative(radianceOf(lighting, faceAt(tables, 4, 0, 4, kUp)),
+                   Float3{1, 1, 1} * (0.6f * albedo / kPi), 2e-3f);
+}
+
+TEST(FaceLighting, aLampOverAPlaneFollowsTheInverseSquare)
+{
+    constexpr float kSize = 0.25f;
+    VoxelModel model({32, 16, 32}, kSize);
+    model.fill({0, 0, 0}, {32, 1, 32}, makeVoxel({0.5f, 0.5f, 0.5f}));
+    model.fill({20, 5, 14}, {21, 6, 18}, makeVoxel({0.5f, 0.5f, 0.5f})); // shadows what lies behind it
+    const BrickTables tables = model.build();
+    const float albedo = decodeAlbedo(tables.albedo[0]).x;
+    const BrickView view = brickViewOf(tables);
+    FaceLighting lighting(view);
+    Lighting lit = darkness();
+    const Float3 lamp{4, 2.3f, 4};
+    addLamp(lit, lamp, {5, 5, 5}, 6);
+    lighting.sweep(lit, 4, 1);
+    uint32_t shadowed = 0;
+    for (const LitFace& place : facesIn(tables, {0, 1, 0}, {32, 2, 32}))
+    {
+        const Float3 middle = brickFaceMiddle(place.x, place.y, place.z, place.side) * kSize;
+        const float d = length(lamp - middle);
+        const float window = 1 - std::pow(d / 6, 4.0f);
+        const float expected = albedo * 5 / kPi * (lamp.y - middle.y) / (d * d * d) * window;
+        const float value = radianceOf(lighting, place.face).x;
+        if (value == 0)
+        {
+            ++shadowed;
+            EXPECT_GT(place.x, 20u);
+        }
+        else
+            EXPECT_NEAR(value, expected, 2e-3f * expected + 1e-6f);
+    }
+    EXPECT_GT(shadowed, 8u);
+    EXPECT_EQ(radianceOf(lighting, faceAt(tables, 25, 0, 16, kUp)).x, 0);
+}
+
+/// It stands in its shade, which fills its voxel: yet it shines downwards.
+TEST(FaceLighting, aLampInsideItsOwnVoxelIsSeen)
+{
+    VoxelModel model({11, 11, 11});
+    model.fill({0, 0, 0}, {11, 1, 11}, makeVoxel({0.5f, 0.5f, 0.5f}));
+    model.fill({5, 8, 5}, {6, 10, 6}, makeVoxel({0.5f, 0.5f, 0.5f}));
+    const BrickTables tables = model.build();
+    const BrickView view = brickViewOf(tables);
+    FaceLighting lighting(view);
+    Lighting lit = darkness();
+    addLamp(lit, {5.5f, 8.1f, 5.5f}, {5, 5, 5});
+    lighting.sweep(lit, 4, 1);
+    for (uint32_t x = 0; x < 11; ++x)
+        EXPECT_GT(radianceOf(lighting, faceAt(tables, x, 0, 5, kUp)).x, 0) << x;
+}
+
+TEST(FaceLighting, spotsEndAtTheirCone)
+{
+    const BrickTables tables = floorOf(21, 12, makeVoxel({0.5f, 0.5f, 0.5f}));
+    const float albedo = decodeAlbedo(tables.albedo[0]).x;
+    const BrickView view = brickViewOf(tables);
+    FaceLighting lighting(view);
+    Lighting lit = darkness();
+    addLamp(lit, {10.5f, 11, 10.5f}, {100, 100, 100});
+    Light& spot = lit.lights[0];
+    spot.type = kBrickLightSpot;
+    spot.direction = {0, -1, 0};
+    const float inner = std::cos(0.2f), outer = std::cos(0.5f);
+    spot.cone_scale = 1 / (inner - outer);
+    spot.cone_offset = -outer * spot.cone_scale;
+    lighting.sweep(lit, 4, 1);
+    for (uint32_t x = 0; x < 21; ++x)
+    {
+        const Float3 way = Float3{static_cast<float>(x) + 0.5f, 1.002f, 10.5f} - spot.position;
+        const float d = length(way), cosine = -way.y / d;
+        const float cone = std::clamp((cosine - outer) / (inner - outer), 0.0f, 1.0f);
+        const float expected = albedo * 100 / kPi * cosine / (d * d) * cone * cone;
+        EXPECT_NEAR(radianceOf(lighting, faceAt(tables, x, 0, 10, kUp)).x, expected, 2e-3f * expected + 1e-6f)
+            << x;
+    }
+}
+
+TEST(FaceLighting, aConstantSkyLightsAnOpenPlaneByItsRadiance)
+{
+    const BrickTables tables = floorOf(12, 6, makeVoxel({0.5f, 0.25f, 0.75f}));
+    const BrickView view = brickViewOf(tables);
+    FaceLighting lighting(view);
+    lighting.sweep(constantSky({2, 2, 2}), 16, 1);
+    const uint32_t face = faceAt(tables, 6, 0, 6, kUp);
+    expectRelative(radianceOf(lighting, face), decodeAlbedo(tables.albedo[face]) * 2, 1e-3f);
+    const BrickSky sky{{2, 2, 2}, {2, 2, 2}, {2, 2, 2}};
+    const BrickStart start = brickSurfaceStart(lighting.scene(), {6.5f, 0.8f, 6.5f}, {0, 1, 0});
+    expectRelative(brickGather(lighting.scene(), sky, start, 16, 1), {2, 2, 2}, 1e-5f);
+}
+
+/// The gradient's irradiance is the closed form that the runtime shades with.
+TEST(BrickSky, hasTheIrradianceOfTheRuntimesSky)
+{
+    const BrickSky sky{kSkyZenith, kSkyHorizon, kSkyGround};
+    for (const Float3 normal : {Float3{0, 1, 0}, Float3{1, 0, 0}, Float3{0.6f, 0.8f, 0}})
+    {
+        Float3 sum;
+        constexpr uint32_t kCount = 4096;
+        for (uint32_t i = 0; i < kCount; ++i)
+            sum += brickSkyRadiance(sky, brickRayDirection(normal, i, kCount, 9)) * (1.0f / kCount);
+        const float above = 0.5f + 0.3f * normal.y, up = 0.5f + 0.5f * normal.y;
+        expectRelative(sum, kSkyGround * (1 - up) + (kSkyHorizon * (1 - above) + kSkyZenith * above) * up,
+                       0.01f);
+    }
+}
+
+// ---- light between faces
+
+/// Form factor from a point to a square of half side a that faces it, over its middle at the distance 1.
+/// source  any table of view factors: a quarter of it four times
+double toSquare(double a)
+{
+    const double s = std::sqrt(1 + a * a);
+    return 4 / (2 * 3.14159265358979) * 2 * (a / s) * std::atan(a / s);
+}
+
+TEST(FaceLighting, parallelPlatesExchangeByTheirFormFactor)
+{
+    constexpr uint32_t kSide = 17, kGap = 14;
+    VoxelModel model({kSide, kGap + 2, kSide});
+    model.fill({0, 0, 0}, {kSide, 1, kSide}, makeVoxel({0.5f, 0.5f, 0.5f}));
+    model.fill({0, kGap + 1, 0}, {kSide, kGap + 2, kSide}, makeVoxel({0, 0, 0}, {2, 2, 2}));
+    const BrickTables tables = model.build();
+    const BrickView view = brickViewOf(tables);
+    FaceLighting lighting(view);
+    lighting.sweep(darkness(), 4096, 2);
+    const uint32_t face = faceAt(tables, 8, 0, 8, kUp);
+    const float albedo = decodeAlbedo(tables.albedo[face]).x;
+    // rays start a voxel above the face
+    const double expected = 2 * toSquare(0.5 * kSide / (kGap - kBrickLift));
+    EXPECT_NEAR(radianceOf(lighting, face).x / albedo, expected, 0.01 * expected);
+}
+
+TEST(FaceLighting, aRedWallReddensTheFloorBesideIt)
+{
+    VoxelModel model({16, 12, 16});
+    model.fill({0, 0, 0}, {16, 1, 16}, makeVoxel({0.7f, 0.7f, 0.7f}));
+    model.fill({0, 1, 0}, {1, 12, 16}, makeVoxel({0.8f, 0.1f, 0.1f}));
+    const BrickTables tables = model.build();
+    const BrickView view = brickViewOf(tables);
+    FaceLighting lighting(view);
+    Lighting sun = darkness();
+    addSun(sun, {-1, -1, 0}, {3, 3, 3});
+    lighting.sweep(sun, 64, 4);
+    const auto redness = [&](uint32_t x)
+    {
+        const Float3 light = radianceOf(lighting, faceAt(tables, x, 0, 8, kUp));
+        return light.x / light.y;
+    };
+    EXPECT_GT(redness(1), 1.1f);
+    EXPECT_GT(redness(1), redness(6));
+    EXPECT_GT(redness(6), redness(13));
+}
+
+// ---- directions, starts and threads
+
+TEST(BrickRayDirection, areUnitAndByTheCosine)
+{
+    std::mt19937 random(11);
+    std::normal_distribution<float> number;
+    for (int i = 0; i < 50; ++i)
+    {
+        const Float3 n = normalizeOr({number(random), number(random), number(random)}, {0, 0, 1});
+        constexpr uint32_t kCount = 64;
+        Float3 sum;
+        for (uint32_t ray = 0; ray < kCount; ++ray)
+        {
+            const Float3 d = brickRayDirection(n, ray, kCount, static_cast<uint32_t>(random()));
+            EXPECT_NEAR(length(d), 1, 2e-6f);
+            EXPECT_GE(dot(d, n), -1e-6f);
+        }
+        const auto seed = static_cast<uint32_t>(random());
+        for (uint32_t ray = 0; ray < kCount; ++ray)
+            sum += brickRayDirection(n, ray, kCount, seed) * (1.0f / kCount);
+        EXPECT_NEAR(length(sum - n * (2.0f / 3)), 0, 0.03f);
+    }
+}
+
+/// A slope in steps of voxels is lit as the plane that it stands for, by its normal.
+TEST(FaceLighting, aSlopeIsNotLitAsAStaircase)
+{
+    constexpr uint32_t kSide = 24;
+    const Float3 normal = normalizeOr({-0.5f, 1, 0}, {0, 1, 0});
+    Voxel slope = makeVoxel({0.5f, 0.5f, 0.5f});
+    for (VoxelSide& side : slope.sides)
+        side.normal = normal;
+    VoxelModel model({kSide, kSide, kSide});
+    for (uint32_t x = 0; x < kSide; ++x)
+        model.fill({x, x / 2, 0}, {x + 1, x / 2 + 1, kSide}, slope);
+    const BrickTables tables = model.build();
+    const BrickView view = brickViewOf(tables);
+    FaceLighting lighting(view);
+    Lighting sun = darkness();
+    addSun(sun, {0.2f, -1, 0.1f}, {2, 2, 2});
+    lighting.sweep(sun, 16, 1);
+    const float expected = 2 * 0.5f / kPi * -dot(normal, sun.lights[0].direction);
+    for (uint32_t x = 4; x < kSide - 4; ++x)
+        EXPECT_NEAR(radianceOf(lighting, faceAt(tables, x, x / 2, 12, kUp)).x, expected, 0.02f * expected)
+            << x;
+}
+
+TEST(BrickSurfaceStart, leavesItsOwnVoxelsAndSaysWhereThereIsNoAir)
+{
+    VoxelModel model({8, 16, 8});
+    model.fill({0, 0, 0}, {8, 2, 8}, makeVoxel({0.5f, 0.5f, 0.5f}));
+    model.fill({0, 8, 0}, {8, 16, 8}, makeVoxel({0.5f, 0.5f, 0.5f}));
+    const BrickTables tables = model.build();
+    const BrickView view = brickViewOf(tables);
+    const FaceLighting lighting(view);
+    const BrickScene scene = lighting.scene();
+    EXPECT_NEAR(brickSurfaceStart(scene, {4.5f, 0.7f, 4.5f}, {0, 1, 0}).place.y, 2 + kBrickLift, 0.01f);
+    EXPECT_NEAR(brickSurfaceStart(scene, {4.5f, 8.2f, 4.5f}, {0, -1, 0}).place.y, 8 - kBrickLift, 0.01f);
+    EXPECT_NEAR(brickSurfaceStart(scene, {4.5f, 3, 4.5f}, {0, 1, 0}).place.y, 4, 0.01f)
+        << "in the air already";
+    EXPECT_EQ(brickSurfaceStart(scene, {4.5f, 9, 4.5f}, {0, 1, 0}).buried, 1u);
+    EXPECT_EQ(brickSurfaceStart(scene, {4.5f, 15.5f, 4.5f}, {0, 1, 0}).buried, 0u) << "above the grid is air";
+    EXPECT_EQ(brickSurfaceStart(scene, {40, 90, 4}, {0, 1, 0}).buried, 0u) << "as is what lies outside";
+}
+
+TEST(FaceLighting, isTheSameForAnyNumberOfThreads)
+{
+    const Room room({9, 7, 11}, makeVoxel({0.6f, 0.5f, 0.4f}, {0.1f, 0, 0.2f}));
+    const BrickView view = brickViewOf(room.tables);
+    Lighting lit = constantSky({1, 2, 3});
+    addLamp(lit, {1, 9, 6}, {9, 9, 9});
+    const auto run = [&](size_t threads)
+    {
+        const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+        FaceLighting lighting(view);
+        for (int frame = 0; frame < 20; ++frame)
+            lighting.light(lit, {.period = 4, .rays = 8});
+        return lighting.codes();
+    };
+    EXPECT_EQ(run(1), run(4));
+}
+
+} // namespace
+} // namespace hearth::bricks
