@@ -126,11 +126,11 @@ void SurfaceMap::follow(const Way& way, bool backwards)
     const auto crossings = ways_.crossingsOf(way);
     const size_t back = backwards ? 1 : 0;
     const float start = static_cast<float>(back), direction = 1 - 2 * start;
-    const Crossing* crossing = crossings.data() + back * (crossings.size() - 1);
-    for (size_t left = crossings.size(); left > 0; --left)
+    size_t at = back * (crossings.size() - 1);
+    for (size_t left = crossings.size(); left > 0; --left, at += 1 - 2 * back)
     {
-        fill_.cross(crossing->sides[back], crossing->sides[1 - back], start + direction * crossing->t);
-        crossing += 1 - 2 * static_cast<ptrdiff_t>(back);
+        const Crossing& crossing = crossings[at];
+        fill_.cross(crossing.sides[back], crossing.sides[1 - back], start + direction * crossing.t);
     }
 }
 
