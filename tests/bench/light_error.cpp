@@ -135,13 +135,12 @@ BrickGather::BrickGather(const bricks::BrickTables& tables, const shared::Lighti
 
 Double3 BrickGather::at(const SeenPoint& seen, uint32_t rays, uint32_t seed) const
 {
-    constexpr float kFarStart = 2; // voxels, as gather_rays.comp of the runtime has it
     const shared::BrickScene scene{tables_.masks(), tables_.opacity, faces_};
     const Float3 place =
         (narrowed(seen.point.surface.position) - tables_.grid.origin) / tables_.grid.voxel_size;
     const Float3 normal = narrowed(litNormal(seen.point));
     shared::BrickStart start = shared::brickSurfaceStart(scene, place, normal);
-    if (start.buried != 0 || length(start.place - place) > kFarStart)
+    if (start.buried != 0)
         start = shared::brickSurfaceStart(scene, place, narrowed(seen.to_eye));
     start.normal = normal;
     return Double3(shared::brickGather(scene, sky_, start, rays, shared::brickHash(seed)));
