@@ -2,13 +2,13 @@
 //     radiance = emission + albedo (direct + mean of what rays bring),
 // written once for C++ and GLSL. The rays themselves march as in brick_march.h. cook/bricks/README.md, "Light", has the
 // reasons, bounds and what was measured.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 //
 // Directions and starts are the same in every frame, so that a rotation through all faces is one sweep of Jacobi's iteration
 // for a fixed linear system: it converges to one answer, nothing flickers, and a light that went out is forgotten by a factor
 // of the albedo each sweep. Nothing is blended over time.
 //
 // Places are in voxels of the grid: (world - origin) / voxel_size. Directions are unit and the same in both.
-// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #ifndef HEARTH_SHARED_BRICK_LIGHTING_H
 #define HEARTH_SHARED_BRICK_LIGHTING_H
 
@@ -337,9 +337,10 @@ HEARTH_FUNCTION BrickStart brickSurfaceStart(HEARTH_IN(BrickScene) scene, Float3
             solid = ray.inside != 0u;
         }
     }
-    start.buried = ray.steps > 0u && ray.t > ray.end ? 1u : 0u;
     // where nothing was left, it is in the air already
-    float out_t = ray.steps > 0u ? ray.start_t + ray.t + kBrickFaceMargin : 0.0f;
+    float out_t = ray.steps > 0u ? ray.start_t + ray.t : 0.0f;
+    start.buried = out_t >= kBrickMostBuried ? 1u : 0u;
+    out_t += ray.steps > 0u ? kBrickFaceMargin : 0.0f;
     start.place = start.buried != 0u ? place : brickLifted(scene, place + normal * out_t, normal);
     return start;
 }
