@@ -72,9 +72,11 @@ struct CellBox
 /// size          voxels of the grid along the axis: one that lies in the grid's own side stays inside
 inline std::array<int64_t, 2> slabsOf(const Polygon& polygon, int axis, double along_normal, uint32_t size)
 {
+    // triangles may reach farther than whole numbers do
+    const auto near = [&](double place) { return std::clamp(place, -1.0, size + 1.0); };
     const std::array<double, 2> ends = polygon.span(axis);
-    const auto first = static_cast<int64_t>(std::floor(ends[0]));
-    const int64_t last = static_cast<int64_t>(std::ceil(ends[1])) - 1;
+    const auto first = static_cast<int64_t>(std::floor(near(ends[0])));
+    const int64_t last = static_cast<int64_t>(std::ceil(near(ends[1]))) - 1;
     if (first <= last)
         return {first, last};
     const int64_t behind = along_normal > 0 ? first - 1 : first;
