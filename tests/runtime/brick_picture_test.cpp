@@ -124,7 +124,7 @@ TEST_F(BrickPictureTest, gathersWhatTheCpuGathers)
         if (start.buried != 0 || length(start.place - place) > 2)
             continue;
         ++count;
-        const Float3 truth = brickGather(scene, sky, start, 1024, 1);
+        const Float3 truth = brickGather(scene, sky, start, 512, 1);
         for (int c = 0; c < 3; ++c)
         {
             square += std::pow(double(point.mean[c] - truth[c]), 2);
