@@ -114,7 +114,7 @@ void addOptions(CLI::App& app, Arguments& arguments)
         ->required();
     app.add_option(
         "--voxel-size", arguments.voxel_size,
-        "metres; by default 512 voxels along the longest side, 0.1 m at least where that makes 64, and "
+        "metres; by default about 512 voxels along the longest side, 0.1 m at least where that makes 64, and "
         "more where the memory asks for it");
     const auto addPoint = [&](const char* name, std::vector<double>& values, const char* what)
     { app.add_option(name, values, what)->delimiter(',')->expected(3)->type_name("X,Y,Z"); };

@@ -93,7 +93,7 @@ Status checkSettings(const GridSettings& settings)
 double firstVoxelSize(const Box3& box)
 {
     const double side = longest(box);
-    return side > 0 ? roundedUp(std::max(side / 512, std::min(0.1, side / 64))) : 1;
+    return side > 0 ? roundedUp(std::max(0.9 * side / 512, std::min(0.1, side / 64))) : 1;
 }
 
 double nextVoxelSize(double size)

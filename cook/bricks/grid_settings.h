@@ -21,8 +21,8 @@ struct GridSettings
     double error_share = 0.25;
 };
 
-/// The voxel size to try first where none is asked for: 512 voxels along the longest side; but no finer than a tenth of a
-/// metre, unless that were less than 64 voxels. Rounded up to a number of the series R10: 1, 1.25, 1.6, 2, 2.5, ...
+/// The voxel size to try first where none is asked for: 512 voxels along the longest side, or up to a ninth more; but no finer
+/// than a tenth of a metre, unless that were less than 64 voxels. Rounded up to a number of the series R10: 1, 1.25, 1.6, 2, 2.5, ...
 double firstVoxelSize(const Box3& box);
 
 /// The next larger number of the series.

@@ -5,15 +5,6 @@
 //     BrickRay ray = brickMarch(bricks, brickRay(grid, origin, direction, far));
 //     while (ray.inside)             // in a solid voxel: ray.brick, ray.bit, entered by ray.face after brickDistance(...)
 //         ray = brickMarch(bricks, brickPass(bricks, ray));
-//
-// A ray is a voxel and the place along the ray where it enters it. It moves on by leaving a cell of 1, 4 or 16 voxels across
-// the nearest of the three planes that it heads for: that coordinate of the voxel becomes the plane's other side, and the
-// other two are found from the place along the ray and kept between where they were and the cell's far side. So each step
-// moves one coordinate on at least, none ever moves back, and no two voxels with a common edge let a ray through between
-// them: there are at most as many steps as voxels that the ray crosses, whatever the rounding.
-//
-// A ray along a face belongs to the voxel above it, in x, y or z; one that starts on a face and heads into the voxel enters
-// it by that face, one that heads away does not meet it.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #ifndef HEARTH_SHARED_BRICK_MARCH_H
 #define HEARTH_SHARED_BRICK_MARCH_H
@@ -23,6 +14,15 @@
 #ifdef __cplusplus
 #include <span>
 #endif
+
+// A ray is a voxel and the place along the ray where it enters it. It moves on by leaving a cell of 1, 4 or 16 voxels across
+// the nearest of the three planes that it heads for: that coordinate of the voxel becomes the plane's other side. The other
+// two wait until something smaller is looked at; then they are found from the place along the ray and kept between where they
+// were and the cell's far side. So each step moves one coordinate on, none ever moves back, and no two voxels with a common
+// edge let a ray through between them: there are at most as many steps as voxels that the ray crosses, whatever the rounding.
+//
+// A ray along a face belongs to the voxel above it, in x, y or z; one that starts on a face and heads into the voxel enters
+// it by that face, one that heads away does not meet it.
 
 HEARTH_SHARED_BEGIN
 

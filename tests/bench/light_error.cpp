@@ -56,7 +56,7 @@ bool isNearLamp(const ShadedScene& scene, const ShadedPoint& point)
 
 } // namespace
 
-std::vector<ShadedPoint> seenPoints(const ShadedScene& scene, const formats::PackView& pack, uint32_t count)
+std::vector<SeenPoint> seenPoints(const ShadedScene& scene, const formats::PackView& pack, uint32_t count)
 {
     Box3 box;
     for (const formats::InstanceRecord& instance : pack.instances())
@@ -69,7 +69,7 @@ std::vector<ShadedPoint> seenPoints(const ShadedScene& scene, const formats::Pac
                                                             corner & 4 ? mesh.box_max.z : mesh.box_min.z}));
     }
     const Double3 low(box.min), size = Double3(box.max) - low;
-    std::vector<ShadedPoint> points;
+    std::vector<SeenPoint> points;
     for (uint32_t i = 0; points.size() < count && i < 4 * count; ++i)
     {
         const Double3 u = pointOfCube(i);
@@ -87,20 +87,21 @@ std::vector<ShadedPoint> seenPoints(const ShadedScene& scene, const formats::Pac
         }
         const auto point = scene.nearest(ray, 0);
         if (point && !point->unlit)
-            points.push_back(*point);
+            points.push_back({*point, -ray.direction});
     }
     return points;
 }
 
-std::vector<LitPoint> litPoints(const ShadedScene& scene, const std::vector<ShadedPoint>& points,
+std::vector<LitPoint> litPoints(const ShadedScene& scene, const std::vector<SeenPoint>& points,
                                 uint32_t paths)
 {
     std::vector<LitPoint> lit(points.size());
-    tbb::parallel_for(
-        size_t{0}, points.size(),
-        [&](size_t i) {
-            lit[i] = {points[i], traceSurfaceLight(scene, points[i], paths, i), isNearLamp(scene, points[i])};
-        });
+    tbb::parallel_for(size_t{0}, points.size(),
+                      [&](size_t i)
+                      {
+                          lit[i] = {points[i], traceSurfaceLight(scene, points[i].point, paths, i),
+                                    isNearLamp(scene, points[i].point)};
+                      });
     return lit;
 }
 
@@ -132,11 +133,17 @@ BrickGather::BrickGather(const bricks::BrickTables& tables, const shared::Lighti
     faces_.assign(faces.faces().begin(), faces.faces().end());
 }
 
-Double3 BrickGather::at(const ShadedPoint& point, uint32_t rays, uint32_t seed) const
+Double3 BrickGather::at(const SeenPoint& seen, uint32_t rays, uint32_t seed) const
 {
+    constexpr float kFarStart = 2; // voxels, as gather_rays.comp of the runtime has it
     const shared::BrickScene scene{tables_.masks(), tables_.opacity, faces_};
-    const Float3 place = (narrowed(point.surface.position) - tables_.grid.origin) / tables_.grid.voxel_size;
-    const shared::BrickStart start = shared::brickSurfaceStart(scene, place, narrowed(litNormal(point)));
+    const Float3 place =
+        (narrowed(seen.point.surface.position) - tables_.grid.origin) / tables_.grid.voxel_size;
+    const Float3 normal = narrowed(litNormal(seen.point));
+    shared::BrickStart start = shared::brickSurfaceStart(scene, place, normal);
+    if (start.buried != 0 || length(start.place - place) > kFarStart)
+        start = shared::brickSurfaceStart(scene, place, narrowed(seen.to_eye));
+    start.normal = normal;
     return Double3(shared::brickGather(scene, sky_, start, rays, shared::brickHash(seed)));
 }
 

@@ -11,10 +11,17 @@
 namespace hearth::bench
 {
 
-/// A point of a surface, and the light that truly arrives there.
-struct LitPoint
+/// A point of a surface, and from where it is seen.
+struct SeenPoint
 {
     reference::ShadedPoint point;
+    reference::Double3 to_eye; ///< unit
+};
+
+/// And the light that truly arrives there.
+struct LitPoint
+{
+    SeenPoint seen;
     reference::SurfaceLight truth;
     bool near_lamp =
         false; ///< within kNearLamp of a lamp, or of a surface that shines and is seen from there
@@ -24,11 +31,11 @@ struct LitPoint
 inline constexpr double kNearLamp = 0.15;
 
 /// Points that are seen from the scene's cameras in all directions; where it has none, from straight above, but for the rim.
-std::vector<reference::ShadedPoint> seenPoints(const reference::ShadedScene& scene,
-                                               const formats::PackView& pack, uint32_t count);
+std::vector<SeenPoint> seenPoints(const reference::ShadedScene& scene, const formats::PackView& pack,
+                                  uint32_t count);
 
-std::vector<LitPoint> litPoints(const reference::ShadedScene& scene,
-                                const std::vector<reference::ShadedPoint>& points, uint32_t paths);
+std::vector<LitPoint> litPoints(const reference::ShadedScene& scene, const std::vector<SeenPoint>& points,
+                                uint32_t paths);
 
 /// The lights and the sky of the reference, as shaders take them.
 shared::Lighting sharedLighting(const reference::SceneLighting& lighting);
@@ -40,8 +47,9 @@ public:
     /// rays  of each face
     BrickGather(const bricks::BrickTables& tables, const shared::Lighting& lighting, uint32_t rays);
 
-    /// Irradiance over pi of all but the lights. rays  of the point
-    reference::Double3 at(const reference::ShadedPoint& point, uint32_t rays, uint32_t seed) const;
+    /// Irradiance over pi of all but the lights, as the runtime gathers it: where the way along the normal leads through
+    /// walls, as in the corners of rooms, rays start from the air that the point is seen through. rays  of the point
+    reference::Double3 at(const SeenPoint& point, uint32_t rays, uint32_t seed) const;
 
 private:
     bricks::BrickTables tables_;

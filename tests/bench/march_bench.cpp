@@ -38,8 +38,9 @@ struct Terrain
                 top[x + size_t{z} * kAcross] = heightAt(x, z);
         for (int i = 0; i < 800; ++i)
         {
-            const uint32_t x = 4 + random() % (kAcross - 8), z = 4 + random() % (kAcross - 8);
-            const uint32_t width = 1 + random() % 4, height = 2 + random() % 14;
+            const auto below = [&](uint32_t most) { return static_cast<uint32_t>(random() % most); };
+            const uint32_t x = 4 + below(kAcross - 8), z = 4 + below(kAcross - 8);
+            const uint32_t width = 1 + below(4), height = 2 + below(14);
             for (uint32_t dz = 0; dz < width; ++dz)
                 for (uint32_t dx = 0; dx < width; ++dx)
                     rock[x + dx + size_t{z + dz} * kAcross] = height;

@@ -68,7 +68,7 @@ Result<LightCurve::Size> measureSize(const bricks::StaticScene& scene, const sha
     std::vector<Double3> gathered(points.size());
     tbb::parallel_for(size_t{0}, points.size(),
                       [&](size_t i)
-                      { gathered[i] = gather.at(points[i].point, gather_rays, static_cast<uint32_t>(i)); });
+                      { gathered[i] = gather.at(points[i].seen, gather_rays, static_cast<uint32_t>(i)); });
     const LightCurve::Size size{voxel_size, lightError(points, gathered, true),
                                 lightError(points, gathered, false)};
     std::printf("  %5.3f m %9zu faces   %6.1f %% %8.1f %% %+8.1f %%   %6.1f %% of all points   %5.1f s\n",
@@ -127,7 +127,7 @@ Status writePicture(const reference::ShadedScene& scene, const formats::PackView
         const uint32_t seed = y * kWidth + x;
         const reference::SurfaceLight truth = reference::traceSurfaceLight(scene, *point, kPaths, seed);
         const Double3 all = truth.direct + truth.indirect;
-        const Double3 ours = truth.direct + gather.at(*point, kGatherRays, seed);
+        const Double3 ours = truth.direct + gather.at({*point, -ray}, kGatherRays, seed);
         const double off = (ours.x + ours.y + ours.z - all.x - all.y - all.z) / 3;
         const Double3 values[] = {all, ours, {std::max(off, 0.0), 0, std::max(-off, 0.0)}};
         for (uint32_t i = 0; i < 3; ++i)

@@ -167,9 +167,8 @@ TEST(BrickLight, keepsValuesToSixteenBits)
         const BrickLight light = encodeBrickLight(value);
         ASSERT_EQ(light.code, encodeRadiance(value));
         const Float3 back = decodeBrickLight(light);
-        if (largest(value) < 64000)
-            for (int c = 0; c < 3; ++c)
-                ASSERT_NEAR(back[c], value[c], value[c] * 3.2e-5f);
+        for (int c = 0; c < 3 && largest(value) < 64000; ++c)
+            ASSERT_NEAR(back[c], value[c], value[c] * 3.2e-5f);
     }
     EXPECT_EQ(decodeBrickLight({encodeRadiance({0.3f, 2, 7}), 0}),
               decodeRadiance(encodeRadiance({0.3f, 2, 7})))
@@ -206,8 +205,8 @@ TEST(FaceLighting, aSealedRoomIsExactlyDark)
     for (int i = 0; i < 6; ++i)
     {
         Voxel wall = makeVoxel({0.9f, 0.9f, 0.9f});
-        if (i % 2 == 1)
-            for (VoxelSide& side : wall.sides)
+        for (VoxelSide& side : wall.sides)
+            if (i % 2 == 1)
                 side.normal = {number(random), number(random), number(random)};
         const Room room({3 + static_cast<uint32_t>(i), 4, 2}, wall, 0.5f);
         const BrickView view = brickViewOf(room.tables);
@@ -275,7 +274,9 @@ TEST_P(Decay, isBelowOneHundredthInTheStatedFrames)
     }
     EXPECT_LT(brightest(), 0.01f * before);
     if (albedo > 0.5f)
+    {
         EXPECT_GT(late, 0.01f * before) << "the bound means something";
+    }
 }
 
 INSTANTIATE_TEST_SUITE_P(albedos, Decay, ::testing::Values(0.1f, 0.5f, 0.8f, 0.9f));

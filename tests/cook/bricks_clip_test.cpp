@@ -151,13 +151,13 @@ TEST(ForEachPiece, givesTheVoxelsThatSeparatingAxesGive)
                 {
                     const Cell cell{x, y, z};
                     const bool has = pieces.areas.contains(cell);
-                    met += has ? 1 : 0;
+                    met += has ? 1u : 0u;
                     if (meets(exact, cell, -1))
                         EXPECT_TRUE(has) << "triangle " << i << " at " << x << " " << y << " " << z;
                     else if (has)
                     {
                         // it lies between voxels, or touches a corner to the last bits of what is rounded
-                        in_planes += isFlat(triangle) ? 1 : 0;
+                        in_planes += isFlat(triangle) ? 1u : 0u;
                         EXPECT_TRUE(meets(exact, cell, 1))
                             << "triangle " << i << " at " << x << " " << y << " " << z;
                     }

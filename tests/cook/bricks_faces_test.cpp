@@ -21,7 +21,7 @@ MaterialUse colored(Float3 color, Float3 emissive = {}, bool double_sided = fals
     MaterialUse material = defaultMaterial();
     material.record.base_color = {color.x, color.y, color.z, 1};
     material.record.emissive = emissive;
-    material.record.flags = double_sided ? formats::kMaterialDoubleSided : 0;
+    material.record.flags = double_sided ? uint32_t{formats::kMaterialDoubleSided} : 0u;
     return material;
 }
 
@@ -209,9 +209,11 @@ TEST(VoxelLook, ofASphereTurnsWithIt)
                 EXPECT_LT(std::abs(length(from) - kRadius), std::sqrt(0.75) + 0.1);
                 for (uint32_t face = 0; face < kFaces; ++face)
                     if ((grid.faces[v] >> face & 1) != 0 && (grid.solid.voxels[v].looked_at >> face & 1) != 0)
+                    {
                         EXPECT_GT(
                             dot(normalOf(grid.solid.voxels[v], face), narrow(from * (1 / length(from)))),
                             0.99f);
+                    }
             }
         });
     // the projections of a sphere: what all faces show along an axis is at least its disc, at most half as much again
@@ -255,7 +257,7 @@ TEST(WithinBudget, keepsTheNearestBricksThatFit)
                                 { EXPECT_LE(distanceOf(cell), some.dropped.from_distance); });
         size_t nearer = 0;
         whole.solid.forEachBrick([&](uint32_t, const Cell& cell)
-                                 { nearer += distanceOf(cell) < some.dropped.from_distance ? 1 : 0; });
+                                 { nearer += distanceOf(cell) < some.dropped.from_distance ? 1u : 0u; });
         EXPECT_LE(nearer, some.solid.bricks.size());
         const BrickTables tables = tablesOf(some.solid, some.faces);
         EXPECT_EQ(

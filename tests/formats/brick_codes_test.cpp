@@ -175,8 +175,11 @@ TEST(Albedo, isThreeUnormsOfTenBits)
 TEST(FaceNormals, areThoseOfTheVertices)
 {
     for (uint32_t code = 0; code < 65536; ++code)
-        if (formats::NormalCode<8>::legal(code))
-            ASSERT_EQ(decodeFaceNormal(code), formats::NormalCode<8>::decode(code)) << code;
+    {
+        if (!formats::NormalCode<8>::legal(code))
+            continue;
+        ASSERT_EQ(decodeFaceNormal(code), formats::NormalCode<8>::decode(code)) << code;
+    }
 }
 
 } // namespace hearth::test

@@ -29,6 +29,16 @@ TEST(CheckPack, acceptsASmallCompletePack)
     EXPECT_EQ(refusal(smallPack(), true), "");
 }
 
+TEST(CheckPack, acceptsBricksThatAreAllAlike)
+{
+    // where nothing glows, more than a MiB shrinks to a few bytes
+    PackModel model;
+    model.bricks = brickModel({400, 1, 400}, [](uint32_t, uint32_t, uint32_t) { return true; });
+    model.brick_grids = {model.bricks.grid};
+    ASSERT_GT(model.bricks.lighting.size() * 4, 1u << 20);
+    EXPECT_EQ(refusal(model, true), "");
+}
+
 TEST(CheckPack, acceptsAnEmptyScene)
 {
     EXPECT_EQ(refusal(PackModel()), "");
