@@ -105,7 +105,7 @@ int mostDifference(const Picture& a, const Picture& b)
 TEST_F(BrickPictureTest, gathersWhatTheCpuGathers)
 {
     load();
-    settled({}, 64);
+    settled({}, 40);
     const Lighting lighting = gpu::makeLighting(*pack_);
     bricks::FaceLighting solver(brickViewOf(model_));
     solver.sweep(lighting, scene_->bricks->rays, 24);
@@ -124,7 +124,7 @@ TEST_F(BrickPictureTest, gathersWhatTheCpuGathers)
         if (start.buried != 0 || length(start.place - place) > 2)
             continue;
         ++count;
-        const Float3 truth = brickGather(scene, sky, start, 1024, 1);
+        const Float3 truth = brickGather(scene, sky, start, 512, 1);
         for (int c = 0; c < 3; ++c)
         {
             square += std::pow(double(point.mean[c] - truth[c]), 2);
@@ -139,7 +139,7 @@ TEST_F(BrickPictureTest, gathersWhatTheCpuGathers)
 TEST_F(BrickPictureTest, standsStill)
 {
     load();
-    settled({}, 64);
+    settled({}, 40);
     Picture last = frame();
     int most = 0;
     for (int i = 0; i < 16; ++i)
@@ -226,7 +226,7 @@ TEST_F(BrickPictureTest, newLightIsSeenSoon)
     const gpu::EmissionScale dark{{{-10, -10, -10}, {10, 10, 10}}, 0};
     frame({.lights = {&change, 1}, .emission = {&dark, 1}});
     const Picture soon = settled({.emission = {&dark, 1}}, 20);
-    const Picture late = settled({.emission = {&dark, 1}}, 64);
+    const Picture late = settled({.emission = {&dark, 1}}, 40);
     EXPECT_GT(mostDifference(before, late), 20);
     EXPECT_LE(mostDifference(soon, late), 3);
 }
