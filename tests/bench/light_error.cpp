@@ -99,7 +99,12 @@ std::vector<LitPoint> litPoints(const ShadedScene& scene, const std::vector<Seen
     tbb::parallel_for(size_t{0}, points.size(),
                       [&](size_t i)
                       {
-                          lit[i] = {points[i], traceSurfaceLight(scene, points[i].point, paths, i),
+                          const SurfaceLight a = traceSurfaceLight(scene, points[i].point, paths / 2, 2 * i);
+                          const SurfaceLight b =
+                              traceSurfaceLight(scene, points[i].point, paths / 2, 2 * i + 1);
+                          lit[i] = {points[i],
+                                    {a.direct, (a.indirect + b.indirect) * 0.5},
+                                    {a.indirect, b.indirect},
                                     isNearLamp(scene, points[i].point)};
                       });
     return lit;
@@ -157,14 +162,14 @@ LightError lightError(const std::vector<LitPoint>& points, const std::vector<Dou
             continue;
         const SurfaceLight& truth = points[i].truth;
         const Double3 off = gathered[i] - truth.indirect;
-        square += dot(off, off) / 3;
+        square += dot(gathered[i] - points[i].halves[0], gathered[i] - points[i].halves[1]) / 3;
         difference += mean(off);
         indirect += mean(truth.indirect);
         whole += mean(truth.direct + truth.indirect);
         ++error.points;
     }
     const auto n = static_cast<double>(std::max<size_t>(error.points, 1));
-    const double rms = std::sqrt(square / n);
+    const double rms = std::sqrt(std::max(square, 0.0) / n);
     error.whole = rms / (whole / n);
     error.indirect = rms / (indirect / n);
     error.bias = difference / indirect;

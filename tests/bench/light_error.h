@@ -23,6 +23,7 @@ struct LitPoint
 {
     SeenPoint seen;
     reference::SurfaceLight truth;
+    reference::Double3 halves[2]; ///< indirect light by either half of the paths
     bool near_lamp =
         false; ///< within kNearLamp of a lamp, or of a surface that shines and is seen from there
 };
@@ -57,7 +58,8 @@ private:
     std::vector<shared::BrickLight> faces_;
 };
 
-/// Root mean square of differences over the mean of the truth.
+/// Root mean square of differences over the mean of the truth. The square of a difference is the product of those from either
+/// half of the paths, whose noise has nothing to do with each other: so its mean is that of the error alone.
 struct LightError
 {
     double whole = 0;    ///< over the mean of all light: its direct part has no error
