@@ -147,6 +147,10 @@ void addCook(CLI::App& app, Work& run)
                      "bytes that the bricks may take on the GPU; 20 MiB by default")
         ->check(CLI::Range(uint64_t{1}, uint64_t{1} << 40).description(""))
         ->needs(bricks);
+    verb->add_option("--brick-bake", options->bricked.bounces,
+                     "bake the light that bricks start with, of so many bounces")
+        ->check(CLI::Range(0u, 64u).description(""))
+        ->needs(bricks);
     verb->add_option("--report", options->report_file, "write a report as JSON");
     verb->add_option("--events", options->events_file,
                      "write what happens while it happens, a JSON object a line");

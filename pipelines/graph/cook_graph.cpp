@@ -144,6 +144,11 @@ size_t addBricks(Graph& graph, const CookSettings& settings)
         addFlags(bricks, {"--voxel-size", fmt::format("{}", *settings.bricks->voxel_size)});
     if (settings.bricks->memory_bytes)
         addFlags(bricks, {"--memory", fmt::format("{}", *settings.bricks->memory_bytes)});
+    if (settings.bricks->bounces)
+    {
+        bricks.depends_on_processor = true;
+        addFlags(bricks, {"--bake", fmt::format("{}", *settings.bricks->bounces)});
+    }
     if (settings.statistics)
         addOutput(bricks, "--stats", kBrickStatistics);
     graph.actions.push_back(std::move(bricks));

@@ -28,6 +28,8 @@ struct BrickOptions
 {
     std::optional<double> voxel_size;     ///< metres
     std::optional<uint64_t> memory_bytes; ///< of the GPU
+    std::optional<uint32_t>
+        bounces; ///< of the light that faces start with; none: they start with what they emit
 };
 
 /// What a cook makes of what: all that its graph is made from.

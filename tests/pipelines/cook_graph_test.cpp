@@ -24,7 +24,7 @@ CookSettings allSettings()
     settings.lods = {"2=b.obj", "1=low/a=b.obj"};
     settings.profile = "house.toml";
     settings.visibility = VisibilityOptions{"draft", "asset", 2.5, 1, {"Run@0.5,1", "Walk"}, true};
-    settings.bricks = BrickOptions{0.25, uint64_t{1} << 20};
+    settings.bricks = BrickOptions{0.25, uint64_t{1} << 20, 2};
     settings.statistics = true;
     return settings;
 }
@@ -85,7 +85,7 @@ TEST(CookGraph, runsEveryCookerWithWhatItIsTold)
     EXPECT_EQ(commands[5], (Words{"bin/hearth-specular", "-o", "{specular.part}"}));
     EXPECT_EQ(commands[6], (Words{"bin/hearth-bricks", "{import.part}", "{clusters.part}", "{textures.part}",
                                   "-o", "{bricks.part}", "--voxel-size", "0.25", "--memory", "1048576",
-                                  "--stats", "{bricks.json}"}));
+                                  "--bake", "2", "--stats", "{bricks.json}"}));
     EXPECT_EQ(commands[7], (Words{"bin/hearth-link", "{import.part}", "{visibility.part}", "{textures.part}",
                                   "{skinning.part}", "--specular", "{specular.part}", "--bricks",
                                   "{bricks.part}", "-o", "{pack.hearth}"}));

@@ -52,7 +52,7 @@ protected:
         settings.lods = {"1=" + sandbox / "low.obj"};
         settings.profile = sandbox / "house.toml";
         settings.visibility = VisibilityOptions{"default", "scene", 2, 1, {"Run@0.5"}, false};
-        settings.bricks = BrickOptions{0.5, uint64_t{1} << 20};
+        settings.bricks = BrickOptions{0.5, uint64_t{1} << 20, 2};
         return settings;
     }
 
@@ -115,9 +115,9 @@ TEST_F(Keys, everyParameterChangesThem)
     // a parameter more breaks these lines: it needs a row below
     const auto& [sources, output, lods, profile, visibility, bricks, statistics] = settings;
     const auto& [quality, occluders, distance, power, poses, refine] = *visibility;
-    const auto& [voxel_size, memory_bytes] = *bricks;
+    const auto& [voxel_size, memory_bytes, bounces] = *bricks;
     static_cast<void>(std::tie(sources, output, lods, profile, statistics, quality, occluders, distance,
-                               power, poses, refine, voxel_size, memory_bytes));
+                               power, poses, refine, voxel_size, memory_bytes, bounces));
 
     struct Row
     {
@@ -152,6 +152,8 @@ TEST_F(Keys, everyParameterChangesThem)
         {"no voxel size", [](CookSettings& s) { s.bricks->voxel_size.reset(); }, {"bricks", "link"}},
         {"memory of bricks", [](CookSettings& s) { s.bricks->memory_bytes = 5; }, {"bricks", "link"}},
         {"no memory of bricks", [](CookSettings& s) { s.bricks->memory_bytes.reset(); }, {"bricks", "link"}},
+        {"bounces", [](CookSettings& s) { s.bricks->bounces = 3; }, {"bricks", "link"}},
+        {"no bounces", [](CookSettings& s) { s.bricks->bounces.reset(); }, {"bricks", "link"}},
         {"the output's name", [&](CookSettings& s) { s.output = folder / "b.hearth"; }, {}},
     };
     const auto before = keys(settings);
