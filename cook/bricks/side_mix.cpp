@@ -66,12 +66,18 @@ SolidVoxel mixed(const SolidGrid& grid, const Cell& cell, const SolidVoxel& voxe
         if (!shows(&voxel, face))
             continue;
         const Shares shares = sharesOf(grid, cell, voxel, face);
-        Float3 albedo = shared::decodeAlbedo(voxel.albedo[face]) * shares.own;
+        const float sum = shares.own + shares.behind;
+        if (sum == 0)
+        {
+            result.emission[face] = 0;
+            continue;
+        }
+        Float3 albedo = shared::decodeAlbedo(voxel.albedo[face]) * (shares.own / sum);
         Float3 emission = shared::decodeRadiance(voxel.emission[face]) * shares.own;
         if (shares.behind > 0)
         {
             const SolidVoxel& next = *voxelAt(grid, across(cell, face ^ 1));
-            albedo += shared::decodeAlbedo(next.albedo[face]) * shares.behind;
+            albedo += shared::decodeAlbedo(next.albedo[face]) * (shares.behind / sum);
             emission += shared::decodeRadiance(next.emission[face]) * shares.behind;
         }
         result.albedo[face] = shared::encodeAlbedo(albedo);

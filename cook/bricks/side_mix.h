@@ -11,8 +11,9 @@
 namespace hearth::bricks
 {
 
-/// Mix albedo and emission of all sides that a front is seen through. Opacities must be set; what rays find along an axis,
-/// opacity times light, is then what the samples of that axis show.
+/// Mix albedo and emission of all sides that a front is seen through. Opacities must be set. Emission is then such that what
+/// rays find along an axis, opacity times light, is what the samples of that axis give off. Albedo is the mean of the surfaces
+/// that are seen: a room of one albedo has it on all its faces, and no light is lost beside their rims.
 void mixSides(SolidGrid& grid);
 
 } // namespace hearth::bricks

@@ -1,6 +1,7 @@
 // What voxels of simple bodies look like, and which of their sides are faces: exact answers.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/bricks/grid_settings.h"
+#include "cook/bricks/side_mix.h"
 #include "formats/shared/brick_codes.h"
 #include "formats/vertex_codec.h"
 #include "tests/cook/bricks_scene.h"
@@ -222,6 +223,34 @@ TEST(VoxelLook, ofASphereTurnsWithIt)
         EXPECT_GT(static_cast<double>(faces), std::numbers::pi * kRadius * kRadius);
         EXPECT_LT(static_cast<double>(faces), 1.5 * std::numbers::pi * kRadius * kRadius);
     }
+}
+
+TEST(SideMix, keepsAnAlbedoThatAllSurfacesHaveAndAddsNoLight)
+{
+    const Float3 albedo{0.8f, 0.4f, 0.2f}, emission{2, 1, 0.5f};
+    Random random(7);
+    std::uniform_real_distribution<double> turn(-1, 1);
+    size_t dimmed = 0;
+    for (int i = 0; i < 20; ++i)
+    {
+        const Double3 x{turn(random), turn(random), turn(random)},
+            y{turn(random), turn(random), turn(random)};
+        const Double3 a = x * (3 / length(x)), across = cross(x, y), c = across * (2.5 / length(across)),
+                      along = cross(c, a), b = along * (4 / length(along));
+        std::vector<Corners> box;
+        addBox(box, Double3{10, 10, 10}, a, b, c, i % 2 != 0);
+        SolidGrid grid = solidOf(box, frameOfSize(20, 20, 20), colored(albedo, emission));
+        mixSides(grid);
+        for (const SolidVoxel& voxel : grid.voxels)
+            for (uint32_t face = 0; face < kFaces; ++face)
+            {
+                expectNear(shared::decodeAlbedo(voxel.albedo[face]), albedo, 2 * kAlbedoStep);
+                const Float3 light = shared::decodeRadiance(voxel.emission[face]);
+                EXPECT_LE(light.x, emission.x);
+                dimmed += (voxel.looked_at >> face & 1) != 0 && light.x < 0.9f * emission.x;
+            }
+    }
+    EXPECT_GT(dimmed, 1000u) << "rims do not fill their sides";
 }
 
 TEST(WithinBudget, keepsTheNearestBricksThatFit)
