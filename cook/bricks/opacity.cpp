@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/bricks/opacity.h"
 
+#include "cook/bricks/each_voxel.h"
+
 #include <algorithm>
-#include <tbb/parallel_for.h>
 
 namespace hearth::bricks
 {
@@ -35,18 +36,8 @@ uint8_t opacityOf(const SolidGrid& grid, const Cell& cell, const CrossSections& 
 
 void hideSheets(SolidGrid& grid)
 {
-    const std::vector<Cell> cells = grid.brickCells();
-    tbb::parallel_for(size_t{0}, grid.bricks.size(),
-                      [&](size_t b)
-                      {
-                          uint32_t voxel = grid.bricks[b].first;
-                          for (uint64_t rest = grid.bricks[b].mask; rest != 0; rest &= rest - 1, ++voxel)
-                          {
-                              const Cell cell =
-                                  cellOf(cells[b], static_cast<uint32_t>(std::countr_zero(rest)));
-                              grid.voxels[voxel].opacity = opacityOf(grid, cell, grid.voxels[voxel].hidden);
-                          }
-                      });
+    forEachVoxel(grid, [&](uint32_t voxel, const Cell& cell)
+                 { grid.voxels[voxel].opacity = opacityOf(grid, cell, grid.voxels[voxel].hidden); });
 }
 
 } // namespace hearth::bricks

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/bricks/side_mix.h"
 
+#include "cook/bricks/each_voxel.h"
 #include "formats/shared/brick_codes.h"
 
 #include <algorithm>
 #include <bit>
-#include <tbb/parallel_for.h>
 
 namespace hearth::bricks
 {
@@ -90,19 +90,9 @@ SolidVoxel mixed(const SolidGrid& grid, const Cell& cell, const SolidVoxel& voxe
 
 void mixSides(SolidGrid& grid)
 {
-    const std::vector<Cell> cells = grid.brickCells();
     std::vector<SolidVoxel> voxels(grid.voxels.size());
-    tbb::parallel_for(size_t{0}, grid.bricks.size(),
-                      [&](size_t b)
-                      {
-                          uint32_t voxel = grid.bricks[b].first;
-                          for (uint64_t rest = grid.bricks[b].mask; rest != 0; rest &= rest - 1, ++voxel)
-                          {
-                              const Cell cell =
-                                  cellOf(cells[b], static_cast<uint32_t>(std::countr_zero(rest)));
-                              voxels[voxel] = mixed(grid, cell, grid.voxels[voxel]);
-                          }
-                      });
+    forEachVoxel(grid, [&](uint32_t voxel, const Cell& cell)
+                 { voxels[voxel] = mixed(grid, cell, grid.voxels[voxel]); });
     grid.voxels = std::move(voxels);
 }
 

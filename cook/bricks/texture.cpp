@@ -2,6 +2,7 @@
 #include "cook/bricks/texture.h"
 
 #include "formats/half.h"
+#include "formats/texel_wrap.h"
 
 #include <cmath>
 
@@ -12,21 +13,6 @@ using namespace formats;
 
 namespace
 {
-
-// Coordinates beyond it lie where floats have no texels any more.
-constexpr float kFarthest = 1e6f;
-
-int64_t wrapped(int64_t texel, int64_t size, uint8_t wrap)
-{
-    if (wrap == static_cast<uint8_t>(Wrap::clamp_to_edge))
-        return std::clamp<int64_t>(texel, 0, size - 1);
-    if (wrap == static_cast<uint8_t>(Wrap::mirrored_repeat))
-    {
-        const int64_t place = (texel % (2 * size) + 2 * size) % (2 * size);
-        return place < size ? place : 2 * size - 1 - place;
-    }
-    return (texel % size + size) % size;
-}
 
 /// IEC 61966-2-1. Floats rounded from doubles: the last bits of pow, which libraries disagree on, do not come through.
 const std::array<float, 256>& linearFromSrgb()
@@ -79,13 +65,13 @@ Float4 Texture::at(const TextureRef& reference, Float2 uv, uint32_t level) const
         return {};
     const MipExtent extent = mipExtent(record_, level);
     const int64_t width = extent.width, height = extent.height;
-    const float x = std::clamp(uv.x, -kFarthest, kFarthest) * static_cast<float>(width) - 0.5f;
-    const float y = std::clamp(uv.y, -kFarthest, kFarthest) * static_cast<float>(height) - 0.5f;
+    const float x = std::clamp(uv.x, -kFarthestUv, kFarthestUv) * static_cast<float>(width) - 0.5f;
+    const float y = std::clamp(uv.y, -kFarthestUv, kFarthestUv) * static_cast<float>(height) - 0.5f;
     const float left = std::floor(x), top = std::floor(y);
     const auto fetch = [&](int column, int row)
     {
-        const int64_t i = wrapped(static_cast<int64_t>(left) + column, width, reference.wrap_u);
-        const int64_t j = wrapped(static_cast<int64_t>(top) + row, height, reference.wrap_v);
+        const int64_t i = wrappedTexel(static_cast<int64_t>(left) + column, width, reference.wrap_u);
+        const int64_t j = wrappedTexel(static_cast<int64_t>(top) + row, height, reference.wrap_v);
         return texel(texels, static_cast<uint64_t>(j * width + i));
     };
     return mixed(mixed(fetch(0, 0), fetch(1, 0), x - left), mixed(fetch(0, 1), fetch(1, 1), x - left),

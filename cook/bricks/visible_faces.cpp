@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/bricks/visible_faces.h"
 
+#include "cook/bricks/each_voxel.h"
 #include "cook/bricks/opacity.h"
-
-#include <tbb/parallel_for.h>
 
 namespace hearth::bricks
 {
@@ -20,20 +19,13 @@ std::vector<uint8_t> visibleFaces(const SolidGrid& grid, const OpenSpace& spaces
                seen.seen[space_of_voxel[voxel]];
     };
     std::vector<uint8_t> faces(grid.voxels.size());
-    const std::vector<Cell> cells = grid.brickCells();
-    tbb::parallel_for(size_t{0}, grid.bricks.size(),
-                      [&](size_t b)
-                      {
-                          uint32_t voxel = grid.bricks[b].first;
-                          for (uint64_t rest = grid.bricks[b].mask; rest != 0; rest &= rest - 1, ++voxel)
-                          {
-                              const Cell cell =
-                                  cellOf(cells[b], static_cast<uint32_t>(std::countr_zero(rest)));
-                              for (uint32_t face = 0; face < kFaces; ++face)
-                                  if (isSeen(across(cell, face)))
-                                      faces[voxel] |= static_cast<uint8_t>(1u << face);
-                          }
-                      });
+    forEachVoxel(grid,
+                 [&](uint32_t voxel, const Cell& cell)
+                 {
+                     for (uint32_t face = 0; face < kFaces; ++face)
+                         if (isSeen(across(cell, face)))
+                             faces[voxel] |= static_cast<uint8_t>(1u << face);
+                 });
     return faces;
 }
 

@@ -2,6 +2,7 @@
 #include "cook/visibility/alpha_mask.h"
 
 #include "formats/half.h"
+#include "formats/texel_wrap.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,26 +12,6 @@ namespace hearth::visibility
 {
 
 using namespace formats;
-
-namespace
-{
-
-// Coordinates beyond it lie where floats have no texels any more.
-constexpr float kFarthest = 1e6f;
-
-int64_t wrapped(int64_t texel, int64_t size, uint8_t wrap)
-{
-    if (wrap == static_cast<uint8_t>(Wrap::clamp_to_edge))
-        return std::clamp<int64_t>(texel, 0, size - 1);
-    if (wrap == static_cast<uint8_t>(Wrap::mirrored_repeat))
-    {
-        const int64_t place = (texel % (2 * size) + 2 * size) % (2 * size);
-        return place < size ? place : 2 * size - 1 - place;
-    }
-    return (texel % size + size) % size;
-}
-
-} // namespace
 
 Result<AlphaImage> alphaOf(const PackView& part, uint32_t image)
 {
@@ -73,7 +54,7 @@ bool AlphaMask::blocks(Float2 uv) const
     const float* m = texture_.uv_transform;
     const auto place = [&](const float* row, uint32_t size)
     {
-        const float value = std::clamp(row[0] * uv.x + row[1] * uv.y + row[2], -kFarthest, kFarthest);
+        const float value = std::clamp(row[0] * uv.x + row[1] * uv.y + row[2], -kFarthestUv, kFarthestUv);
         return value * static_cast<float>(size) - 0.5f;
     };
     const float x = place(m, image_->width), y = place(m + 3, image_->height);
@@ -87,8 +68,8 @@ bool AlphaMask::blocks(Float2 uv) const
 
 float AlphaMask::texel(int64_t x, int64_t y) const
 {
-    const int64_t column = wrapped(x, image_->width, texture_.wrap_u);
-    const int64_t row = wrapped(y, image_->height, texture_.wrap_v);
+    const int64_t column = wrappedTexel(x, image_->width, texture_.wrap_u);
+    const int64_t row = wrappedTexel(y, image_->height, texture_.wrap_v);
     return static_cast<float>(image_->texels[static_cast<size_t>(row * image_->width + column)]) / 255.0f;
 }
 

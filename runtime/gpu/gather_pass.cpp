@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/gpu/gather_pass.h"
 
+#include "runtime/gpu/image_barrier.h"
 #include "runtime/shaders/shaders.h"
 
 namespace hearth::gpu
@@ -17,22 +18,6 @@ void bind(const Device& device, VkCommandBuffer commands, const ComputePipeline&
     device.vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.pipeline.get());
     device.vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.layout.get(), 0,
                                       static_cast<uint32_t>(sets.size()), sets.begin(), 0, nullptr);
-}
-
-void transition(const Device& device, VkCommandBuffer commands, const Image& image, VkImageLayout from,
-                VkImageLayout to, VkAccessFlags written, VkAccessFlags read, VkPipelineStageFlags from_stage,
-                VkPipelineStageFlags to_stage)
-{
-    VkImageMemoryBarrier info{};
-    info.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER;
-    info.srcAccessMask = written;
-    info.dstAccessMask = read;
-    info.oldLayout = from;
-    info.newLayout = to;
-    info.srcQueueFamilyIndex = info.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
-    info.image = image.handle.get();
-    info.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
-    device.vk.vkCmdPipelineBarrier(commands, from_stage, to_stage, 0, 0, nullptr, 0, nullptr, 1, &info);
 }
 
 } // namespace

@@ -19,16 +19,10 @@ formats::MaterialRecord defaultMaterial();
 
 shared::Material makeMaterial(const formats::MaterialRecord& record);
 
-/// Before exposure, and without a shadow.
-shared::Light makeLight(const formats::LightRecord& record);
-
-/// Lights and sky. A scene without lights gets one sun. The exposure rule: the light that the scene's lights send
-/// together to a point in the middle of the scene is estimated; where it is more than shared::kKeyIlluminance, all lights are
-/// scaled down to it, so that lamps in candela and suns in lux are shown by the same camera. Never scaled up: a dim
-/// light stays dim beside the sky. Emissive factors are display-referred (1 = white) and not scaled.
+/// Lights and sky, by shared::sceneLighting, with the rows of their shadows.
 shared::Lighting makeLighting(const formats::PackView& pack);
 
-/// What the rule multiplies lights with, up to 1.
+/// shared::lightExposure of a pack.
 float lightExposure(const formats::PackView& pack);
 
 } // namespace hearth::gpu
