@@ -63,7 +63,7 @@ std::array<size_t, kFaces> countFaces(const FacedGrid& grid)
     std::array<size_t, kFaces> count{};
     for (const uint8_t faces : grid.faces)
         for (uint32_t face = 0; face < kFaces; ++face)
-            count[face] += faces >> face & 1;
+            count[face] += (faces >> face & 1) != 0;
     return count;
 }
 
@@ -247,7 +247,8 @@ TEST(SideMix, keepsAnAlbedoThatAllSurfacesHaveAndAddsNoLight)
                 expectNear(shared::decodeAlbedo(voxel.albedo[face]), albedo, 2 * kAlbedoStep);
                 const Float3 light = shared::decodeRadiance(voxel.emission[face]);
                 EXPECT_LE(light.x, emission.x);
-                dimmed += (voxel.looked_at >> face & 1) != 0 && light.x < 0.9f * emission.x;
+                if ((voxel.looked_at >> face & 1) != 0 && light.x < 0.9f * emission.x)
+                    ++dimmed;
             }
     }
     EXPECT_GT(dimmed, 1000u) << "rims do not fill their sides";
