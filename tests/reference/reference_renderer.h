@@ -19,7 +19,7 @@ struct ReferenceOptions
     uint32_t height = 512;
     uint32_t samples_per_side = 4; ///< rays per pixel: its square
     bool shadows = false;          ///< of suns and spots, as hearth-render --shadows has them
-    SkyTracing sky; ///< whether what stands in front of the sky counts; its `shadows` is the one above
+    SkyTracing sky = {}; ///< whether what stands in front of the sky counts; its `shadows` is the one above
 };
 
 /// errors: those of reading pages and images.
