@@ -246,13 +246,21 @@ HEARTH_FUNCTION Float3 brickSkyRadiance(HEARTH_IN(BrickSky) sky, Float3 directio
     return sky.ground + (above - sky.ground) * brickSmooth(-0.296f, 0.296f, direction.y);
 }
 
+struct BrickRayLight
+{
+    Float3 radiance;
+    float sky; ///< share of the ray that passes all bricks, [0, 1]
+};
+
 /// What a ray brings: light of the faces that it meets, of each as much as its voxel stops, and behind them all the sky's.
 /// place      in voxels
 /// direction  unit
-HEARTH_FUNCTION Float3 brickRayRadiance(HEARTH_IN(BrickScene) scene, HEARTH_IN(BrickSky) sky, Float3 place,
-                                        Float3 direction)
+HEARTH_FUNCTION BrickRayLight brickRayLight(HEARTH_IN(BrickScene) scene, HEARTH_IN(BrickSky) sky,
+                                            Float3 place, Float3 direction)
 {
-    Float3 radiance = Float3(0.0f, 0.0f, 0.0f);
+    BrickRayLight light;
+    light.radiance = Float3(0.0f, 0.0f, 0.0f);
+    light.sky = 0.0f;
     float through = 1.0f;
     BrickRay ray = brickMarch(
         brickMasksOf(scene), brickRayInVoxels(brickGridOf(brickMasksOf(scene)), place, direction, kBrickFar));
@@ -262,13 +270,15 @@ HEARTH_FUNCTION Float3 brickRayRadiance(HEARTH_IN(BrickScene) scene, HEARTH_IN(B
         float opacity = brickOpacityAt(scene, brickVoxel(brick, ray.bit));
         uint face = brickFace(brick, ray.bit, ray.face);
         if (face != kNoFace)
-            radiance = radiance + brickRadianceAt(scene, face) * (through * opacity);
+            light.radiance = light.radiance + brickRadianceAt(scene, face) * (through * opacity);
         through *= 1.0f - opacity;
         if (through < kBrickLeastThrough)
-            return radiance;
+            return light;
         ray = brickMarch(brickMasksOf(scene), brickPass(brickMasksOf(scene), ray));
     }
-    return radiance + brickSkyRadiance(sky, direction) * through;
+    light.radiance = light.radiance + brickSkyRadiance(sky, direction) * through;
+    light.sky = through;
+    return light;
 }
 
 /// The share of light that passes along a ray. far  in voxels
@@ -352,7 +362,8 @@ HEARTH_FUNCTION Float3 brickGather(HEARTH_IN(BrickScene) scene, HEARTH_IN(BrickS
     Float3 sum = Float3(0.0f, 0.0f, 0.0f);
     for (uint i = 0u; i < count; ++i)
         sum =
-            sum + brickRayRadiance(scene, sky, start.place, brickRayDirection(start.normal, i, count, seed));
+            sum +
+            brickRayLight(scene, sky, start.place, brickRayDirection(start.normal, i, count, seed)).radiance;
     return start.buried != 0u ? Float3(0.0f, 0.0f, 0.0f) : sum * (1.0f / float(count));
 }
 

@@ -17,28 +17,6 @@ shared vec3 ray_direction[kGatherGroupPoints][kGatherRays];
 shared vec3 mirror_light[kGatherGroupPoints][kGatherMirrorRays];
 shared BrickStart starts[kGatherGroupPoints];
 
-// As brickRayRadiance, with the share that passes all bricks.
-vec4 rayLight(vec3 place, vec3 direction)
-{
-    BrickGrid grid = brick_view.grid;
-    vec3 radiance = vec3(0.0);
-    float through = 1.0;
-    BrickRay ray = brickMarch(grid, brickRayInVoxels(grid, place, direction, kBrickFar));
-    while (ray.inside != 0u)
-    {
-        Brick brick = brickAt(grid, ray.brick);
-        float opacity = brickOpacityAt(grid, brickVoxel(brick, ray.bit));
-        uint face = brickFace(brick, ray.bit, ray.face);
-        if (face != kNoFace)
-            radiance += brickRadianceAt(grid, face) * (through * opacity);
-        through *= 1.0 - opacity;
-        if (through < kBrickLeastThrough)
-            return vec4(radiance, 0.0);
-        ray = brickMarch(grid, brickPass(grid, ray));
-    }
-    return vec4(radiance + brickSkyRadiance(brickSky(), direction) * through, through);
-}
-
 // Of the cone about the mirror's direction, never below the surface.
 vec3 mirrorDirection(GatherPoint point, uint index)
 {
@@ -214,9 +192,11 @@ void main()
         vec3 direction = brickRayDirection(start.normal, index * kGatherFrames + gather.frame % kGatherFrames,
                                            kGatherRays * kGatherFrames, placeInBlock(tile) << 28);
         ray_direction[row][index] = direction;
-        ray_light[row][index] = rayLight(start.place, direction);
+        BrickRayLight light = brickRayLight(brick_view.grid, brickSky(), start.place, direction);
+        ray_light[row][index] = vec4(light.radiance, light.sky);
         if (index < kGatherMirrorRays)
-            mirror_light[row][index] = rayLight(start.place, mirrorDirection(point, index)).rgb;
+            mirror_light[row][index] =
+                brickRayLight(brick_view.grid, brickSky(), start.place, mirrorDirection(point, index)).radiance;
     }
     barrier();
     if (open && index == 0u)
