@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "pipelines/command/typing_errors.h"
+
+#include "cook/tools/suggest.h"
+
+#include <CLI/CLI.hpp>
+
+namespace hearth::command
+{
+
+std::string unknownWord(const CLI::App& app, const std::vector<std::string>& words)
+{
+    const auto describe = [](const std::string& kind, const std::string& word, const std::string& nearest)
+    {
+        return "unknown " + kind + " '" + word + "'" +
+               (nearest.empty() ? std::string() : ": did you mean '" + nearest + "'?");
+    };
+    const CLI::App* verb = &app;
+    for (const std::string& word : words)
+    {
+        const bool is_option = word.size() > 1 && word[0] == '-' && word.find_first_of("0123456789.") != 1;
+        if (word == "--")
+            break;
+        if (is_option)
+        {
+            const std::string name = word.substr(0, word.find('='));
+            // -j4 and -qv are short options with more in the same word
+            const std::string shortened = name[1] == '-' ? name : name.substr(0, 2);
+            if (verb->get_option_no_throw(shortened) != nullptr)
+                continue;
+            std::vector<std::string> names;
+            for (const CLI::Option* option : verb->get_options())
+                for (const std::string& long_name : option->get_lnames())
+                    names.push_back("--" + long_name);
+            return describe("option", name, tools::nearestMatch(name, names));
+        }
+        if (verb != &app)
+            continue;
+        std::vector<std::string> names;
+        for (const CLI::App* known : app.get_subcommands(nullptr))
+        {
+            names.push_back(known->get_name());
+            if (known->get_name() == word)
+                verb = known;
+        }
+        if (verb == &app)
+            return describe("verb", word, tools::nearestMatch(word, names));
+    }
+    return "";
+}
+
+} // namespace hearth::command

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "pipelines/command/verb_tools.h"
+
+#include "formats/program.h"
+#include "pipelines/cache/open_cache.h"
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+
+namespace hearth::command
+{
+
+int fail(const Error& error)
+{
+    std::fprintf(stderr, "%s\n", formatMessage(error).c_str());
+    return exitCode(error);
+}
+
+int usageError(const std::string& what)
+{
+    return fail({Issue::usage, "hearth", "", what});
+}
+
+int printResult(const std::string& text)
+{
+    if (std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0)
+        return 0;
+    return fail({Issue::read_failed, "stdout", "", "cannot be written"});
+}
+
+int printResult(const Result<std::string>& result)
+{
+    return result.ok() ? printResult(*result) : fail(result.error());
+}
+
+void addFormat(CLI::App& verb, std::string& format)
+{
+    verb.add_option("--format", format, "how the result is written")
+        ->check(CLI::IsMember({"text", "json"}))
+        ->capture_default_str();
+}
+
+void addCaches(CLI::App& verb, std::vector<std::string>& caches)
+{
+    verb.add_option(
+            "--cache", caches,
+            "dir:FOLDER[,ro][,size=20G]; may be repeated, nearest first; HEARTH_CACHE or the user's own "
+            "by default")
+        ->allow_extra_args(false);
+}
+
+std::string sizeFault(const std::string& text)
+{
+    const Result<uint64_t> size = cache::parseSize(text, "");
+    return size.ok() ? "" : size.error().detail;
+}
+
+} // namespace hearth::command

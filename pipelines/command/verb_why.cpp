@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "pipelines/command/verb_tools.h"
+#include "pipelines/command/verbs.h"
+#include "pipelines/command/why.h"
+
+#include <CLI/CLI.hpp>
+
+namespace hearth::command
+{
+
+void addWhy(CLI::App& app, Work& run)
+{
+    CLI::App* verb = app.add_subcommand("why", "Say why cookers ran, and why they would run again");
+    struct Options
+    {
+        std::string file;
+        std::vector<std::string> caches;
+    };
+    auto options = std::make_shared<Options>();
+    verb->add_option("FILE", options->file, "pack that was cooked here, or a source of one")->required();
+    addCaches(*verb, options->caches);
+    verb->footer("Example: hearth why village.hearth");
+    verb->callback([options, &run]
+                   { run = [options] { return printResult(why(options->file, options->caches)); }; });
+}
+
+} // namespace hearth::command
