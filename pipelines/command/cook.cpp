@@ -5,6 +5,7 @@
 #include "cook/tools/whole_file.h"
 #include "formats/pack_view.h"
 #include "pipelines/command/cook_memory.h"
+#include "pipelines/command/depfile.h"
 #include "pipelines/command/dry_run.h"
 #include "pipelines/command/event_log.h"
 #include "pipelines/graph/causes.h"
@@ -116,6 +117,12 @@ Status checkOutput(const CookOptions& options)
     for (const std::string& source : options.sources)
         if (std::filesystem::equivalent(source, options.output, error))
             return Error{Issue::usage, options.output, "", "the output would overwrite a source"};
+    for (const std::string& source : options.sources)
+        if (std::filesystem::equivalent(source, options.depfile, error))
+            return Error{Issue::usage, options.depfile, "", "the depfile would overwrite a source"};
+    if (!options.depfile.empty() &&
+        graph::absolutePath(options.depfile) == graph::absolutePath(options.output))
+        return Error{Issue::usage, options.depfile, "", "the depfile would overwrite the output"};
     HEARTH_ASSIGN_OR_RETURN(const std::vector<LodFile> lods, parseLodFiles(options.lods));
     if (!lods.empty() && options.sources.size() > 1)
         return Error{Issue::usage, "--lod", "",
@@ -248,6 +255,18 @@ bool flush(const std::string& path)
     return flushed;
 }
 
+bool writeDepfile(const graph::Graph& graph, const graph::Executor& executor, const CookOptions& options,
+                  CookOutcome& outcome)
+{
+    if (options.depfile.empty())
+        return true;
+    const Result<std::string> text = depfileOf(graph, executor, options.output);
+    const Status written = text.ok() ? writeText(options.depfile, *text) : Status(text.error());
+    if (!written.ok())
+        fail(written.error(), options.sources.size(), outcome);
+    return written.ok();
+}
+
 /// Move the pack into place, unless what is there already is the same.
 bool placePack(const graph::Executor& executor, const std::optional<std::string>& hash_there,
                const CookOptions& options, CookOutcome& outcome)
@@ -276,10 +295,10 @@ void cookGraph(const graph::Graph& graph, CookMemory* memory, const CookOptions&
     graph::Resolver resolver(
         graph, cache, actions, [&]() -> const std::optional<graph::Journal>& { return memory->journal(); },
         options.force);
-    graph::Executor executor(
-        graph, resolver, cache, actions,
-        {options.jobs, memoryFor(options), !options.fail_fast, programFolder(), options.output},
-        eventsFor(options, log));
+    graph::Executor executor(graph, resolver, cache, actions,
+                             {options.jobs, memoryFor(options), !options.fail_fast, !options.depfile.empty(),
+                              programFolder(), options.output},
+                             eventsFor(options, log));
     const bool interrupted = !executor.run(hash_there);
     std::string output_cause;
     if (interrupted)
@@ -293,7 +312,9 @@ void cookGraph(const graph::Graph& graph, CookMemory* memory, const CookOptions&
         takeFailures(executor.failures(), outcome);
         printLeftOut(graph, executor, options);
     }
-    else if (placePack(executor, hash_there, options, outcome))
+    // before the pack: who finds a new pack finds what it is made of
+    else if (writeDepfile(graph, executor, options, outcome) &&
+             placePack(executor, hash_there, options, outcome))
     {
         if (!options.report_file.empty())
             fillStages(graph, executor, outcome);

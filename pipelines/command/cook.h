@@ -31,6 +31,7 @@ struct CookOptions : graph::CookSettings
     std::string dry_run_format = "text"; ///< or "json": the plan
     Verbosity verbosity = Verbosity::normal;
     std::string report_file; ///< empty: none
+    std::string depfile;     ///< what was read, as depfileOf writes it; empty: none
     std::string events_file; ///< empty: none
 };
 

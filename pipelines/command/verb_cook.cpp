@@ -91,7 +91,10 @@ void addCook(CLI::App& app, Work& run)
     auto* no_cache = verb->add_flag("--no-cache", options->no_cache, "run every cooker and keep nothing");
     verb->add_flag("-f,--force", options->force, "run every cooker, whatever the cache has")
         ->excludes(no_cache);
-    auto* dry_run = verb->add_flag("-n,--dry-run", options->dry_run, "only say what would run, and why");
+    auto* depfile = verb->add_option("--depfile", options->depfile,
+                                     "write what was read, textures that were found too, for make or ninja");
+    auto* dry_run = verb->add_flag("-n,--dry-run", options->dry_run, "only say what would run, and why")
+                        ->excludes(depfile);
     verb->add_option("--format", options->dry_run_format, "of --dry-run; json: the whole plan")
         ->check(CLI::IsMember({"text", "json"}))
         ->needs(dry_run);

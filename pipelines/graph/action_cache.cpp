@@ -127,15 +127,30 @@ std::optional<Record> ActionCache::recordOf(const Action& action, const std::vec
     return graph::recordOf(action, version, hashes);
 }
 
-std::string ActionCache::hashNow(const Action& action, const std::string& found)
+/// Where a file lies that a field of a record names; empty where the action has no input of its role.
+std::string ActionCache::pathOfFound(const Action& action, const std::string& found)
 {
     const size_t slash = found.find('/', kFound.size());
     const std::string role = found.substr(kFound.size(), slash - kFound.size());
     for (const Input& input : action.inputs)
         if (input.role == role && slash != std::string::npos)
-            return hashes_.hashOf(realFolderOf(input.path) + found.substr(slash + 1))
-                .value_or(std::string(kAbsent));
-    return std::string(kAbsent);
+            return realFolderOf(input.path) + found.substr(slash + 1);
+    return "";
+}
+
+std::string ActionCache::hashNow(const Action& action, const std::string& found)
+{
+    const std::string path = pathOfFound(action, found);
+    return path.empty() ? std::string(kAbsent) : hashes_.hashOf(path).value_or(std::string(kAbsent));
+}
+
+std::vector<std::string> ActionCache::filesFound(const Action& action, const Record& record)
+{
+    std::vector<std::string> paths;
+    for (const auto& [name, hash] : record)
+        if (name.starts_with(kFound) && hash != kAbsent)
+            paths.push_back(pathOfFound(action, name));
+    return paths;
 }
 
 Record ActionCache::refreshed(const Action& action, const Record& record)

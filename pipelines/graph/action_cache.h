@@ -60,9 +60,13 @@ public:
     /// What the files are now that a record of before says were found.
     Record refreshed(const Action& action, const Record& record);
 
+    /// Paths of the files that a record of the action says were found and read.
+    std::vector<std::string> filesFound(const Action& action, const Record& record);
+
 private:
     std::string versionOf(const std::string& cooker);
     std::string realFolderOf(const std::string& path);
+    std::string pathOfFound(const Action& action, const std::string& found);
     std::string hashNow(const Action& action, const std::string& found);
 
     cache::Cache& cache_;

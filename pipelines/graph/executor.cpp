@@ -116,6 +116,24 @@ bool Executor::materialize(size_t action)
     return true;
 }
 
+std::vector<std::string> Executor::filesFound(size_t index) const
+{
+    const Action& action = graph_.actions[index];
+    if (!action.finds_files)
+        return {};
+    if (outcomes_[index].ending == Ending::kept)
+        return actions_->filesFound(action, outcomes_[index].record);
+    const std::optional<std::string> text = cache::readText(readListOf(index));
+    const auto reads = text ? tools::ReadList::parse(*text) : std::nullopt;
+    std::vector<std::string> paths;
+    if (reads)
+        for (const auto& [path, hash] : reads->files())
+            // a file that changed between two reads has no hash, and is there
+            if (hash || sizeOf(path))
+                paths.push_back(path);
+    return paths;
+}
+
 /// Have the files that the action reads; what the cache has lost is made again first.
 bool Executor::haveInputs(size_t action)
 {
@@ -150,7 +168,7 @@ std::optional<Failure> Executor::start(size_t index)
         paths.inputs.push_back(input.action == kNoAction ? input.path
                                                          : outcomes_[input.action].paths.front());
     std::vector<std::string> command = commandOf(action, options_.programs, paths);
-    if (action.finds_files && cache_ != nullptr)
+    if (action.finds_files && (cache_ != nullptr || options_.lists_files))
         command.insert(command.end(), {"--depfile", readListOf(index)});
     if (events_.starting)
         events_.starting(action, outcomes_[index], command);

@@ -20,6 +20,7 @@ struct ExecutorOptions
     unsigned jobs = 2;         ///< cookers at once
     uint64_t memory_bytes = 0; ///< that they may take together, by their estimates; one always runs
     bool keeps_going = true;   ///< after a failure, with what does not depend on it
+    bool lists_files = false;  ///< has cookers list what they find without a cache, too: for filesFound()
     std::string programs;      ///< folder of the cookers
     std::string output;        ///< the pack: temporary files are made beside it, or in TMPDIR
 };
@@ -64,6 +65,9 @@ public:
     const std::vector<Failure>& failures() const { return failures_; }
     /// The whole pack, to be moved into its place; empty where it has failed, or is there already.
     const std::string& packPath() const { return pack_path_; }
+
+    /// Paths of the files that an action which went well has found by itself and read.
+    std::vector<std::string> filesFound(size_t action) const;
 
     /// Have the outputs of an action that was taken from the cache as files; false where the cache has lost them.
     bool materialize(size_t action);

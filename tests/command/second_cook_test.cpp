@@ -458,6 +458,43 @@ TEST_F(SecondCook, reportsWhatWasKept)
     EXPECT_FALSE(report["assets"][0]["clusters"].is_null());
 }
 
+TEST_F(SecondCook, tellsMakeOfAllThatItReads)
+{
+    const std::string real = fs::canonical(folder.path()).string() + "/";
+    const std::string house = "a.hearth: \\\n  house.obj \\\n  ./tree.gltf \\\n  " + real +
+                              "house.mtl \\\n  " + real + "house.tga \\\n  " + real + "tree.bin\n\n" + real +
+                              "house.mtl:\n\n" + real + "house.tga:\n\n" + real + "tree.bin:\n";
+    const std::vector<std::string> arguments{"house.obj", "./tree.gltf", "-o",
+                                             "a.hearth",  "--depfile",   "a.d"};
+    ran(cook(arguments));
+    EXPECT_EQ(folder.read("a.d"), house);
+    // what was kept has read the same
+    fs::remove(folder / "a.d");
+    EXPECT_TRUE(isUpToDate(cook(arguments)));
+    EXPECT_EQ(folder.read("a.d"), house);
+    // and so it is without a cache
+    fs::remove(folder / "a.d");
+    ran(cook(arguments, {"HEARTH_CACHE=off"}));
+    EXPECT_EQ(folder.read("a.d"), house);
+    // a texture that was missing has come
+    folder.write("tree.tga", tgaImage(7));
+    ran(cook(arguments));
+    EXPECT_NE(folder.read("a.d").find(real + "tree.bin \\\n  " + real + "tree.tga\n"), std::string::npos)
+        << folder.read("a.d");
+}
+
+TEST_F(SecondCook, aDepfileThatCannotBeIsAnError)
+{
+    const std::string source = folder.read("house.obj");
+    EXPECT_EQ(cook({"house.obj", "-o", "a.hearth", "--depfile", "./house.obj"}).exit_code, 2);
+    EXPECT_EQ(folder.read("house.obj"), source);
+    EXPECT_EQ(cook({"house.obj", "-o", "a.hearth", "--depfile", "./a.hearth"}).exit_code, 2);
+    EXPECT_EQ(cook({"house.obj", "-o", "a.hearth", "--depfile", "nowhere/a.d"}).exit_code, 73);
+    EXPECT_EQ(cook({"house.obj", "-o", "a.hearth", "--depfile", "a.d", "--dry-run"}).exit_code, 2);
+    EXPECT_FALSE(folder.has("a.hearth"));
+    EXPECT_FALSE(folder.has("a.d"));
+}
+
 TEST_F(SecondCook, theImportListsAllThatItReads)
 {
     const auto reads = [&](std::vector<std::string> arguments)
