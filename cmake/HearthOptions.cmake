@@ -1,16 +1,23 @@
 # Compiler settings that hold for every target of the project.
+# A project that adds this one as a folder gets the cookers and the libraries, and asks for the rest.
 option(HEARTH_BUILD_TESTS "Build tests and benchmarks" ${PROJECT_IS_TOP_LEVEL})
-option(HEARTH_BUILD_WINDOW "Build hearth-view, which needs SDL2 and Dear ImGui" ${PROJECT_IS_TOP_LEVEL})
+option(HEARTH_BUILD_SAMPLES "Build hearth-samples, the generator of sample sources" ${PROJECT_IS_TOP_LEVEL})
+option(HEARTH_BUILD_VIEWER "Build hearth-render" ${PROJECT_IS_TOP_LEVEL})
+option(HEARTH_BUILD_WINDOW "Build hearth-view, which needs HEARTH_BUILD_VIEWER, SDL2 and Dear ImGui" ${PROJECT_IS_TOP_LEVEL})
+option(HEARTH_INSTALL "Have rules to install and to package" ${PROJECT_IS_TOP_LEVEL})
 option(HEARTH_HARDENED "Turn on the standard library's own checks" OFF)
 option(HEARTH_FUZZ "Build the libFuzzer targets (clang only)" OFF)
 set(HEARTH_SANITIZE "" CACHE STRING "Sanitizers to build with, as for -fsanitize")
+if(HEARTH_BUILD_TESTS AND NOT (HEARTH_BUILD_SAMPLES AND HEARTH_BUILD_VIEWER))
+  message(FATAL_ERROR "HEARTH_BUILD_TESTS needs HEARTH_BUILD_SAMPLES and HEARTH_BUILD_VIEWER: the tests draw samples")
+endif()
 
 set(CMAKE_CXX_STANDARD 20)
 set(CMAKE_CXX_STANDARD_REQUIRED ON)
 set(CMAKE_CXX_EXTENSIONS OFF)
 set(CMAKE_POSITION_INDEPENDENT_CODE ON)
 set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
-set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/bin)
+set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/bin)
 
 find_program(HEARTH_CCACHE ccache)
 if(HEARTH_CCACHE)
@@ -21,7 +28,11 @@ endif()
 add_library(hearth_warnings INTERFACE)
 target_compile_options(hearth_warnings INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -Wnon-virtual-dtor -Woverloaded-virtual
-  -Wcast-align -Wformat=2 -Wundef -Werror)
+  -Wcast-align -Wformat=2 -Wundef)
+# where it is a part of something else, a compiler of tomorrow that warns of more ends no build
+if(PROJECT_IS_TOP_LEVEL)
+  target_compile_options(hearth_warnings INTERFACE -Werror)
+endif()
 
 add_library(hearth_settings INTERFACE)
 # One result on every machine: no contraction into fused multiply-adds, no reassociation.

@@ -23,9 +23,9 @@
 #include <vulkan/vulkan_core.h>
 
 #ifdef __cplusplus
-#define HEARTH_API extern "C"
+#define HEARTH_API extern "C" __attribute__((visibility("default")))
 #else
-#define HEARTH_API extern
+#define HEARTH_API extern __attribute__((visibility("default")))
 #endif
 
 /* Major version << 16 | minor version. A library takes callers of its major version and of no later minor version. */

@@ -1,0 +1,51 @@
+# What `cmake --install` puts where, in four components: the programs, the window, the runtime that games ship with, and what
+# is needed to build against it. No installed file holds a path: all may be moved together.
+include(GNUInstallDirs)
+include(CMakePackageConfigHelpers)
+
+get_property(programs GLOBAL PROPERTY HEARTH_PROGRAMS)
+get_property(exports GLOBAL PROPERTY HEARTH_EXPORTS)
+# All that is installed, for who does not build the tests.
+add_custom_target(hearth_installed DEPENDS ${programs} ${exports})
+
+# hearth-view apart: it needs a window system, and machines that cook have none.
+set(window_programs ${programs})
+list(FILTER window_programs INCLUDE REGEX "^hearth-view$")
+list(REMOVE_ITEM programs ${window_programs})
+install(TARGETS ${programs} RUNTIME COMPONENT programs)
+if(window_programs)
+  install(TARGETS ${window_programs} RUNTIME COMPONENT window)
+endif()
+# Man pages and completions of the shells belong here, with COMPONENT programs.
+install(FILES README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT programs)
+
+install(TARGETS ${exports} EXPORT hearthTargets
+  LIBRARY COMPONENT runtime NAMELINK_COMPONENT development
+  ARCHIVE COMPONENT development
+  INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/hearth)
+install(FILES runtime/c/hearth.h runtime/c/hearth.hpp
+  DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/hearth COMPONENT development)
+# format_tables.h is of no library that is installed
+install(DIRECTORY formats DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/hearth COMPONENT development
+  FILES_MATCHING PATTERN "*.h" PATTERN format_tables.h EXCLUDE)
+install(FILES formats/FORMAT.md runtime/c/README.md DESTINATION ${CMAKE_INSTALL_DOCDIR}/development COMPONENT development)
+
+# find_package(hearth CONFIG)
+set(config_folder ${CMAKE_INSTALL_LIBDIR}/cmake/hearth)
+configure_package_config_file(cmake/hearthConfig.cmake.in ${PROJECT_BINARY_DIR}/hearthConfig.cmake
+  INSTALL_DESTINATION ${config_folder}
+  PATH_VARS CMAKE_INSTALL_BINDIR
+  NO_CHECK_REQUIRED_COMPONENTS_MACRO)
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/hearthConfigVersion.cmake COMPATIBILITY SameMajorVersion)
+install(EXPORT hearthTargets NAMESPACE hearth:: DESTINATION ${config_folder} COMPONENT development)
+install(FILES
+    cmake/HearthAddAssets.cmake
+    ${PROJECT_BINARY_DIR}/hearthConfig.cmake
+    ${PROJECT_BINARY_DIR}/hearthConfigVersion.cmake
+  DESTINATION ${config_folder} COMPONENT development)
+
+# pkg-config
+file(RELATIVE_PATH prefix_from_pkgconfig /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)
+string(REGEX REPLACE "/$" "" prefix_from_pkgconfig ${prefix_from_pkgconfig})
+configure_file(cmake/hearth.pc.in ${PROJECT_BINARY_DIR}/hearth.pc @ONLY)
+install(FILES ${PROJECT_BINARY_DIR}/hearth.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT development)
