@@ -91,6 +91,9 @@ const std::vector<Library>& libraries()
         {"CGAL/", {"cook/"}},
         {"Eigen/", {"cook/"}, true},
         {"ceres/", {"cook/"}},
+        {"formats/", {}}, // in brackets as users include what is installed; so are the next two
+        {"hearth.h", {}},
+        {"hearth.hpp", {}},
         {"gtest/", {}, true},
         {"gmock/", {}, true},
         {"benchmark/", {}, true},

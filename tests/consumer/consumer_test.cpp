@@ -1,0 +1,162 @@
+// A game in a project of its own: it finds Hearth, cooks while it is built, and draws.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "tests/consumer/installation.h"
+
+#include <array>
+#include <chrono>
+#include <filesystem>
+#include <optional>
+
+namespace hearth::test
+{
+
+namespace
+{
+
+namespace fs = std::filesystem;
+
+constexpr int kNoDevice = 77;
+const std::string kTexture = "game/assets/painted board.png";
+
+class Consumer : public Installation
+{
+protected:
+    /// A copy of the game, configured for a generator in the folder `build`.
+    void configure(const std::string& generator, const std::string& arguments = "")
+    {
+        fs::remove_all(folder() / "game");
+        fs::remove_all(folder() / "build");
+        fs::copy(HEARTH_SOURCE_FOLDER "/tests/consumer/game", folder() / "game", fs::copy_options::recursive);
+        run(HEARTH_CMAKE " -S game -B build -G '" + generator +
+            "' -DCMAKE_PREFIX_PATH=\"$PWD/prefix\" -DCMAKE_BUILD_TYPE=Release " + arguments);
+    }
+
+    std::string build(const std::string& target)
+    {
+        return run(HEARTH_CMAKE " --build build --target " + target);
+    }
+
+    void touchTexture() { fs::last_write_time(folder() / kTexture, fs::file_time_type::clock::now()); }
+    void paintTexture()
+    {
+        fs::copy_file(HEARTH_SOURCE_FOLDER "/tests/consumer/repainted.png", folder() / kTexture,
+                      fs::copy_options::overwrite_existing);
+        touchTexture();
+    }
+
+    /// The pixel at a place of the picture that the game draws, as fractions of its sides; nothing where there is no device.
+    std::optional<std::array<int, 3>> drawn(const std::string& game, double x, double y)
+    {
+        const ProgramEnd end = shell("build/" + game + " build/game.hearth picture.ppm");
+        if (end.exit_code == kNoDevice)
+            return std::nullopt;
+        EXPECT_EQ(end.exit_code, 0) << end.err;
+        const std::string picture = folder().read("picture.ppm");
+        const std::string head = "P6 128 128 255\n";
+        EXPECT_TRUE(picture.starts_with(head));
+        const size_t at =
+            head.size() + 3 * (static_cast<size_t>(y * 128) * 128 + static_cast<size_t>(x * 128));
+        if (picture.size() != head.size() + size_t{128} * 128 * 3)
+            return std::array{-1, -1, -1};
+        const auto byte = [&](size_t i) { return int{static_cast<unsigned char>(picture[at + i])}; };
+        return std::array{byte(0), byte(1), byte(2)};
+    }
+
+    /// What is built when a texture changes, and when nothing does.
+    void cookWhatHasChanged(const std::string& target, const std::string& pack)
+    {
+        const std::string first = build(target);
+        EXPECT_EQ(countOf(first, "Cooking " + pack), 1u) << first;
+        const std::string cooked = folder().read("build/" + pack);
+        EXPECT_EQ(countOf(build(target), "Cooking"), 0u);
+
+        touchTexture();
+        EXPECT_EQ(countOf(build(target), "Cooking " + pack), 1u);
+        EXPECT_EQ(folder().read("build/" + pack), cooked);
+        EXPECT_EQ(countOf(build(target), "Cooking"), 0u);
+
+        paintTexture();
+        EXPECT_EQ(countOf(build(target), "Cooking " + pack), 1u);
+        EXPECT_NE(folder().read("build/" + pack), cooked);
+        EXPECT_EQ(countOf(build(target), "Cooking"), 0u);
+    }
+};
+
+} // namespace
+
+TEST_F(Consumer, drawsWhatItsBuildHasCooked)
+{
+    configure("Ninja");
+    build("all");
+    EXPECT_EQ(run("build/version"), "1.4: ok\n");
+    EXPECT_EQ(run("build/pack_triangles build/game.hearth"), "2\n");
+    EXPECT_EQ(run("build/pack_triangles 'build/packs/two signs.hearth'"), "4\n");
+    EXPECT_EQ(shell("build/pack_triangles game/CMakeLists.txt").exit_code, 65);
+    const auto left = drawn("game", 0.3, 0.5);
+    if (!left)
+        GTEST_SKIP() << "there is no Vulkan device";
+    const auto right = drawn("game", 0.7, 0.5);
+    const auto corner = drawn("game", 0.02, 0.02);
+    // the board's left half is red, its right half green
+    EXPECT_GT((*left)[0], 2 * (*left)[1]);
+    EXPECT_GT((*right)[1], 2 * (*right)[0]);
+    EXPECT_NE(*corner, *left);
+    EXPECT_NE(*corner, *right);
+    EXPECT_EQ(drawn("game_static", 0.3, 0.5), left);
+
+    paintTexture();
+    const std::string again = build("all");
+    EXPECT_EQ(countOf(again, "Linking"), 0u) << again;
+    const auto painted = drawn("game", 0.3, 0.5);
+    EXPECT_GT((*painted)[2], 2 * (*painted)[0]);
+    EXPECT_EQ((*drawn("game", 0.7, 0.5))[1], (*right)[1]);
+    EXPECT_NE(build("all").find("no work to do"), std::string::npos);
+}
+
+TEST_F(Consumer, ninjaCooksWhatHasChanged)
+{
+    configure("Ninja");
+    cookWhatHasChanged("game_game_hearth", "game.hearth");
+}
+
+TEST_F(Consumer, makeCooksWhatHasChanged)
+{
+    configure("Unix Makefiles");
+    cookWhatHasChanged("signs", "packs/two signs.hearth");
+}
+
+TEST_F(Consumer, aCookThatFailsFailsTheBuild)
+{
+    configure("Ninja");
+    folder().write("game/assets/sign.gltf", "{");
+    const ProgramEnd end = shell(HEARTH_CMAKE " --build build --target game_game_hearth");
+    EXPECT_NE(end.exit_code, 0);
+    EXPECT_NE(end.out.find("[E1"), std::string::npos) << end.out;
+    EXPECT_FALSE(folder().has("build/game.hearth"));
+}
+
+TEST_F(Consumer, saysWhatItsCallsLack)
+{
+    const auto configured = [&](const std::string& text, const std::string& arguments = "")
+    {
+        fs::create_directory(folder() / "wrong");
+        fs::remove_all(folder() / "wrong-build");
+        folder().write("wrong/CMakeLists.txt",
+                       "cmake_minimum_required(VERSION 3.25)\nproject(wrong LANGUAGES NONE)\n" + text);
+        return shell(HEARTH_CMAKE " -S wrong -B wrong-build -DCMAKE_PREFIX_PATH=\"$PWD/prefix\" " +
+                     arguments);
+    };
+    const std::string find = "find_package(hearth CONFIG REQUIRED COMPONENTS formats)\n";
+    EXPECT_EQ(configured(find + "hearth_add_assets(a SOURCES a.glb)\n").exit_code, 0);
+    for (const char* call : {"hearth_add_assets(a)", "hearth_add_assets(a SOURCES a.glb OUTPUT)",
+                             "hearth_add_assets(a b.glb SOURCES a.glb)"})
+        EXPECT_NE(configured(find + call).err.find("needs SOURCES FILE"), std::string::npos) << call;
+    EXPECT_NE(configured(find + "hearth_add_assets(a SOURCES a.glb)\n", "-DHEARTH_PROGRAM=")
+                  .err.find("HEARTH_PROGRAM=PATH"),
+              std::string::npos);
+    EXPECT_NE(configured("find_package(hearth CONFIG REQUIRED COMPONENTS window)\n").err.find("window"),
+              std::string::npos);
+    EXPECT_NE(configured("find_package(hearth 9 CONFIG REQUIRED)\n").exit_code, 0);
+}
+
+} // namespace hearth::test

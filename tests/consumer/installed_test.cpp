@@ -1,0 +1,103 @@
+// What is installed: its names, its paths, and how a program without CMake finds it.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "tests/consumer/installation.h"
+
+#include <filesystem>
+#include <regex>
+#include <set>
+#include <sstream>
+
+namespace hearth::test
+{
+
+namespace
+{
+
+namespace fs = std::filesystem;
+
+class Installed : public Installation
+{
+protected:
+    /// Where the libraries are, from the prefix.
+    static std::string libraryFolder()
+    {
+        for (const auto& entry : fs::recursive_directory_iterator(folder() / "prefix"))
+            if (entry.path().filename() == "libhearth.so")
+                return fs::relative(entry.path().parent_path(), folder() / "prefix").string();
+        return "libhearth.so is not installed";
+    }
+};
+
+/// The functions that hearth.h declares.
+std::set<std::string> declaredFunctions(const std::string& header)
+{
+    std::set<std::string> names;
+    const std::regex declaration(R"(\nHEARTH_API [^;(]*?(hearth_\w+)\()");
+    for (std::sregex_iterator at(header.begin(), header.end(), declaration), end; at != end; ++at)
+        names.insert((*at)[1]);
+    return names;
+}
+
+} // namespace
+
+TEST_F(Installed, theLibraryShowsTheFunctionsOfItsHeaderAndNoOthers)
+{
+    const std::string library = "prefix/" + libraryFolder() + "/libhearth.so";
+    std::set<std::string> names;
+    std::istringstream symbols(
+        run("nm -D --defined-only --format=posix --without-symbol-versions " + library));
+    for (std::string name, rest; symbols >> name && std::getline(symbols, rest);)
+        names.insert(name);
+    names.erase("HEARTH_1"); // the version of the others
+    const std::set<std::string> declared = declaredFunctions(folder().read("prefix/include/hearth/hearth.h"));
+    EXPECT_GT(declared.size(), 30u);
+    EXPECT_EQ(names, declared);
+    EXPECT_NE(run("readelf -d " + library).find("soname: [libhearth.so.1]"), std::string::npos);
+}
+
+TEST_F(Installed, nothingKnowsWhereItWasBuiltOrInstalled)
+{
+    for (const std::string& path :
+         {std::string(HEARTH_BUILD_FOLDER), std::string(HEARTH_SOURCE_FOLDER), folder() / "first"})
+    {
+        const ProgramEnd found = shell("grep -rlF '" + path + "' prefix");
+        EXPECT_EQ(found.exit_code, 1) << path << " is in " << found.out;
+    }
+    EXPECT_EQ(shell("for file in prefix/bin/* prefix/" + libraryFolder() +
+                    "/*.so; do readelf -d $file | grep -E 'RPATH|RUNPATH'; done")
+                  .out,
+              "");
+}
+
+TEST_F(Installed, isFoundByPkgConfig)
+{
+    const std::string pkg_config =
+        "PKG_CONFIG_PATH=\"$PWD/prefix/" + libraryFolder() + "/pkgconfig\" pkg-config ";
+    const std::string source = HEARTH_SOURCE_FOLDER "/tests/consumer/game/version.c";
+    run("cc -std=c99 -Wall -Wextra -Wpedantic -Werror -Wno-missing-field-initializers " + source +
+        " -o version $(" + pkg_config + "--cflags --libs hearth)");
+    EXPECT_EQ(run("LD_LIBRARY_PATH=\"$PWD/prefix/" + libraryFolder() + "\" ./version"), "1.4: ok\n");
+    EXPECT_NE(run(pkg_config + "--static --libs hearth").find("-lzstd"), std::string::npos);
+    run(pkg_config + "--exists 'hearth >= 0.1, hearth < 1'");
+}
+
+TEST_F(Installed, asAFolderOfAProjectBuildsLibrariesAndCookersOnly)
+{
+    fs::create_directory(folder() / "outer");
+    folder().write("outer/CMakeLists.txt",
+                   "cmake_minimum_required(VERSION 3.25)\nproject(outer LANGUAGES C CXX)\n"
+                   "add_subdirectory(" HEARTH_SOURCE_FOLDER " hearth)\n"
+                   "add_executable(version " HEARTH_SOURCE_FOLDER "/tests/consumer/game/version.c)\n"
+                   "target_link_libraries(version PRIVATE hearth::runtime)\n"
+                   "hearth_add_assets(version SOURCES version.glb)\n");
+    run(HEARTH_CMAKE " -S outer -B outer-build -G Ninja");
+    const std::string commands = run("ninja -C outer-build -t commands all");
+    EXPECT_NE(commands.find("hearth-visibility"), std::string::npos);
+    EXPECT_NE(commands.find("libhearth.so"), std::string::npos);
+    for (const char* none :
+         {"hearth-render", "hearth-view", "hearth-samples", "_test.cpp", "-Wundef -Werror"})
+        EXPECT_EQ(commands.find(none), std::string::npos) << none;
+    EXPECT_FALSE(folder().has("outer-build/CTestTestfile.cmake"));
+}
+
+} // namespace hearth::test

@@ -1,0 +1,44 @@
+// The Debian packages.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "tests/consumer/installation.h"
+
+namespace hearth::test
+{
+
+using Packages = Installation;
+
+TEST_F(Packages, holdWhatTheirNamesSay)
+{
+    if (shell("command -v dpkg-shlibdeps").exit_code != 0)
+        GTEST_SKIP() << "dpkg-shlibdeps is not installed";
+    run(HEARTH_CPACK " --config " HEARTH_BUILD_FOLDER "/CPackConfig.cmake -G DEB -B debs");
+    const auto content = [](const std::string& package)
+    { return run("dpkg-deb --contents debs/" + package + "_*.deb"); };
+    const auto field = [](const std::string& package, const std::string& name)
+    { return run("dpkg-deb --field debs/" + package + "_*.deb " + name); };
+
+    for (const char* program : {"hearth", "hearth-import", "hearth-clusters", "hearth-link", "hearth-render"})
+        EXPECT_EQ(countOf(content("hearth"), std::string("./usr/bin/") + program + "\n"), 1u) << program;
+    EXPECT_EQ(countOf(content("hearth"), "./usr/bin/hearth-view\n"), 0u);
+    EXPECT_EQ(countOf(content("hearth"), "./usr/lib"), 0u);
+    for (const char* needed : {"libc6 (", "libtbb12 (", "libembree3-3 (", "libvulkan1"})
+        EXPECT_EQ(countOf(field("hearth", "Depends"), needed), 1u) << needed;
+
+    const std::string runtime = content("libhearth1");
+    EXPECT_EQ(countOf(runtime, "libhearth.so.1"), 3u) << runtime; // a link and what it leads to
+    EXPECT_EQ(countOf(runtime, "libhearth.so\n") + countOf(runtime, "libhearth.so "), 0u) << runtime;
+    const std::string needs = field("libhearth1", "Depends");
+    for (const char* needed : {"libc6 (", "libstdc++6 (", "libxxhash0 (", "libzstd1 ("})
+        EXPECT_EQ(countOf(needs, needed), 1u) << needs;
+    EXPECT_EQ(countOf(needs, "tbb") + countOf(needs, "embree"), 0u) << needs;
+
+    const std::string development = content("libhearth-dev");
+    for (const char* file :
+         {"include/hearth/hearth.h\n", "include/hearth/hearth.hpp\n", "include/hearth/formats/pack_view.h\n",
+          "include/hearth/formats/shared/records.h\n", "/libhearth.a\n", "/libhearth-formats.a\n",
+          "/libhearth.so ->", "/pkgconfig/hearth.pc\n", "/hearthConfig.cmake\n", "/HearthAddAssets.cmake\n"})
+        EXPECT_EQ(countOf(development, file), 1u) << file;
+    EXPECT_NE(field("libhearth-dev", "Depends").find("libhearth1 (= "), std::string::npos);
+}
+
+} // namespace hearth::test
