@@ -21,10 +21,12 @@ function(hearth_add_assets target)
       "OPTIONS OPTION ..., and nothing else: ${ARG_UNPARSED_ARGUMENTS} ${ARG_KEYWORDS_MISSING_VALUES}")
   endif()
 
-  # the cookers of this build, or those that are installed
-  get_property(programs GLOBAL PROPERTY HEARTH_PROGRAMS)
+  # the cookers of this build, or those that are installed on this machine, whatever it builds for
   set(hearth hearth)
-  if(NOT programs)
+  get_property(programs GLOBAL PROPERTY HEARTH_PROGRAMS)
+  if(NOT TARGET hearth)
+    find_program(HEARTH_PROGRAM hearth HINTS "${HEARTH_PROGRAM_FOLDER}" NO_CMAKE_FIND_ROOT_PATH
+      DOC "hearth, which cooks assets")
     set(hearth ${HEARTH_PROGRAM})
     set(programs ${HEARTH_PROGRAM})
   endif()

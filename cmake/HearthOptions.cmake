@@ -1,5 +1,6 @@
 # Compiler settings that hold for every target of the project.
 # A project that adds this one as a folder gets the cookers and the libraries, and asks for the rest.
+option(HEARTH_BUILD_COOKERS "Build hearth and the cookers; off where games are built for other machines" ON)
 option(HEARTH_BUILD_TESTS "Build tests and benchmarks" ${PROJECT_IS_TOP_LEVEL})
 option(HEARTH_BUILD_SAMPLES "Build hearth-samples, the generator of sample sources" ${PROJECT_IS_TOP_LEVEL})
 option(HEARTH_BUILD_VIEWER "Build hearth-render" ${PROJECT_IS_TOP_LEVEL})
@@ -8,8 +9,9 @@ option(HEARTH_INSTALL "Have rules to install and to package" ${PROJECT_IS_TOP_LE
 option(HEARTH_HARDENED "Turn on the standard library's own checks" OFF)
 option(HEARTH_FUZZ "Build the libFuzzer targets (clang only)" OFF)
 set(HEARTH_SANITIZE "" CACHE STRING "Sanitizers to build with, as for -fsanitize")
-if(HEARTH_BUILD_TESTS AND NOT (HEARTH_BUILD_SAMPLES AND HEARTH_BUILD_VIEWER))
-  message(FATAL_ERROR "HEARTH_BUILD_TESTS needs HEARTH_BUILD_SAMPLES and HEARTH_BUILD_VIEWER: the tests draw samples")
+if(HEARTH_BUILD_TESTS AND NOT (HEARTH_BUILD_COOKERS AND HEARTH_BUILD_SAMPLES AND HEARTH_BUILD_VIEWER))
+  message(FATAL_ERROR "HEARTH_BUILD_TESTS needs HEARTH_BUILD_COOKERS, HEARTH_BUILD_SAMPLES and HEARTH_BUILD_VIEWER: "
+    "the tests cook samples and draw them")
 endif()
 
 set(CMAKE_CXX_STANDARD 20)

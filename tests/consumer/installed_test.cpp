@@ -28,6 +28,12 @@ protected:
     }
 };
 
+class FolderOfAProject : public Installation
+{
+protected:
+    static std::string commands(const std::string& arguments);
+};
+
 /// The functions that hearth.h declares.
 std::set<std::string> declaredFunctions(const std::string& header)
 {
@@ -81,8 +87,10 @@ TEST_F(Installed, isFoundByPkgConfig)
     run(pkg_config + "--exists 'hearth >= 0.1, hearth < 1'");
 }
 
-TEST_F(Installed, asAFolderOfAProjectBuildsLibrariesAndCookersOnly)
+/// The commands that build a project which has Hearth as a folder.
+std::string FolderOfAProject::commands(const std::string& arguments)
 {
+    fs::remove_all(folder() / "outer-build");
     fs::create_directory(folder() / "outer");
     folder().write("outer/CMakeLists.txt",
                    "cmake_minimum_required(VERSION 3.25)\nproject(outer LANGUAGES C CXX)\n"
@@ -90,14 +98,28 @@ TEST_F(Installed, asAFolderOfAProjectBuildsLibrariesAndCookersOnly)
                    "add_executable(version " HEARTH_SOURCE_FOLDER "/tests/consumer/game/version.c)\n"
                    "target_link_libraries(version PRIVATE hearth::runtime)\n"
                    "hearth_add_assets(version SOURCES version.glb)\n");
-    run(HEARTH_CMAKE " -S outer -B outer-build -G Ninja");
-    const std::string commands = run("ninja -C outer-build -t commands all");
-    EXPECT_NE(commands.find("hearth-visibility"), std::string::npos);
-    EXPECT_NE(commands.find("libhearth.so"), std::string::npos);
+    run(HEARTH_CMAKE " -S outer -B outer-build -G Ninja " + arguments);
+    return run("ninja -C outer-build -t commands all");
+}
+
+TEST_F(FolderOfAProject, buildsLibrariesAndCookersOnly)
+{
+    const std::string text = commands("");
+    EXPECT_NE(text.find("bin/hearth cook "), std::string::npos);
+    EXPECT_NE(text.find("bin/hearth-visibility"), std::string::npos);
+    EXPECT_NE(text.find("libhearth.so"), std::string::npos);
     for (const char* none :
          {"hearth-render", "hearth-view", "hearth-samples", "_test.cpp", "-Wundef -Werror"})
-        EXPECT_EQ(commands.find(none), std::string::npos) << none;
+        EXPECT_EQ(text.find(none), std::string::npos) << none;
     EXPECT_FALSE(folder().has("outer-build/CTestTestfile.cmake"));
+}
+
+TEST_F(FolderOfAProject, cooksWithAnotherHearthWhereItBuildsNone)
+{
+    const std::string text = commands("-DHEARTH_BUILD_COOKERS=OFF -DHEARTH_PROGRAM=/elsewhere/hearth");
+    EXPECT_NE(text.find("/elsewhere/hearth cook "), std::string::npos);
+    EXPECT_NE(text.find("libhearth.so"), std::string::npos);
+    EXPECT_EQ(text.find("hearth-visibility"), std::string::npos);
 }
 
 } // namespace hearth::test
