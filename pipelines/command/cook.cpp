@@ -2,6 +2,7 @@
 #include "pipelines/command/cook.h"
 
 #include "cook/tools/lod_files.h"
+#include "cook/tools/sha256.h"
 #include "cook/tools/whole_file.h"
 #include "formats/pack_view.h"
 #include "pipelines/command/cook_memory.h"
@@ -267,13 +268,23 @@ bool writeDepfile(const graph::Graph& graph, const graph::Executor& executor, co
     return written.ok();
 }
 
-/// Move the pack into place, unless what is there already is the same.
+bool haveSameContent(const std::string& a, const std::string& b)
+{
+    std::error_code error;
+    return std::filesystem::file_size(a, error) == std::filesystem::file_size(b, error) && !error &&
+           sha256OfFile(a) == sha256OfFile(b);
+}
+
+/// Move the pack into place, unless what is there already is the same: builds go by its time.
+/// hash_there  nothing where there is no pack, or no cache that would have had it hashed
 bool placePack(const graph::Executor& executor, const std::optional<std::string>& hash_there,
                const CookOptions& options, CookOutcome& outcome)
 {
     const graph::KeptOutput& pack = executor.outcomes().back().result.outputs.front();
     outcome.output_bytes = pack.bytes;
     outcome.is_up_to_date = executor.packPath().empty() || (hash_there && *hash_there == pack.hash);
+    if (!outcome.is_up_to_date && !hash_there && haveSameContent(executor.packPath(), options.output))
+        return true;
     const bool is_flushed = outcome.is_up_to_date || executor.outcomes().back().ending == Ending::cooked ||
                             flush(executor.packPath());
     if (outcome.is_up_to_date ||

@@ -118,6 +118,18 @@ TEST_F(SecondCook, runsNothingAndLeavesThePackAlone)
     EXPECT_TRUE(command::verifyFile(folder / "a.hearth").ok());
 }
 
+TEST_F(SecondCook, withoutACacheRunsAllAndLeavesThePackAlone)
+{
+    const std::vector<std::string> arguments{"house.obj", "-o", "a.hearth", "--no-cache"};
+    ran(cook(arguments));
+    const struct stat before = look("a.hearth");
+    EXPECT_EQ(ran(cook(arguments)).size(), kAll.size());
+    EXPECT_EQ(look("a.hearth").st_ino, before.st_ino);
+    writeObj(folder, "house", 3);
+    ran(cook(arguments));
+    EXPECT_NE(look("a.hearth").st_ino, before.st_ino);
+}
+
 TEST_F(SecondCook, runsWhatReadAChangedFileAndNoMore)
 {
     ran(cook({"house.obj", "tree.gltf", "-o", "a.hearth"}));
