@@ -132,7 +132,7 @@ enum class IssueClass : uint8_t
     X(streaming_budget, 4006, usage, "the geometry that must stay in memory exceeds the budget",             \
       "raise the budget to what the message says")                                                           \
     X(cache_failed, 4100, warning, "a cache cannot be used as it should; the cook goes on without it",       \
-      "check the folder, its rights and the space left")                                                     \
+      "check the folder or the server, its rights and the space left")                                       \
     X(child_failed, 7001, internal, "a cooker ended abnormally", "report it, with the input")                \
     X(internal, 7000, internal, "Hearth has a defect", "report it, with the input")
 

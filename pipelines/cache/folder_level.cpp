@@ -145,6 +145,16 @@ Result<std::optional<std::string>> FolderLevel::entry(const std::string& key)
     return text;
 }
 
+Status FolderLevel::entries(std::span<WantedEntry> wanted)
+{
+    for (WantedEntry& one : wanted)
+        if (!one.text)
+        {
+            HEARTH_ASSIGN_OR_RETURN(one.text, entry(one.key));
+        }
+    return success();
+}
+
 Status FolderLevel::appear(const std::string& path, const std::function<bool(const std::string&)>& fill)
 {
     const std::string temporary_folder = folder_ + "/tmp";
@@ -176,17 +186,27 @@ Status FolderLevel::putEntry(const std::string& key, const std::string& text)
                   });
 }
 
-Result<bool> FolderLevel::fetch(const std::string& hash, const std::string& path, Use use)
+Result<bool> FolderLevel::fetchOne(const WantedContent& wanted)
 {
-    const std::string content = contentPath(hash);
-    if (use == Use::read_only && ::link(content.c_str(), path.c_str()) == 0)
+    const std::string content = contentPath(wanted.hash);
+    if (wanted.use == Use::read_only && ::link(content.c_str(), wanted.path.c_str()) == 0)
         return true;
     // another file system, or one without links, or a file with as many names as it may have
-    if (copyFile(content, path))
+    if (copyFile(content, wanted.path))
         return true;
     if (errno == ENOENT || errno == ENOTDIR)
         return false;
     return failed(folder_, content, "cannot read");
+}
+
+Status FolderLevel::fetch(std::span<WantedContent> wanted)
+{
+    for (WantedContent& one : wanted)
+        if (!one.is_there)
+        {
+            HEARTH_ASSIGN_OR_RETURN(one.is_there, fetchOne(one));
+        }
+    return success();
 }
 
 Status FolderLevel::put(const std::string& hash, const std::string& path, Use use)

@@ -20,9 +20,10 @@ public:
 
     const std::string& name() const override { return folder_; }
     bool isWritable() const override { return writable_; }
-    Result<std::optional<std::string>> entry(const std::string& key) override;
+    bool isFar() const override { return false; }
+    Status entries(std::span<WantedEntry> wanted) override;
     Status putEntry(const std::string& key, const std::string& text) override;
-    Result<bool> fetch(const std::string& hash, const std::string& path, Use use) override;
+    Status fetch(std::span<WantedContent> wanted) override;
     Status put(const std::string& hash, const std::string& path, Use use) override;
     void removeEntry(const std::string& key) override;
     void removeContent(const std::string& hash) override;
@@ -34,6 +35,8 @@ private:
     std::string entryPath(const std::string& key) const { return path("ac", key); }
     std::string contentPath(const std::string& hash) const { return path("cas", hash); }
     std::string path(const char* kind, const std::string& name) const;
+    Result<std::optional<std::string>> entry(const std::string& key);
+    Result<bool> fetchOne(const WantedContent& wanted);
     /// Make a file by `fill(temporary path)` and put it at `path`.
     Status appear(const std::string& path, const std::function<bool(const std::string&)>& fill);
 

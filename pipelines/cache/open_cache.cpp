@@ -24,25 +24,45 @@ std::vector<std::string> split(const std::string& text, char separator)
     return parts;
 }
 
-Result<FolderSpec> specOf(const std::string& text, const std::string& option)
+/// Of a URL that starts with http:// or https://.
+bool namesHost(const std::string& url)
+{
+    const size_t start = url.find("//") + 2;
+    const std::string authority = url.substr(start, url.find('/', start) - start);
+    const std::string after_user = authority.substr(authority.rfind('@') + 1);
+    return !after_user.empty() && after_user[0] != ':';
+}
+
+Result<LevelSpec> specOf(const std::string& text, const std::string& option)
 {
     const auto wrong = [&](const std::string& why) {
         return Error{Issue::usage, option + " " + text, "", why};
     };
-    if (!text.starts_with(kFolderScheme))
-        return wrong("must be dir: and a folder, as in dir:/var/cache/hearth or dir:/mnt/team,ro");
-    const std::vector<std::string> parts = split(text.substr(kFolderScheme.size()), ',');
-    FolderSpec spec;
-    spec.folder = parts[0];
-    if (spec.folder.empty())
+    const bool is_server = text.starts_with("http://") || text.starts_with("https://");
+    if (!is_server && !text.starts_with(kFolderScheme))
+        return wrong("must be a folder or a server, as in dir:/var/cache/hearth, dir:/mnt/team,ro or "
+                     "http://cache:8080/hearth");
+    const std::vector<std::string> parts = split(is_server ? text : text.substr(kFolderScheme.size()), ',');
+    LevelSpec spec;
+    spec.place = parts[0];
+    spec.is_server = is_server;
+    if (is_server && !namesHost(spec.place))
+        return wrong("names no host");
+    if (is_server)
+        spec.place.resize(spec.place.find_last_not_of('/') + 1);
+    if (is_server && spec.place.find_first_of("?# ") != std::string::npos)
+        return wrong("must end with the path that ac/ and cas/ lie under");
+    if (spec.place.empty())
         return wrong("names no folder");
     for (size_t i = 1; i < parts.size(); ++i)
         if (parts[i] == "ro")
             spec.writable = false;
-        else if (parts[i].starts_with("size="))
+        else if (!is_server && parts[i].starts_with("size="))
         {
             HEARTH_ASSIGN_OR_RETURN(spec.limit_bytes, parseSize(parts[i].substr(5), option + " " + text));
         }
+        else if (is_server)
+            return wrong("'" + parts[i] + "' is not known: after the URL may stand ,ro");
         else
             return wrong("'" + parts[i] + "' is not known: after the folder may stand ,ro and ,size=20G");
     return spec;
@@ -77,9 +97,9 @@ Result<uint64_t> parseSize(const std::string& text, const std::string& option)
     return size << shift;
 }
 
-Result<std::vector<FolderSpec>> cacheSpecs(std::span<const std::string> options)
+Result<std::vector<LevelSpec>> cacheSpecs(std::span<const std::string> options)
 {
-    std::vector<FolderSpec> specs;
+    std::vector<LevelSpec> specs;
     std::string option = "--cache";
     std::vector<std::string> texts(options.begin(), options.end());
     if (const std::string value = variable("HEARTH_CACHE"); texts.empty() && !value.empty())
@@ -91,13 +111,13 @@ Result<std::vector<FolderSpec>> cacheSpecs(std::span<const std::string> options)
     }
     for (const std::string& text : texts)
     {
-        HEARTH_ASSIGN_OR_RETURN(FolderSpec spec, specOf(text, option));
+        HEARTH_ASSIGN_OR_RETURN(LevelSpec spec, specOf(text, option));
         specs.push_back(std::move(spec));
     }
     if (const std::string folder = usersFolder(); texts.empty() && !folder.empty())
     {
         specs.emplace_back();
-        specs.back().folder = folder;
+        specs.back().place = folder;
     }
     return specs;
 }

@@ -12,19 +12,20 @@
 namespace hearth::cache
 {
 
-struct FolderSpec
+struct LevelSpec
 {
-    std::string folder;
+    std::string place; ///< a folder, or the URL of a server without a '/' at its end
+    bool is_server = false;
     bool writable = true;
-    uint64_t limit_bytes = uint64_t{20} << 30; ///< what is used least goes when it holds more
+    uint64_t limit_bytes = uint64_t{20} << 30; ///< of a folder: what is used least goes when it holds more
 };
 
-/// "dir:PATH[,ro][,size=20G]"; several, nearest first.
+/// "dir:PATH[,ro][,size=20G]" or "http(s)://HOST/PATH[,ro]"; several, nearest first.
 ///
 /// options   of --cache; where there is none, HEARTH_CACHE counts, with ';' between them, or "off" for none; where that is
 ///           not set either, $XDG_CACHE_HOME/hearth or ~/.cache/hearth
 /// errors    usage
-Result<std::vector<FolderSpec>> cacheSpecs(std::span<const std::string> options);
+Result<std::vector<LevelSpec>> cacheSpecs(std::span<const std::string> options);
 
 /// "512M", "20G", "1000": bytes, in units of 1024. errors: usage, which names `option`
 Result<uint64_t> parseSize(const std::string& text, const std::string& option);

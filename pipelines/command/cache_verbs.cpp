@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/command/cache_verbs.h"
 
+#include "pipelines/cache/http_level.h"
 #include "pipelines/cache/open_cache.h"
 #include "pipelines/cache/upkeep.h"
 #include "pipelines/command/terminal.h"
@@ -13,11 +14,17 @@ namespace hearth::command
 namespace
 {
 
-std::string lineOf(const cache::FolderSpec& spec, const cache::Occupancy& occupancy)
+std::string lineOf(const cache::LevelSpec& spec, const cache::Occupancy& occupancy)
 {
-    return fmt::format("{}: {} entries, {} contents, {} of {}{}\n", spec.folder, occupancy.entries,
+    return fmt::format("{}: {} entries, {} contents, {} of {}{}\n", spec.place, occupancy.entries,
                        occupancy.contents, readableSize(occupancy.bytes), readableSize(spec.limit_bytes),
                        spec.writable ? "" : ", read only");
+}
+
+// A server answers for keys, and lists none.
+std::string lineOfServer(const cache::LevelSpec& spec)
+{
+    return cache::withoutUser(spec.place) + ": a server, which looks after itself\n";
 }
 
 std::string orNone(const std::string& text)
@@ -29,37 +36,41 @@ std::string orNone(const std::string& text)
 
 Result<std::string> cacheStat(const std::vector<std::string>& caches)
 {
-    HEARTH_ASSIGN_OR_RETURN(const std::vector<cache::FolderSpec> specs, cache::cacheSpecs(caches));
+    HEARTH_ASSIGN_OR_RETURN(const std::vector<cache::LevelSpec> specs, cache::cacheSpecs(caches));
     std::string text;
-    for (const cache::FolderSpec& spec : specs)
-        text += lineOf(spec, cache::occupancyOf(spec.folder));
+    for (const cache::LevelSpec& spec : specs)
+        text += spec.is_server ? lineOfServer(spec) : lineOf(spec, cache::occupancyOf(spec.place));
     return orNone(text);
 }
 
 Result<std::string> cacheGc(const std::vector<std::string>& caches, std::optional<uint64_t> limit_bytes)
 {
-    HEARTH_ASSIGN_OR_RETURN(const std::vector<cache::FolderSpec> specs, cache::cacheSpecs(caches));
+    HEARTH_ASSIGN_OR_RETURN(const std::vector<cache::LevelSpec> specs, cache::cacheSpecs(caches));
     std::string text;
-    for (const cache::FolderSpec& spec : specs)
-        if (spec.writable)
-            text += lineOf(spec, cache::collectGarbage(spec.folder, limit_bytes.value_or(spec.limit_bytes)));
+    for (const cache::LevelSpec& spec : specs)
+        if (spec.is_server)
+            text += lineOfServer(spec);
+        else if (spec.writable)
+            text += lineOf(spec, cache::collectGarbage(spec.place, limit_bytes.value_or(spec.limit_bytes)));
     return orNone(text);
 }
 
 Result<CacheVerification> cacheVerify(const std::vector<std::string>& caches)
 {
-    HEARTH_ASSIGN_OR_RETURN(const std::vector<cache::FolderSpec> specs, cache::cacheSpecs(caches));
+    HEARTH_ASSIGN_OR_RETURN(const std::vector<cache::LevelSpec> specs, cache::cacheSpecs(caches));
     CacheVerification result;
-    for (const cache::FolderSpec& spec : specs)
+    for (const cache::LevelSpec& spec : specs)
     {
-        if (!spec.writable)
+        if (spec.is_server)
+            result.text += lineOfServer(spec);
+        if (spec.is_server || !spec.writable)
             continue;
-        for (const std::string& damaged : cache::verifyFolder(spec.folder))
+        for (const std::string& damaged : cache::verifyFolder(spec.place))
         {
-            result.text += fmt::format("{}: {}: damaged, removed\n", spec.folder, damaged);
+            result.text += fmt::format("{}: {}: damaged, removed\n", spec.place, damaged);
             result.is_whole = false;
         }
-        result.text += lineOf(spec, cache::occupancyOf(spec.folder));
+        result.text += lineOf(spec, cache::occupancyOf(spec.place));
     }
     result.text = orNone(result.text);
     return result;

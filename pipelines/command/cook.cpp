@@ -363,6 +363,8 @@ void cookInto(const CookOptions& options, EventLog* log, CookOutcome& outcome)
     const auto memory = CookMemory::open(options.caches, options.output, graph::workingFolder(), warn);
     if (!memory.ok())
         return failed(memory.error());
+    if (!options.force)
+        (*memory)->expect(*graph);
     cookGraph(*graph, (*memory)->cache().isEmpty() ? nullptr : memory->get(), options, log, outcome);
     (*memory)->finish();
 }

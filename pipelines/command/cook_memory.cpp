@@ -3,7 +3,9 @@
 
 #include "cook/tools/child_processes.h"
 #include "cook/tools/whole_file.h"
+#include "pipelines/cache/http_level.h"
 #include "pipelines/cache/upkeep.h"
+#include "pipelines/graph/ask_ahead.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -24,16 +26,20 @@ Result<std::unique_ptr<CookMemory>> CookMemory::open(const std::vector<std::stri
                                                      const std::function<void(const Error&)>& warn)
 {
     std::unique_ptr<CookMemory> memory(new CookMemory(folder));
-    HEARTH_ASSIGN_OR_RETURN(memory->specs_, cache::cacheSpecs(caches));
+    HEARTH_ASSIGN_OR_RETURN(const std::vector<cache::LevelSpec> specs, cache::cacheSpecs(caches));
     std::vector<std::unique_ptr<cache::Level>> levels;
-    for (cache::FolderSpec& spec : memory->specs_)
+    for (const cache::LevelSpec& spec : specs)
     {
-        spec.folder = graph::absolutePath(spec.folder);
-        auto level = std::make_unique<cache::FolderLevel>(spec.folder, spec.writable);
-        memory->levels_.push_back(level.get());
-        levels.push_back(std::move(level));
+        if (spec.is_server)
+        {
+            levels.push_back(std::make_unique<cache::HttpLevel>(spec.place, spec.writable));
+            continue;
+        }
+        auto level = std::make_unique<cache::FolderLevel>(graph::absolutePath(spec.place), spec.writable);
         if (spec.writable && memory->journal_path_.empty())
-            memory->journal_path_ = graph::journalPath(spec.folder, output);
+            memory->journal_path_ = graph::journalPath(level->name(), output);
+        memory->folders_.emplace_back(level.get(), spec.limit_bytes);
+        levels.push_back(std::move(level));
     }
     memory->cache_ = std::make_unique<cache::Cache>(std::move(levels), warn);
     if (!memory->journal_path_.empty())
@@ -41,6 +47,11 @@ Result<std::unique_ptr<CookMemory>> CookMemory::open(const std::vector<std::stri
     memory->actions_ =
         std::make_unique<graph::ActionCache>(*memory->cache_, memory->hashes_, tools::programFolder());
     return memory;
+}
+
+void CookMemory::expect(const graph::Graph& graph)
+{
+    cache_->beforeFarIsAsked([this, &graph] { graph::askAhead(graph, *cache_, *actions_); });
 }
 
 const std::optional<graph::Journal>& CookMemory::journal()
@@ -66,19 +77,21 @@ void CookMemory::finish()
 {
     if (!journal_path_.empty())
         hashes_.save(journal_path_ + kHashesEnding);
-    for (size_t i = 0; i < specs_.size(); ++i)
-        if (specs_[i].writable)
-            cache::noteAdded(specs_[i].folder, levels_[i]->bytesAdded(), specs_[i].limit_bytes);
+    for (const auto& [level, limit_bytes] : folders_)
+        if (level->isWritable())
+            cache::noteAdded(level->name(), level->bytesAdded(), limit_bytes);
 }
 
 std::vector<graph::Journal> allJournals(const std::vector<std::string>& caches)
 {
     std::vector<graph::Journal> journals;
-    const Result<std::vector<cache::FolderSpec>> specs = cache::cacheSpecs(caches);
-    for (const cache::FolderSpec& spec : specs.ok() ? *specs : std::vector<cache::FolderSpec>())
+    const Result<std::vector<cache::LevelSpec>> specs = cache::cacheSpecs(caches);
+    for (const cache::LevelSpec& spec : specs.ok() ? *specs : std::vector<cache::LevelSpec>())
     {
+        if (spec.is_server)
+            continue;
         std::error_code error;
-        for (auto at = std::filesystem::directory_iterator(spec.folder + "/cooks", error);
+        for (auto at = std::filesystem::directory_iterator(spec.place + "/cooks", error);
              !error && at != std::filesystem::directory_iterator(); at.increment(error))
             if (const auto text = at->path().extension() == kJournalEnding
                                       ? cache::readText(at->path().string())

@@ -34,6 +34,9 @@ public:
     graph::ActionCache& actions() { return *actions_; }
     graph::FileHashes& hashes() { return hashes_; }
 
+    /// Where a cache on a server has to be asked, ask at once for all that the graph will ask for. The graph stays.
+    void expect(const graph::Graph& graph);
+
     /// Of the last cook; read when it is first asked for.
     const std::optional<graph::Journal>& journal();
     /// Remember this cook instead.
@@ -45,8 +48,7 @@ public:
 private:
     explicit CookMemory(const std::string& folder) : hashes_(folder) {}
 
-    std::vector<cache::FolderSpec> specs_;
-    std::vector<const cache::FolderLevel*> levels_; ///< of the specs
+    std::vector<std::pair<const cache::FolderLevel*, uint64_t>> folders_; ///< and how much they may hold
     std::unique_ptr<cache::Cache> cache_;
     graph::FileHashes hashes_;
     std::unique_ptr<graph::ActionCache> actions_;

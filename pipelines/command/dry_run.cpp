@@ -24,6 +24,7 @@ Result<std::string> dryRunText(const CookOptions& options)
                                              [](const Error& warning) {
                                                  std::fprintf(stderr, "%s\n", formatMessage(warning).c_str());
                                              }));
+    memory->expect(graph);
     const bool has_cache = !options.no_cache && !memory->cache().isEmpty();
     graph::Resolver resolver(
         graph, has_cache ? &memory->cache() : nullptr, &memory->actions(),

@@ -42,10 +42,9 @@ void addFormat(CLI::App& verb, std::string& format)
 
 void addCaches(CLI::App& verb, std::vector<std::string>& caches)
 {
-    verb.add_option(
-            "--cache", caches,
-            "dir:FOLDER[,ro][,size=20G]; may be repeated, nearest first; HEARTH_CACHE or the user's own "
-            "by default")
+    verb.add_option("--cache", caches,
+                    "dir:FOLDER[,ro][,size=20G] or http(s)://HOST/PATH[,ro]; may be repeated, nearest first; "
+                    "HEARTH_CACHE or the user's own by default")
         ->allow_extra_args(false);
 }
 

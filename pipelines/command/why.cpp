@@ -66,6 +66,7 @@ Result<std::string> nextCookText(const graph::Journal& journal, const std::vecto
     std::filesystem::current_path(journal.folder, error);
     if (error)
         return std::string("  the folder of the last cook is not there any more\n");
+    (*memory)->expect(journal.graph);
     graph::Resolver resolver(
         journal.graph, &(*memory)->cache(), &(*memory)->actions(),
         [&]() -> const std::optional<graph::Journal>& { return (*memory)->journal(); }, false);
@@ -108,7 +109,7 @@ OnlySource sourceAt(const graph::Journal& journal, const std::string& absolute)
 Result<std::string> why(const std::string& file, const std::vector<std::string>& caches)
 {
     // a wrong --cache is told of, not passed over
-    HEARTH_ASSIGN_OR_RETURN(const std::vector<cache::FolderSpec> specs, cache::cacheSpecs(caches));
+    HEARTH_ASSIGN_OR_RETURN(const std::vector<cache::LevelSpec> specs, cache::cacheSpecs(caches));
     const std::string absolute = graph::absolutePath(file);
     const std::vector<graph::Journal> journals =
         specs.empty() ? std::vector<graph::Journal>() : allJournals(caches);

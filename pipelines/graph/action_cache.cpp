@@ -63,6 +63,16 @@ cache::Fields fieldsOf(const Action& action, const KeptResult& result)
     return fields;
 }
 
+/// Two lists of findings as one.
+cache::Fields mergedFindings(const cache::Fields& first, const cache::Fields& second)
+{
+    cache::Fields merged = first;
+    for (const auto& finding : second)
+        if (merged.size() < kMaxFindings && std::find(merged.begin(), merged.end(), finding) == merged.end())
+            merged.push_back(finding);
+    return merged;
+}
+
 uint64_t numberOf(std::string_view text)
 {
     uint64_t number = 0;
@@ -162,28 +172,42 @@ Record ActionCache::refreshed(const Action& action, const Record& record)
     return now;
 }
 
-ActionCache::Found ActionCache::find(const Action& action, const Record& record)
+/// With that of the findings which holds now; nullopt where none does.
+std::optional<Record> ActionCache::wholeRecord(const Action& action, const Record& record,
+                                               const cache::Fields& findings)
 {
-    const auto resultAt = [&](const Record& whole) -> std::optional<KeptResult>
-    {
-        const std::optional<cache::Fields> entry = cache_.entry(resultKey(whole));
-        return entry ? resultOf(action, *entry) : std::nullopt;
-    };
-    if (!action.finds_files)
-        return {record, resultAt(record)};
-    const std::optional<cache::Fields> findings = cache_.entry(findingsKey(record));
-    if (!findings)
-        return {record, std::nullopt};
-    for (const auto& [name, text] : *findings)
+    for (const auto& [name, text] : findings)
     {
         const std::optional<Record> found = cache::fieldsOf(text);
         if (!found || refreshed(action, *found) != *found)
             continue;
         Record whole = record;
         whole.insert(whole.end(), found->begin(), found->end());
-        return {whole, resultAt(whole)};
+        return whole;
     }
-    return {record, std::nullopt};
+    return std::nullopt;
+}
+
+std::optional<Record> ActionCache::recordByFindings(const Action& action, const Record& record)
+{
+    std::optional<Record> whole;
+    const auto holdNow = [&](const cache::Fields& findings)
+    {
+        whole = wholeRecord(action, record, findings);
+        return whole.has_value();
+    };
+    cache_.entry(findingsKey(record), holdNow, mergedFindings);
+    return whole;
+}
+
+ActionCache::Found ActionCache::find(const Action& action, const Record& record)
+{
+    const std::optional<Record> whole = action.finds_files ? recordByFindings(action, record) : record;
+    if (!whole)
+        return {record, std::nullopt, cache_.wasDamaged(findingsKey(record))};
+    const std::string key = resultKey(*whole);
+    const std::optional<cache::Fields> entry = cache_.entry(key);
+    return {*whole, entry ? resultOf(action, *entry) : std::nullopt, cache_.wasDamaged(key)};
 }
 
 std::optional<Record> ActionCache::recordAfter(const Action& action, const Record& record,
@@ -219,13 +243,8 @@ void ActionCache::keep(const Action& action, const Record& record, const KeptRes
     if (!action.finds_files)
         return;
     // last: who finds the list finds the result
-    const std::string key = findingsKey(declaredOf(record));
-    const std::string text = cache::textOf(foundOf(record));
-    cache::Fields findings{{kFindings, text}};
-    for (const auto& [name, other] : cache_.entry(key).value_or(cache::Fields()))
-        if (other != text && findings.size() < kMaxFindings)
-            findings.emplace_back(name, other);
-    cache_.putEntry(key, findings);
+    cache_.putEntry(findingsKey(declaredOf(record)), {{kFindings, cache::textOf(foundOf(record))}},
+                    mergedFindings);
 }
 
 } // namespace hearth::graph

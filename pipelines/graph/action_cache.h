@@ -48,8 +48,11 @@ public:
     {
         Record record; ///< with what the action finds, where that is known
         std::optional<KeptResult> result;
+        bool is_damaged = false; ///< there was one, but not whole
     };
     Found find(const Action& action, const Record& record);
+    /// Of an action that finds files: its record with what it finds now, as far as that is known; nullopt where it is not.
+    std::optional<Record> recordByFindings(const Action& action, const Record& record);
 
     /// The record with what the action has found; nullopt where it cannot be kept, because a file has changed meanwhile.
     std::optional<Record> recordAfter(const Action& action, const Record& record,
@@ -64,6 +67,8 @@ public:
     std::vector<std::string> filesFound(const Action& action, const Record& record);
 
 private:
+    std::optional<Record> wholeRecord(const Action& action, const Record& record,
+                                      const cache::Fields& findings);
     std::string versionOf(const std::string& cooker);
     std::string realFolderOf(const std::string& path);
     std::string pathOfFound(const Action& action, const std::string& found);

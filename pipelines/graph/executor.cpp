@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fmt/format.h>
+#include <set>
 
 namespace hearth::graph
 {
@@ -98,22 +99,39 @@ std::string Executor::pathOf(size_t action, size_t output) const
 
 bool Executor::materialize(size_t action)
 {
-    ActionOutcome& outcome = outcomes_[action];
-    if (!outcome.paths.empty())
-        return true;
-    if (cache_ == nullptr || makeFolders())
-        return false;
-    // the pack becomes the user's, who may write into it
-    const cache::Use use = isPack(action) ? cache::Use::given_away : cache::Use::read_only;
-    std::vector<std::string> paths;
-    for (size_t i = 0; i < outcome.result.outputs.size(); ++i)
+    materialize(std::span(&action, 1));
+    return !outcomes_[action].paths.empty();
+}
+
+/// What is not there yet is asked for at once: a cache on a server answers many questions in the time of one.
+void Executor::materialize(std::span<const size_t> actions)
+{
+    std::vector<size_t> missing;
+    std::copy_if(actions.begin(), actions.end(), std::back_inserter(missing),
+                 [&](size_t action) { return outcomes_[action].paths.empty(); });
+    if (missing.empty() || cache_ == nullptr || makeFolders())
+        return;
+    std::vector<cache::WantedContent> wanted;
+    std::set<std::string> paths_wanted; // what is the same is there once
+    for (const size_t action : missing)
+        for (size_t i = 0; i < outcomes_[action].result.outputs.size(); ++i)
+        {
+            const KeptOutput& output = outcomes_[action].result.outputs[i];
+            const std::string path = pathOf(action, i);
+            // the pack becomes the user's, who may write into it
+            const cache::Use use = isPack(action) ? cache::Use::given_away : cache::Use::read_only;
+            if (!sizeOf(path) && paths_wanted.insert(path).second)
+                wanted.push_back({output.hash, path, use, output.bytes});
+        }
+    cache_->fetch(wanted);
+    for (const size_t action : missing)
     {
-        paths.push_back(pathOf(action, i));
-        if (!sizeOf(paths[i]) && !cache_->fetch(outcome.result.outputs[i].hash, paths[i], use))
-            return false;
+        std::vector<std::string> paths;
+        for (size_t i = 0; i < outcomes_[action].result.outputs.size(); ++i)
+            paths.push_back(pathOf(action, i));
+        if (std::all_of(paths.begin(), paths.end(), sizeOf))
+            outcomes_[action].paths = paths;
     }
-    outcome.paths = paths;
-    return true;
 }
 
 std::vector<std::string> Executor::filesFound(size_t index) const
@@ -137,14 +155,19 @@ std::vector<std::string> Executor::filesFound(size_t index) const
 /// Have the files that the action reads; what the cache has lost is made again first.
 bool Executor::haveInputs(size_t action)
 {
-    bool have = true;
+    std::vector<size_t> makers;
     for (const Input& input : graph_.actions[action].inputs)
+        if (input.action != kNoAction)
+            makers.push_back(input.action);
+    materialize(makers);
+    bool have = true;
+    for (const size_t maker : makers)
     {
-        if (input.action == kNoAction || materialize(input.action))
+        if (!outcomes_[maker].paths.empty())
             continue;
         have = false;
-        states_[input.action] = State::must_run;
-        outcomes_[input.action].causes = {"its result is not in the cache, or not whole"};
+        states_[maker] = State::must_run;
+        outcomes_[maker].causes = {"its result is not in the cache, or not whole"};
         // what is made again may differ
         states_[action] = State::waiting;
     }

@@ -9,6 +9,7 @@
 
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -87,6 +88,7 @@ private:
     bool canStart(size_t action) const;
     std::optional<Failure> start(size_t action);
     std::optional<Failure> makeFolders();
+    void materialize(std::span<const size_t> actions);
     bool haveInputs(size_t action);
     void takeEnd(const tools::ChildEnd& end);
     std::optional<Failure> checkOutputs(size_t action);

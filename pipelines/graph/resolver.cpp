@@ -36,11 +36,10 @@ Resolved Resolver::resolve(size_t index, const std::vector<std::string>& part_ha
     situation.is_forced = is_forced_;
     if (resolved.record && !is_forced_)
     {
-        const size_t damage_before = cache_->damageCount();
         ActionCache::Found found = actions_->find(action, *resolved.record);
         resolved.record = std::move(found.record);
         resolved.result = std::move(found.result);
-        situation.is_damaged = cache_->damageCount() > damage_before;
+        situation.is_damaged = found.is_damaged;
     }
     if (resolved.result)
         return resolved;

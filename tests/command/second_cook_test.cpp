@@ -420,7 +420,7 @@ TEST_F(SecondCook, aCacheThatCannotBeUsedOnlyWarns)
     EXPECT_EQ(ran(nowhere).size(), 5u);
     EXPECT_EQ(countOf(nowhere.err, "W4100"), 0u) << nowhere.err;
     EXPECT_FALSE(folder.has("nowhere"));
-    EXPECT_EQ(cook({"house.obj", "-o", "a.hearth", "--cache", "http://host/x"}).exit_code, 2);
+    EXPECT_EQ(cook({"house.obj", "-o", "a.hearth", "--cache", "ftp://host/x"}).exit_code, 2);
 }
 
 TEST_F(SecondCook, tellsWatchersWhatHappens)

@@ -57,6 +57,7 @@ const std::vector<Library>& libraries()
     static const std::vector<Library> list = {
         {"xxhash.h", {"formats/"}},
         {"openssl/", {"cook/tools/"}},
+        {"curl/", {"pipelines/cache/"}},                           // loaded, not linked
         {"zstd.h", {"formats/", "cook/clusters/", "cook/pages/"}}, // pages are compressed in parallel
         {"vulkan/", {"runtime/gpu/", "runtime/c/", "runtime/viewer/"}, true},
         {"SDL.h", {"runtime/viewer/window/"}},
@@ -102,9 +103,9 @@ const std::vector<Library>& libraries()
 }
 
 // POSIX and Linux: what the standard library does not give
-constexpr std::array<std::string_view, 12> kPosixHeaders{"sys/",     "linux/",   "elf.h",   "malloc.h",
-                                                         "unistd.h", "fcntl.h",  "poll.h",  "spawn.h",
-                                                         "dirent.h", "signal.h", "dlfcn.h", "pthread.h"};
+constexpr std::array<std::string_view, 14> kPosixHeaders{
+    "sys/",    "linux/",   "elf.h",    "malloc.h", "unistd.h",  "fcntl.h", "poll.h",
+    "spawn.h", "dirent.h", "signal.h", "dlfcn.h",  "pthread.h", "arpa/",   "netinet/"};
 
 bool isIn(std::string_view path, const Folders& folders)
 {

@@ -312,23 +312,32 @@ TEST(CacheSpecs, comeFromTheCommandLineElseTheEnvironmentElseTheUser)
     ::setenv("HEARTH_CACHE", "dir:/x;dir:/y,ro,size=3M", 1);
     const auto specs = cacheSpecs({}).value();
     ASSERT_EQ(specs.size(), 2u);
-    EXPECT_EQ(specs[0].folder, "/x");
+    EXPECT_EQ(specs[0].place, "/x");
     EXPECT_TRUE(specs[0].writable);
-    EXPECT_EQ(specs[1].folder, "/y");
+    EXPECT_EQ(specs[1].place, "/y");
     EXPECT_FALSE(specs[1].writable);
     EXPECT_EQ(specs[1].limit_bytes, 3u << 20);
     const std::vector<std::string> options{"dir:/z"};
-    EXPECT_EQ(cacheSpecs(options).value().at(0).folder, "/z");
+    EXPECT_EQ(cacheSpecs(options).value().at(0).place, "/z");
     ::setenv("HEARTH_CACHE", "off", 1);
     EXPECT_TRUE(cacheSpecs({}).value().empty());
     ::unsetenv("HEARTH_CACHE");
     ::setenv("XDG_CACHE_HOME", "/home/x/caches", 1);
-    EXPECT_EQ(cacheSpecs({}).value().at(0).folder, "/home/x/caches/hearth");
+    EXPECT_EQ(cacheSpecs({}).value().at(0).place, "/home/x/caches/hearth");
     ::unsetenv("XDG_CACHE_HOME");
     ::setenv("HOME", "/home/x", 1);
-    EXPECT_EQ(cacheSpecs({}).value().at(0).folder, "/home/x/.cache/hearth");
-    for (const char* wrong : {"/x", "http://x", "dir:", "dir:/x,rw", "dir:/x,size=", "dir:/x,size=0",
-                              "dir:/x,size=9P", "dir:/x,size=99999999999T"})
+    EXPECT_EQ(cacheSpecs({}).value().at(0).place, "/home/x/.cache/hearth");
+    const std::vector<std::string> servers{"http://cache:8080/team/,ro", "https://me:secret@cache"};
+    const auto far = cacheSpecs(servers).value();
+    EXPECT_EQ(far.at(0).place, "http://cache:8080/team");
+    EXPECT_TRUE(far.at(0).is_server);
+    EXPECT_FALSE(far.at(0).writable);
+    EXPECT_EQ(far.at(1).place, "https://me:secret@cache");
+    EXPECT_TRUE(far.at(1).writable);
+    for (const char* wrong :
+         {"/x", "ftp://x", "http://", "http:///x", "http://:80/x", "http://me@/x", "http://x/?y=1",
+          "http://x/a b", "http://x,rw", "http://x,size=1G", "dir:", "dir:/x,rw",
+          "dir:/x,size=", "dir:/x,size=0", "dir:/x,size=9P", "dir:/x,size=99999999999T"})
     {
         const std::vector<std::string> option{wrong};
         const auto refused = cacheSpecs(option);

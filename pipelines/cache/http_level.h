@@ -1,0 +1,49 @@
+// A cache on a server: ac/KEY and cas/SHA256 by GET and PUT, as bazel-remote has them, or nginx over a folder.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "pipelines/cache/http_client.h"
+#include "pipelines/cache/level.h"
+
+#include <memory>
+#include <vector>
+
+namespace hearth::cache
+{
+
+/// A URL as messages may show it: without user and password.
+std::string withoutUser(const std::string& url);
+
+/// Nothing is loaded and nobody asked before the first question. A server that refuses a PUT (read only, full, too large) is
+/// asked to keep nothing more; one that cannot be reached, breaks off or is too slow is an error.
+class HttpLevel : public Level
+{
+public:
+    /// url  http(s)://[user:password@]host[:port]/path, without a '/' at its end; messages do without user and password
+    HttpLevel(std::string url, bool writable, const Pace& pace = {});
+    ~HttpLevel() override;
+
+    const std::string& name() const override { return name_; }
+    bool isWritable() const override { return writable_; }
+    bool isFar() const override { return true; }
+    Status entries(std::span<WantedEntry> wanted) override;
+    Status putEntry(const std::string& key, const std::string& text) override;
+    Status fetch(std::span<WantedContent> wanted) override;
+    Status put(const std::string& hash, const std::string& path, Use use) override;
+    /// What is damaged is replaced when it has been made again: servers that allow to remove are few.
+    void removeEntry(const std::string&) override {}
+    void removeContent(const std::string&) override {}
+
+private:
+    Status run(std::span<HttpRequest> requests);
+    Status put(HttpRequest request);
+    Error answered(const HttpRequest& request, const std::string& consequence) const;
+
+    std::string url_;
+    std::string name_;
+    bool writable_;
+    Pace pace_;
+    std::unique_ptr<HttpClient> client_; ///< from the first question on
+};
+
+} // namespace hearth::cache
