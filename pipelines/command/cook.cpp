@@ -17,6 +17,7 @@
 #include <fcntl.h>
 #include <filesystem>
 #include <fmt/format.h>
+#include <thread>
 #include <unistd.h>
 
 namespace hearth::command
@@ -133,6 +134,14 @@ uint64_t memoryFor(const CookOptions& options)
         return options.memory_bytes;
     return static_cast<uint64_t>(::sysconf(_SC_PHYS_PAGES)) * static_cast<uint64_t>(::sysconf(_SC_PAGESIZE)) /
            4 * 3;
+}
+
+graph::CrewLimits limitsFor(const CookOptions& options)
+{
+    constexpr unsigned kLarge = 2;
+    if (options.jobs > 0)
+        return {options.jobs, options.jobs, memoryFor(options)};
+    return {kLarge, std::max(kLarge, std::thread::hardware_concurrency()), memoryFor(options)};
 }
 
 /// META of the pack at `path`, for the report.
@@ -276,10 +285,9 @@ void cookGraph(const graph::Graph& graph, CookMemory* memory, const CookOptions&
     graph::Resolver resolver(
         graph, cache, actions, [&]() -> const std::optional<graph::Journal>& { return memory->journal(); },
         options.force);
-    graph::Executor executor(
-        graph, resolver, cache, actions,
-        {options.jobs, memoryFor(options), !options.fail_fast, programFolder(), options.output},
-        eventsFor(options, log));
+    graph::Executor executor(graph, resolver, cache, actions,
+                             {limitsFor(options), !options.fail_fast, programFolder(), options.output},
+                             eventsFor(options, log));
     const bool interrupted = !executor.run(hash_there);
     std::string output_cause;
     if (interrupted)
