@@ -2,6 +2,7 @@
 #include "cook/tools/child_processes.h"
 
 #include "cook/tools/batch.h"
+#include "formats/flush.h"
 
 #include <algorithm>
 #include <cerrno>
@@ -134,11 +135,17 @@ Result<size_t> ChildProcesses::start(const std::vector<std::string>& command, bo
         arguments.push_back(const_cast<char*>(argument.c_str()));
     arguments.push_back(nullptr);
 
+    std::string no_flush = std::string(formats::kFlushVariable) + "=off";
+    std::vector<char*> environment{no_flush.data()};
+    for (char** variable = environ; *variable != nullptr; ++variable)
+        environment.push_back(*variable);
+    environment.push_back(nullptr);
+
     const SpawnSetup setup(old_signals_, ends[1], work[1]);
     Child child;
     child.start = std::chrono::steady_clock::now();
     const int error = ::posix_spawn(&child.process, command[0].c_str(), &setup.actions, &setup.attributes,
-                                    arguments.data(), environ);
+                                    arguments.data(), environment.data());
     ::close(ends[1]);
     closeFile(work[1]);
     if (error != 0)

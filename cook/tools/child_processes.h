@@ -41,7 +41,8 @@ public:
     ChildProcesses(const ChildProcesses&) = delete;
     ChildProcesses& operator=(const ChildProcesses&) = delete;
 
-    /// Start program command[0] with its arguments: no shell, stdin and stdout nowhere. Ids count from 0.
+    /// Start program command[0] with its arguments: no shell, stdin and stdout nowhere. What it writes it does not flush to the
+    /// disk (formats/flush.h): most of it goes before this process does. Ids count from 0.
     /// errors: child_failed.
     Result<size_t> start(const std::vector<std::string>& command);
 

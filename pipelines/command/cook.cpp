@@ -3,6 +3,7 @@
 
 #include "cook/tools/lod_files.h"
 #include "cook/tools/whole_file.h"
+#include "formats/flush.h"
 #include "formats/pack_view.h"
 #include "pipelines/command/cook_memory.h"
 #include "pipelines/command/dry_run.h"
@@ -247,11 +248,11 @@ std::string outputCause(const std::optional<std::string>& hash_there)
     return hash_there ? "it was not what had been cooked: changed since, or damaged" : "it was not there";
 }
 
-/// Onto the disk, before it takes the place of what was there; what a cooker wrote is there.
+/// Onto the disk, before it takes the place of what was there.
 bool flush(const std::string& path)
 {
     const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-    const bool flushed = file >= 0 && ::fsync(file) == 0;
+    const bool flushed = file >= 0 && formats::flush(file);
     if (file >= 0)
         ::close(file);
     return flushed;
@@ -264,10 +265,8 @@ bool placePack(const graph::Executor& executor, const std::optional<std::string>
     const graph::KeptOutput& pack = executor.outcomes().back().result.outputs.front();
     outcome.output_bytes = pack.bytes;
     outcome.is_up_to_date = executor.packPath().empty() || (hash_there && *hash_there == pack.hash);
-    const bool is_flushed = outcome.is_up_to_date || executor.outcomes().back().ending == Ending::cooked ||
-                            flush(executor.packPath());
     if (outcome.is_up_to_date ||
-        (is_flushed && ::rename(executor.packPath().c_str(), options.output.c_str()) == 0))
+        (flush(executor.packPath()) && ::rename(executor.packPath().c_str(), options.output.c_str()) == 0))
         return true;
     fail({Issue::cannot_write, options.output, "", std::string("cannot write: ") + std::strerror(errno)},
          options.sources.size(), outcome);

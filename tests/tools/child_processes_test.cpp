@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/tools/child_processes.h"
 
+#include "formats/flush.h"
+
 #include <cerrno>
 #include <cstdio>
+#include <cstdlib>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
@@ -104,6 +107,18 @@ public:
 };
 
 } // namespace
+
+TEST(ChildProcesses, leaveFlushingToTheirParent)
+{
+    ASSERT_EQ(::unsetenv(formats::kFlushVariable), 0);
+    EXPECT_FALSE(formats::flush(-1));
+    ChildProcesses children;
+    ASSERT_TRUE(children.start(shell("[ \"$HEARTH_FLUSH\" = off ]")).ok());
+    EXPECT_EQ(children.wait()->exit_code, 0);
+    ASSERT_EQ(::setenv(formats::kFlushVariable, "off", 1), 0);
+    EXPECT_TRUE(formats::flush(-1)) << "nothing is asked of the disk";
+    ASSERT_EQ(::unsetenv(formats::kFlushVariable), 0);
+}
 
 TEST(ChildProcesses, runABatch)
 {
