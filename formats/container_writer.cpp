@@ -2,6 +2,7 @@
 #include "formats/container_writer.h"
 
 #include "formats/container_reader.h"
+#include "formats/flush.h"
 
 #define XXH_STATIC_LINKING_ONLY // XXH3_state_t on the stack
 #include <xxhash.h>
@@ -199,7 +200,7 @@ Status ContainerWriter::finish()
     HEARTH_TRY(s.write(std::as_bytes(std::span(s.table))));
     if (::pwrite(s.file, &header, sizeof(header), 0) != static_cast<ssize_t>(sizeof(header)))
         return s.failure("cannot write");
-    if (::fsync(s.file) != 0)
+    if (!flush(s.file))
         return s.failure("cannot write");
     if (::rename(s.temporary_path.c_str(), s.path.c_str()) != 0)
         return s.failure("cannot rename into place");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "sample_assets/field.h"
 
+#include "formats/assert.h"
 #include "sample_assets/grass.h"
 #include "sample_assets/noise.h"
 #include "sample_assets/rock.h"
@@ -26,8 +27,7 @@ constexpr uint32_t kTileRows = 16;
 constexpr uint32_t kPlotsAcross = 8;
 constexpr uint32_t kPlotColumns = kTileColumns * kTilesAcross / kPlotsAcross;
 constexpr uint32_t kPlotRows = kTileRows * kTilesAcross / kPlotsAcross;
-constexpr uint32_t kRockShapes = 4;
-constexpr uint32_t kRocksOfShape = 10;
+constexpr uint32_t kRocks = 40;
 constexpr uint32_t kTufts = 10000;
 constexpr Float2 kEye{0, 62}; // x z
 
@@ -85,7 +85,7 @@ void addInstances(Document& document, const std::string& name, TriangleMesh mesh
 Placement rockPlacement(const HeightGrid& grid, uint32_t index)
 {
     const auto random = [&](uint32_t which) { return randomUnit(index * 8 + which, 811); };
-    const float along = (static_cast<float>(index) + 0.5f) / (kRockShapes * kRocksOfShape);
+    const float along = (static_cast<float>(index) + 0.5f) / kRocks;
     const float scale = (1.2f + 1.4f * random(0)) * (1 + 2.2f * along);
     const float side = index % 2 ? 1.0f : -1.0f;
     const Float2 xz{side * (scale + 1.5f + (6 + 60 * along) * random(1)), kEye.y - 8 - 150 * along};
@@ -96,14 +96,14 @@ Placement rockPlacement(const HeightGrid& grid, uint32_t index)
             {scale, scale * flat, scale}};
 }
 
-void addRocks(Document& document, const HeightGrid& grid, uint64_t triangles)
+void addRocks(Document& document, const HeightGrid& grid, uint64_t triangles, uint32_t shapes)
 {
     const int material = addRockMaterial(document, 1024);
-    for (uint32_t shape = 0; shape < kRockShapes; ++shape)
+    for (uint32_t shape = 0; shape < shapes; ++shape)
     {
         std::vector<Placement> instances;
-        for (uint32_t i = 0; i < kRocksOfShape; ++i)
-            instances.push_back(rockPlacement(grid, i * kRockShapes + shape));
+        for (uint32_t rock = shape; rock < kRocks; rock += shapes)
+            instances.push_back(rockPlacement(grid, rock));
         addInstances(document, "rock_" + std::to_string(shape), makeRock(triangles, shape + 1, 3.0f),
                      material, std::move(instances));
     }
@@ -165,13 +165,14 @@ void addSunAndCamera(Document& document, const HeightGrid& grid)
 
 } // namespace
 
-Document makeField(uint64_t rock_triangles, uint32_t texture_size)
+Document makeField(uint64_t rock_triangles, uint32_t rock_shapes, uint32_t texture_size)
 {
+    HEARTH_ASSERT(rock_shapes > 0 && kRocks % rock_shapes == 0);
     Document document;
     const HeightGrid grid =
         makeHeights({.size = kFieldSize, .cells = kTilesAcross * kTileColumns, .seed = 8});
     addGround(document, grid, texture_size);
-    addRocks(document, grid, rock_triangles);
+    addRocks(document, grid, rock_triangles, rock_shapes);
     addInstances(document, "grass", makeGrassTuft({.cards = 5, .columns = 1, .rows = 2}),
                  addGrassMaterial(document), meadow(grid));
     addSky(document, "day_sky", 400, daySkyColor);

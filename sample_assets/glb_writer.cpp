@@ -326,13 +326,13 @@ void appendWord(std::vector<std::byte>& bytes, size_t value)
 }
 
 /// Header, JSON chunk padded with spaces, binary chunk padded with zeros (glTF 2.0, section 4.4).
-std::vector<std::byte> assemble(std::string text, std::vector<std::byte> binary)
+GlbFile assemble(std::string text, std::vector<std::byte> binary)
 {
     text.resize((text.size() + 3) / 4 * 4, ' ');
     binary.resize((binary.size() + 3) / 4 * 4);
     constexpr uint32_t kMagic = 0x46546C67, kJsonChunk = 0x4E4F534A, kBinaryChunk = 0x004E4942;
+    HEARTH_ASSERT(28 + text.size() + binary.size() <= UINT32_MAX);
     std::vector<std::byte> file;
-    file.reserve(28 + text.size() + binary.size());
     for (const size_t word :
          {size_t{kMagic}, size_t{2}, 28 + text.size() + binary.size(), text.size(), size_t{kJsonChunk}})
         appendWord(file, word);
@@ -340,15 +340,32 @@ std::vector<std::byte> assemble(std::string text, std::vector<std::byte> binary)
     file.insert(file.end(), text_bytes.begin(), text_bytes.end());
     appendWord(file, binary.size());
     appendWord(file, kBinaryChunk);
-    file.insert(file.end(), binary.begin(), binary.end());
-    return file;
+    return {std::move(file), std::move(binary)};
+}
+
+/// What the meshes' arrays take as binary, at most: room made once, where each doubling would copy gigabytes.
+size_t meshBytes(const Document& document)
+{
+    constexpr size_t kPadding = 4, kArrays = 7;
+    size_t bytes = 0;
+    for (const Mesh& mesh : document.meshes)
+        for (const Primitive& primitive : mesh.primitives)
+        {
+            const TriangleMesh& m = primitive.mesh;
+            bytes += m.positions.size() * sizeof(Float3) + m.normals.size() * sizeof(Float3) +
+                     m.uvs.size() * sizeof(Float2) + m.colors.size() * sizeof(Float4) +
+                     m.joints.size() * sizeof(m.joints[0]) + m.weights.size() * sizeof(Float4) +
+                     m.indices.size() * sizeof(uint32_t) + kArrays * kPadding;
+        }
+    return bytes;
 }
 
 } // namespace
 
-std::vector<std::byte> encodeGlb(const Document& document)
+GlbFile encodeGlb(const Document& document)
 {
     Glb glb;
+    glb.binary.reserve(meshBytes(document));
     glb.json["asset"] = {{"version", "2.0"}, {"generator", "hearth-samples"}};
     glb.json["scene"] = 0;
     glb.json["scenes"] = Json::array({Json{{"nodes", document.roots}}});
@@ -367,7 +384,7 @@ std::vector<std::byte> encodeGlb(const Document& document)
     return assemble(glb.json.dump(), std::move(glb.binary));
 }
 
-Status writeFile(const std::string& path, std::span<const std::byte> bytes)
+Status writeFile(const std::string& path, const GlbFile& glb)
 {
     const std::string temporary = path + ".tmp";
     const auto fail = [&](const char* what)
@@ -378,7 +395,9 @@ Status writeFile(const std::string& path, std::span<const std::byte> bytes)
     std::FILE* const file = std::fopen(temporary.c_str(), "wb");
     if (file == nullptr)
         return fail("cannot create the file");
-    const bool written = std::fwrite(bytes.data(), 1, bytes.size(), file) == bytes.size();
+    const auto write = [&](const std::vector<std::byte>& bytes)
+    { return std::fwrite(bytes.data(), 1, bytes.size(), file) == bytes.size(); };
+    const bool written = write(glb.head) && write(glb.binary);
     if (std::fclose(file) != 0 || !written)
         return fail("cannot write the file");
     if (std::rename(temporary.c_str(), path.c_str()) != 0)

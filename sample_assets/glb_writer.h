@@ -11,11 +11,18 @@
 namespace hearth::samples
 {
 
-/// The document as the bytes of a GLB file. Same document, same bytes.
-/// Indices of `document` must be in range, and attribute arrays of equal length (asserted).
-std::vector<std::byte> encodeGlb(const Document& document);
+/// The bytes of a GLB file, in two pieces: a scene of gigabytes is not copied together.
+struct GlbFile
+{
+    std::vector<std::byte> head;   ///< header, JSON chunk, header of the binary chunk
+    std::vector<std::byte> binary; ///< that chunk's bytes
+};
 
-/// Write bytes under `path`, whole or not at all. errors: cannot_write.
-Status writeFile(const std::string& path, std::span<const std::byte> bytes);
+/// The document as a GLB file. Same document, same bytes.
+/// Indices of `document` must be in range, and attribute arrays of equal length (asserted).
+GlbFile encodeGlb(const Document& document);
+
+/// Write the file under `path`, whole or not at all. errors: cannot_write.
+Status writeFile(const std::string& path, const GlbFile& glb);
 
 } // namespace hearth::samples

@@ -5,8 +5,8 @@
 #include "cook/clusters/profile.h"
 #include "cook/clusters/source_part.h"
 #include "cook/clusters/statistics.h"
+#include "cook/tools/batch.h"
 #include "cook/tools/whole_file.h"
-#include "formats/program.h"
 
 #include <CLI/CLI.hpp>
 
@@ -220,5 +220,5 @@ int main(int argc, char** argv)
     // large arrays go back to the system when they are freed, whatever was allocated behind them
     ::mallopt(M_MMAP_THRESHOLD, 1 << 22);
 #endif
-    return hearth::runProgram("hearth-clusters", [&] { return program(argc, argv); });
+    return hearth::tools::runCooker("hearth-clusters", argc, argv, program);
 }

@@ -1,9 +1,9 @@
 // hearth-skinning: reads an import part and its clusters part, and writes the skinning part.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/skinning/skinning_part.h"
+#include "cook/tools/batch.h"
 #include "cook/tools/open_part.h"
 #include "cook/tools/whole_file.h"
-#include "formats/program.h"
 
 #include <CLI/CLI.hpp>
 
@@ -85,5 +85,5 @@ int program(int argc, char** argv)
 
 int main(int argc, char** argv)
 {
-    return hearth::runProgram("hearth-skinning", [&] { return program(argc, argv); });
+    return hearth::tools::runCooker("hearth-skinning", argc, argv, program);
 }

@@ -1,7 +1,7 @@
 // hearth-textures: gives the images of an import part their mips.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/textures/texture_part.h"
-#include "formats/program.h"
+#include "cook/tools/batch.h"
 
 #include <CLI/CLI.hpp>
 
@@ -61,5 +61,5 @@ int program(int argc, char** argv)
 
 int main(int argc, char** argv)
 {
-    return hearth::runProgram("hearth-textures", [&] { return program(argc, argv); });
+    return hearth::tools::runCooker("hearth-textures", argc, argv, program);
 }

@@ -1,14 +1,20 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/tools/child_processes.h"
 
+#include "cook/tools/batch.h"
+#include "formats/flush.h"
+
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <fcntl.h>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <poll.h>
 #include <spawn.h>
 #include <sys/resource.h>
 #include <sys/signalfd.h>
+#include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -29,14 +35,23 @@ double secondsOf(const timeval& time)
 /// Attributes and file actions of posix_spawn, given back when they go.
 struct SpawnSetup
 {
-    SpawnSetup(const sigset_t& signals, int messages_pipe)
+    /// work  a batch reads it, and tells of ends where it says its messages: what it said before belongs to that end
+    SpawnSetup(const sigset_t& signals, int messages_pipe, int work)
     {
         ::posix_spawnattr_init(&attributes);
         ::posix_spawnattr_setsigmask(&attributes, &signals);
         ::posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK);
         ::posix_spawn_file_actions_init(&actions);
-        ::posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-        ::posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+        if (work < 0)
+        {
+            ::posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+            ::posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+        }
+        else
+        {
+            ::posix_spawn_file_actions_adddup2(&actions, work, STDIN_FILENO);
+            ::posix_spawn_file_actions_adddup2(&actions, messages_pipe, STDOUT_FILENO);
+        }
         ::posix_spawn_file_actions_adddup2(&actions, messages_pipe, STDERR_FILENO);
     }
     SpawnSetup(const SpawnSetup&) = delete;
@@ -49,6 +64,13 @@ struct SpawnSetup
     posix_spawnattr_t attributes;
     posix_spawn_file_actions_t actions;
 };
+
+void closeFile(int& file)
+{
+    if (file >= 0)
+        ::close(file);
+    file = -1;
+}
 
 Error cannotStart(const std::string& program, int error)
 {
@@ -70,23 +92,42 @@ ChildProcesses::ChildProcesses()
 
 ChildProcesses::~ChildProcesses()
 {
-    for (const Child& child : children_)
+    for (Child& child : children_)
     {
         // nothing to save: what a cooker has written so far is of no use
         ::kill(child.process, SIGKILL);
         ::waitpid(child.process, nullptr, 0);
-        if (child.messages_pipe >= 0)
-            ::close(child.messages_pipe);
+        closeFile(child.messages_pipe);
+        closeFile(child.work_socket);
     }
-    ::close(signal_file_);
+    closeFile(signal_file_);
     ::sigprocmask(SIG_SETMASK, &old_signals_, nullptr);
 }
 
 Result<size_t> ChildProcesses::start(const std::vector<std::string>& command)
 {
+    return start(command, false);
+}
+
+Result<size_t> ChildProcesses::startBatch(const std::string& program)
+{
+    return start({program, "--batch"}, true);
+}
+
+Result<size_t> ChildProcesses::start(const std::vector<std::string>& command, bool is_batch)
+{
     int ends[2];
     if (::pipe2(ends, O_CLOEXEC) != 0)
         return cannotStart(command[0], errno);
+    // not a pipe: writing to one whose reader has died is a signal
+    int work[2] = {-1, -1};
+    if (is_batch && ::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, work) != 0)
+    {
+        const int error = errno;
+        ::close(ends[0]);
+        ::close(ends[1]);
+        return cannotStart(command[0], error);
+    }
     ::fcntl(ends[0], F_SETFL, O_NONBLOCK);
 
     std::vector<char*> arguments;
@@ -94,21 +135,104 @@ Result<size_t> ChildProcesses::start(const std::vector<std::string>& command)
         arguments.push_back(const_cast<char*>(argument.c_str()));
     arguments.push_back(nullptr);
 
-    const SpawnSetup setup(old_signals_, ends[1]);
+    std::string no_flush = std::string(formats::kFlushVariable) + "=off";
+    std::vector<char*> environment{no_flush.data()};
+    for (char** variable = environ; *variable != nullptr; ++variable)
+        environment.push_back(*variable);
+    environment.push_back(nullptr);
+
+    const SpawnSetup setup(old_signals_, ends[1], work[1]);
     Child child;
     child.start = std::chrono::steady_clock::now();
     const int error = ::posix_spawn(&child.process, command[0].c_str(), &setup.actions, &setup.attributes,
-                                    arguments.data(), environ);
+                                    arguments.data(), environment.data());
     ::close(ends[1]);
+    closeFile(work[1]);
     if (error != 0)
     {
         ::close(ends[0]);
+        closeFile(work[0]);
         return cannotStart(command[0], error);
     }
     child.id = next_id_++;
     child.messages_pipe = ends[0];
+    child.work_socket = work[0];
+    child.is_batch = is_batch;
     children_.push_back(std::move(child));
     return children_.back().id;
+}
+
+ChildProcesses::Child& ChildProcesses::child(size_t id)
+{
+    const auto found =
+        std::find_if(children_.begin(), children_.end(), [&](const Child& child) { return child.id == id; });
+    HEARTH_ASSERT(found != children_.end());
+    return *found;
+}
+
+void ChildProcesses::give(size_t id, std::string_view line)
+{
+    while (!line.empty())
+    {
+        const ssize_t sent = ::send(child(id).work_socket, line.data(), line.size(), MSG_NOSIGNAL);
+        if (sent < 0 && errno == EINTR)
+            continue;
+        if (sent < 0)
+            return;
+        line.remove_prefix(static_cast<size_t>(sent));
+    }
+}
+
+void ChildProcesses::close(size_t id)
+{
+    closeFile(child(id).work_socket);
+}
+
+/// What a report says becomes an end; what is none was a message.
+void ChildProcesses::takeReport(Child& child)
+{
+    const std::string report = std::move(child.report);
+    child.report.clear();
+    const auto json = nlohmann::json::parse(report.substr(1), nullptr, false);
+    const auto number = [&](const char* name)
+    { return json.is_object() && json.contains(name) && json[name].is_number(); };
+    if (!number("exit") || !number("seconds") || !number("cpu_seconds") || !number("peak_rss_bytes"))
+    {
+        child.messages += report;
+        return;
+    }
+    ChildEnd end;
+    end.id = child.id;
+    end.is_alive = true;
+    end.exit_code = json["exit"];
+    end.messages = std::move(child.messages);
+    end.seconds = json["seconds"];
+    end.cpu_seconds = json["cpu_seconds"];
+    end.peak_rss_bytes = json["peak_rss_bytes"];
+    child.messages.clear();
+    ends_.push_back(std::move(end));
+}
+
+void ChildProcesses::take(Child& child, std::string_view text)
+{
+    const auto isInReport = [&] { return !child.report.empty(); };
+    while (!text.empty())
+    {
+        const size_t to = child.is_batch ? text.find(isInReport() ? '\n' : kRecordSeparator) : text.npos;
+        const size_t size = std::min(text.size(), isInReport() && to != text.npos ? to + 1 : to);
+        std::string& into = isInReport() ? child.report : child.messages;
+        into.append(text.substr(0, std::min(size, kMaxMessages - std::min(kMaxMessages, into.size()))));
+        text.remove_prefix(size);
+        if (to == text.npos)
+            return;
+        if (isInReport())
+            takeReport(child);
+        else
+        {
+            child.report = kRecordSeparator;
+            text.remove_prefix(1);
+        }
+    }
 }
 
 void ChildProcesses::drain(Child& child)
@@ -124,23 +248,25 @@ void ChildProcesses::drain(Child& child)
         if (size == 0)
         {
             // poll leaves out what is negative, and would not wait on a pipe that has ended
-            ::close(child.messages_pipe);
-            child.messages_pipe = -1;
+            closeFile(child.messages_pipe);
             return;
         }
-        const size_t room = kMaxMessages - child.messages.size();
-        child.messages.append(buffer, std::min(room, static_cast<size_t>(size)));
+        take(child, {buffer, static_cast<size_t>(size)});
     }
 }
 
-std::optional<ChildEnd> ChildProcesses::reapOne()
+/// The processes that have ended become ends.
+void ChildProcesses::reap()
 {
-    for (auto child = children_.begin(); child != children_.end(); ++child)
+    for (auto child = children_.begin(); child != children_.end();)
     {
         int status = 0;
         rusage usage{};
         if (::wait4(child->process, &status, WNOHANG, &usage) != child->process)
+        {
+            ++child;
             continue;
+        }
         drain(*child);
         ChildEnd end;
         end.id = child->id;
@@ -150,21 +276,26 @@ std::optional<ChildEnd> ChildProcesses::reapOne()
         end.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - child->start).count();
         end.cpu_seconds = secondsOf(usage.ru_utime) + secondsOf(usage.ru_stime);
         end.peak_rss_bytes = static_cast<uint64_t>(usage.ru_maxrss) * 1024;
-        if (child->messages_pipe >= 0)
-            ::close(child->messages_pipe);
-        children_.erase(child);
-        return end;
+        closeFile(child->messages_pipe);
+        closeFile(child->work_socket);
+        child = children_.erase(child);
+        ends_.push_back(std::move(end));
     }
-    return std::nullopt;
 }
 
 std::optional<ChildEnd> ChildProcesses::wait()
 {
-    HEARTH_ASSERT(!children_.empty());
     for (;;)
     {
-        if (std::optional<ChildEnd> end = reapOne())
+        if (ends_.empty())
+            reap();
+        if (!ends_.empty())
+        {
+            ChildEnd end = std::move(ends_.front());
+            ends_.pop_front();
             return end;
+        }
+        HEARTH_ASSERT(!children_.empty());
 
         std::vector<pollfd> files{{signal_file_, POLLIN, 0}};
         for (const Child& child : children_)
@@ -177,6 +308,15 @@ std::optional<ChildEnd> ChildProcesses::wait()
             if (signal.ssi_signo != SIGCHLD)
                 return std::nullopt;
     }
+}
+
+std::optional<std::string> batchLine(std::span<const std::string> arguments)
+{
+    nlohmann::json words = nlohmann::json::array();
+    for (const std::string& argument : arguments)
+        words.push_back(argument);
+    const std::string line = words.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+    return nlohmann::json::parse(line, nullptr, false) == words ? std::optional(line + "\n") : std::nullopt;
 }
 
 std::string programFolder()

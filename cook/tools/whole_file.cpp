@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/tools/whole_file.h"
 
+#include "formats/flush.h"
+
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
@@ -52,7 +54,7 @@ Status WholeFile::finish()
     ::umask(mask);
     const int descriptor = ::fileno(file_.get());
     if (failed_ || std::fflush(file_.get()) != 0 || ::fchmod(descriptor, 0666 & ~mask) != 0 ||
-        ::fsync(descriptor) != 0 || ::rename(temporary_path_.c_str(), path_.c_str()) != 0)
+        !formats::flush(descriptor) || ::rename(temporary_path_.c_str(), path_.c_str()) != 0)
         return cannotWrite(path_);
     file_.reset();
     return success();

@@ -1,10 +1,10 @@
 // hearth-visibility: reads an import part and its clusters part, and writes the clusters part with what its vertices see.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/tools/batch.h"
 #include "cook/tools/open_part.h"
 #include "cook/tools/whole_file.h"
 #include "cook/visibility/occlusion_picture.h"
 #include "cook/visibility/visibility_part.h"
-#include "formats/program.h"
 
 #include <CLI/CLI.hpp>
 
@@ -236,5 +236,5 @@ int program(int argc, char** argv)
 
 int main(int argc, char** argv)
 {
-    return hearth::runProgram("hearth-visibility", [&] { return program(argc, argv); });
+    return hearth::tools::runCooker("hearth-visibility", argc, argv, program);
 }

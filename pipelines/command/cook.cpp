@@ -4,6 +4,7 @@
 #include "cook/tools/lod_files.h"
 #include "cook/tools/sha256.h"
 #include "cook/tools/whole_file.h"
+#include "formats/flush.h"
 #include "formats/pack_view.h"
 #include "pipelines/command/cook_memory.h"
 #include "pipelines/command/depfile.h"
@@ -19,6 +20,7 @@
 #include <fcntl.h>
 #include <filesystem>
 #include <fmt/format.h>
+#include <thread>
 #include <unistd.h>
 
 namespace hearth::command
@@ -143,6 +145,14 @@ uint64_t memoryFor(const CookOptions& options)
            4 * 3;
 }
 
+graph::CrewLimits limitsFor(const CookOptions& options)
+{
+    constexpr unsigned kLarge = 2;
+    if (options.jobs > 0)
+        return {options.jobs, options.jobs, memoryFor(options)};
+    return {kLarge, std::max(kLarge, std::thread::hardware_concurrency()), memoryFor(options)};
+}
+
 /// META of the pack at `path`, for the report.
 std::string metaOf(const std::string& path)
 {
@@ -246,11 +256,11 @@ std::string outputCause(const std::optional<std::string>& hash_there)
     return hash_there ? "it was not what had been cooked: changed since, or damaged" : "it was not there";
 }
 
-/// Onto the disk, before it takes the place of what was there; what a cooker wrote is there.
+/// Onto the disk, before it takes the place of what was there.
 bool flush(const std::string& path)
 {
     const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-    const bool flushed = file >= 0 && ::fsync(file) == 0;
+    const bool flushed = file >= 0 && formats::flush(file);
     if (file >= 0)
         ::close(file);
     return flushed;
@@ -285,10 +295,8 @@ bool placePack(const graph::Executor& executor, const std::optional<std::string>
     outcome.is_up_to_date = executor.packPath().empty() || (hash_there && *hash_there == pack.hash);
     if (!outcome.is_up_to_date && !hash_there && haveSameContent(executor.packPath(), options.output))
         return true;
-    const bool is_flushed = outcome.is_up_to_date || executor.outcomes().back().ending == Ending::cooked ||
-                            flush(executor.packPath());
     if (outcome.is_up_to_date ||
-        (is_flushed && ::rename(executor.packPath().c_str(), options.output.c_str()) == 0))
+        (flush(executor.packPath()) && ::rename(executor.packPath().c_str(), options.output.c_str()) == 0))
         return true;
     fail({Issue::cannot_write, options.output, "", std::string("cannot write: ") + std::strerror(errno)},
          options.sources.size(), outcome);
@@ -307,8 +315,8 @@ void cookGraph(const graph::Graph& graph, CookMemory* memory, const CookOptions&
         graph, cache, actions, [&]() -> const std::optional<graph::Journal>& { return memory->journal(); },
         options.force);
     graph::Executor executor(graph, resolver, cache, actions,
-                             {options.jobs, memoryFor(options), !options.fail_fast, !options.depfile.empty(),
-                              programFolder(), options.output},
+                             {limitsFor(options), !options.fail_fast, !options.depfile.empty(), programFolder(),
+                              options.output},
                              eventsFor(options, log));
     const bool interrupted = !executor.run(hash_there);
     std::string output_cause;

@@ -17,9 +17,9 @@ using graph::VisibilityOptions;
 
 struct CookOptions : graph::CookSettings
 {
-    /// Cookers at once. They are parallel themselves: two are enough to hide their serial parts, and each more costs
-    /// the memory of another mesh.
-    unsigned jobs = 2;
+    /// Cookers at once; 0: two, and of small sources as many as there are cores. With large ones they are parallel
+    /// themselves: two are enough to hide their serial parts, and each more costs the memory of another mesh.
+    unsigned jobs = 0;
     /// What the cookers may take together, by their estimates; 0: three quarters of the machine's memory.
     uint64_t memory_bytes = 0;
     bool fail_fast = false;          ///< end at the first failure; else cook what does not depend on it

@@ -27,9 +27,9 @@ void addCook(CLI::App& app, Work& run)
     verb->add_option("SOURCE", options->sources, "glTF, GLB, OBJ, PLY, STL, OFF, Draco or image files")
         ->required();
     verb->add_option("-o,--output", options->output, "pack to write")->required();
-    verb->add_option("-j,--jobs", options->jobs, "cookers that run at once")
-        ->check(CLI::Range(1, 1024))
-        ->capture_default_str();
+    verb->add_option("-j,--jobs", options->jobs,
+                     "cookers that run at once; two by default, and of small sources one a core")
+        ->check(CLI::Range(1, 1024));
     verb->add_option("--memory", options->memory,
                      "what the cookers may take together, as 12G; three quarters of the machine's by default")
         ->check(CLI::Validator(sizeFault, ""));

@@ -45,8 +45,10 @@ Executor::Executor(const Graph& graph, Resolver& resolver, cache::Cache* cache, 
       actions_(actions),
       options_(std::move(options)),
       events_(std::move(events)),
+      crew_(graph, options_.limits),
       states_(graph.actions.size(), State::waiting),
-      outcomes_(graph.actions.size())
+      outcomes_(graph.actions.size()),
+      has_begun_(graph.actions.size())
 {
 }
 
@@ -174,11 +176,14 @@ bool Executor::haveInputs(size_t action)
     return have;
 }
 
-bool Executor::canStart(size_t action) const
+/// What the action reads of what actions before it made.
+uint64_t Executor::partBytes(size_t action) const
 {
-    const uint64_t memory = graph_.actions[action].estimate.memory_bytes;
-    return children_.running() < options_.jobs &&
-           (children_.running() == 0 || memory_in_use_ + memory <= options_.memory_bytes);
+    uint64_t bytes = 0;
+    for (const Input& input : graph_.actions[action].inputs)
+        if (input.action != kNoAction)
+            bytes += outcomes_[input.action].result.outputs.front().bytes;
+    return bytes;
 }
 
 std::optional<Failure> Executor::start(size_t index)
@@ -193,14 +198,12 @@ std::optional<Failure> Executor::start(size_t index)
     std::vector<std::string> command = commandOf(action, options_.programs, paths);
     if (action.finds_files && (cache_ != nullptr || options_.lists_files))
         command.insert(command.end(), {"--depfile", readListOf(index)});
-    if (events_.starting)
+    if (events_.starting && !has_begun_[index])
         events_.starting(action, outcomes_[index], command);
-    const Result<size_t> child = children_.start(command);
-    if (!child.ok())
-        return failureOf(child.error(), action.source);
+    has_begun_[index] = true;
+    if (const Status started = crew_.start(index, partBytes(index), command); !started.ok())
+        return failureOf(started.error(), action.source);
     states_[index] = State::running;
-    memory_in_use_ += action.estimate.memory_bytes;
-    action_of_child_.push_back(index);
     return std::nullopt;
 }
 
@@ -257,8 +260,8 @@ std::optional<Failure> Executor::startWhatCan()
             const auto isReady = [&](const Input& input)
             { return input.action == kNoAction || states_[input.action] == State::done; };
             const std::vector<Input>& inputs = graph_.actions[i].inputs;
-            if (states_[i] != State::must_run || !canStart(i) ||
-                !std::all_of(inputs.begin(), inputs.end(), isReady))
+            if (states_[i] != State::must_run || !std::all_of(inputs.begin(), inputs.end(), isReady) ||
+                !crew_.canStart(i, partBytes(i)))
                 continue;
             has_changed = true;
             if (!haveInputs(i))
@@ -324,12 +327,16 @@ void Executor::keepResult(size_t index)
     actions_->keep(action, outcome.record, outcome.result);
 }
 
-void Executor::takeEnd(const tools::ChildEnd& end)
+void Executor::takeEnd(const CrewEnd& crew_end)
 {
-    const size_t index = action_of_child_[end.id];
+    for (const size_t action : crew_end.not_begun)
+        states_[action] = State::must_run;
+    if (crew_end.action == kNoAction)
+        return;
+    const tools::ChildEnd& end = crew_end.end;
+    const size_t index = crew_end.action;
     const Action& action = graph_.actions[index];
     ActionOutcome& outcome = outcomes_[index];
-    memory_in_use_ -= action.estimate.memory_bytes;
 
     std::vector<std::string> private_paths = pathsOf(index);
     for (const Input& input : action.inputs)
@@ -388,13 +395,13 @@ bool Executor::run(const std::optional<std::string>& hash_there)
                 events_.failed(*failure);
             return true;
         }
-        if (children_.running() == 0)
+        if (crew_.isIdle())
         {
             if (finishPack(hash_there))
                 return true;
             continue;
         }
-        const std::optional<tools::ChildEnd> end = children_.wait();
+        const std::optional<CrewEnd> end = crew_.wait();
         if (!end)
             return false;
         takeEnd(*end);

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include "cook/tools/child_processes.h"
 #include "cook/tools/private_folder.h"
 #include "pipelines/graph/cooker_end.h"
+#include "pipelines/graph/crew.h"
 #include "pipelines/graph/resolver.h"
 
 #include <functional>
@@ -18,12 +18,11 @@ namespace hearth::graph
 
 struct ExecutorOptions
 {
-    unsigned jobs = 2;         ///< cookers at once
-    uint64_t memory_bytes = 0; ///< that they may take together, by their estimates; one always runs
-    bool keeps_going = true;   ///< after a failure, with what does not depend on it
-    bool lists_files = false;  ///< has cookers list what they find without a cache, too: for filesFound()
-    std::string programs;      ///< folder of the cookers
-    std::string output;        ///< the pack: temporary files are made beside it, or in TMPDIR
+    CrewLimits limits;
+    bool keeps_going = true;  ///< after a failure, with what does not depend on it
+    bool lists_files = false; ///< has cookers list what they find without a cache, too: for filesFound()
+    std::string programs;     ///< folder of the cookers
+    std::string output;       ///< the pack: temporary files are made beside it, or in TMPDIR
 };
 
 struct ActionOutcome
@@ -85,12 +84,12 @@ private:
 
     std::optional<Failure> startWhatCan();
     bool advance(size_t action);
-    bool canStart(size_t action) const;
+    uint64_t partBytes(size_t action) const;
     std::optional<Failure> start(size_t action);
     std::optional<Failure> makeFolders();
     void materialize(std::span<const size_t> actions);
     bool haveInputs(size_t action);
-    void takeEnd(const tools::ChildEnd& end);
+    void takeEnd(const CrewEnd& end);
     std::optional<Failure> checkOutputs(size_t action);
     void keepResult(size_t action);
     bool finishPack(const std::optional<std::string>& hash_there);
@@ -108,15 +107,14 @@ private:
     ExecutorEvents events_;
 
     // before the folders, so that it goes after them: signals wait until they are gone
-    tools::ChildProcesses children_;
+    Crew crew_;
     std::optional<tools::PrivateFolder> beside_; ///< the pack, where a rename can put it in place
     std::optional<tools::PrivateFolder> parts_;
 
     std::vector<State> states_;
     std::vector<ActionOutcome> outcomes_;
-    std::vector<size_t> action_of_child_;
+    std::vector<bool> has_begun_; ///< of the actions: events_.starting was told
     std::vector<Failure> failures_;
-    uint64_t memory_in_use_ = 0;
     std::string pack_path_;
 };
 

@@ -1,11 +1,11 @@
 // hearth-import: reads a source asset and writes the import part.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/clips/clip_settings.h"
+#include "cook/tools/batch.h"
 #include "cook/tools/lod_files.h"
 #include "cook/tools/private_folder.h"
 #include "cook/tools/read_list.h"
 #include "cook/tools/whole_file.h"
-#include "formats/program.h"
 #include "pipelines/import/authored_files.h"
 #include "pipelines/import/part_clips.h"
 #include "pipelines/import/read_source.h"
@@ -121,5 +121,5 @@ int program(int argc, char** argv)
 
 int main(int argc, char** argv)
 {
-    return hearth::runProgram("hearth-import", [&] { return program(argc, argv); });
+    return hearth::tools::runCooker("hearth-import", argc, argv, program);
 }

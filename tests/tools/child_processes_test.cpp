@@ -1,8 +1,13 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/tools/child_processes.h"
 
+#include "formats/flush.h"
+
 #include <cerrno>
+#include <cstdio>
+#include <cstdlib>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <thread>
 #include <unistd.h>
@@ -77,6 +82,105 @@ TEST(ChildProcesses, waitForAChildThatClosedItsStderr)
     ChildProcesses children;
     ASSERT_TRUE(children.start(shell("exec 2>&-; sleep 0.2; exit 7")).ok());
     EXPECT_EQ(children.wait()->exit_code, 7);
+}
+
+namespace
+{
+
+/// A program that does with each line of a batch what `script` says.
+class BatchScript
+{
+public:
+    explicit BatchScript(const std::string& script)
+    {
+        std::FILE* file = std::fopen(path.c_str(), "w");
+        std::fprintf(file,
+                     "#!/bin/sh\n[ \"$1\" = --batch ] || exit 9\nwhile read -r line; do %s\n"
+                     "printf '\\036{\"exit\":%%d,\"seconds\":0.5,\"cpu_seconds\":0.25,"
+                     "\"peak_rss_bytes\":4096}\\n' $?; done\n",
+                     script.c_str());
+        std::fclose(file);
+        ::chmod(path.c_str(), 0700);
+    }
+    ~BatchScript() { ::unlink(path.c_str()); }
+    std::string path = "batch-script-" + std::to_string(::getpid());
+};
+
+} // namespace
+
+TEST(ChildProcesses, leaveFlushingToTheirParent)
+{
+    ASSERT_EQ(::unsetenv(formats::kFlushVariable), 0);
+    EXPECT_FALSE(formats::flush(-1));
+    ChildProcesses children;
+    ASSERT_TRUE(children.start(shell("[ \"$HEARTH_FLUSH\" = off ]")).ok());
+    EXPECT_EQ(children.wait()->exit_code, 0);
+    ASSERT_EQ(::setenv(formats::kFlushVariable, "off", 1), 0);
+    EXPECT_TRUE(formats::flush(-1)) << "nothing is asked of the disk";
+    ASSERT_EQ(::unsetenv(formats::kFlushVariable), 0);
+}
+
+TEST(ChildProcesses, runABatch)
+{
+    const BatchScript script("echo \"$line\" >&2; [ \"$line\" != bad ]");
+    ChildProcesses children;
+    const size_t batch = children.startBatch("./" + script.path).value();
+    children.give(batch, "good\n");
+    children.give(batch, "bad\n");
+    for (const char* line : {"good", "bad"})
+    {
+        const auto end = children.wait();
+        ASSERT_TRUE(end);
+        EXPECT_EQ(end->id, batch);
+        EXPECT_TRUE(end->is_alive);
+        EXPECT_EQ(end->messages, line + std::string("\n"));
+        EXPECT_EQ(end->exit_code, line == std::string("good") ? 0 : 1);
+        EXPECT_EQ(end->seconds, 0.5);
+        EXPECT_EQ(end->cpu_seconds, 0.25);
+        EXPECT_EQ(end->peak_rss_bytes, 4096u);
+    }
+    children.give(batch, "later\n");
+    EXPECT_EQ(children.wait()->messages, "later\n");
+    children.close(batch);
+    const auto end = children.wait();
+    EXPECT_FALSE(end->is_alive);
+    EXPECT_EQ(end->messages, "");
+}
+
+TEST(ChildProcesses, tellWhereABatchDies)
+{
+    const BatchScript script("echo \"$line\" >&2; [ \"$line\" = bad ] && kill -ABRT $$");
+    ChildProcesses children;
+    const size_t batch = children.startBatch("./" + script.path).value();
+    for (const char* line : {"good\n", "bad\n", "good\n"})
+        children.give(batch, line);
+    EXPECT_TRUE(children.wait()->is_alive);
+    const auto end = children.wait();
+    EXPECT_FALSE(end->is_alive);
+    EXPECT_EQ(end->signal, SIGABRT);
+    EXPECT_EQ(end->messages, "bad\n");
+    EXPECT_EQ(children.running(), 0u);
+}
+
+TEST(ChildProcesses, takeNoiseForMessages)
+{
+    // the separator of an end, but no end behind it; and more than is kept
+    const BatchScript script("if [ $line = noise ]; then printf '\\036noise\\n' >&2; "
+                             "else head -c 3000000 /dev/zero >&2; fi");
+    ChildProcesses children;
+    const size_t batch = children.startBatch("./" + script.path).value();
+    children.give(batch, "noise\n");
+    EXPECT_EQ(children.wait()->messages, "\x1Enoise\n");
+    children.give(batch, "much\n");
+    EXPECT_EQ(children.wait()->messages.size(), size_t{1} << 20);
+}
+
+TEST(ChildProcesses, sayWhatABatchReads)
+{
+    const auto line = [](const std::vector<std::string>& words) { return batchLine(words); };
+    EXPECT_EQ(line({"a b", "\n\"\\", "\xC3\xA4", ""}), "[\"a b\",\"\\n\\\"\\\\\",\"\xC3\xA4\",\"\"]\n");
+    EXPECT_EQ(line({}), "[]\n");
+    EXPECT_EQ(line({"Latin-1 \xE4"}), std::nullopt);
 }
 
 TEST(ChildProcesses, sayWhatCannotBeStarted)

@@ -1,0 +1,284 @@
+// Many small sources: their cookers share processes, and nobody can tell by what comes out.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "pipelines/command/verify.h"
+#include "tests/command/sandbox.h"
+#include "tests/command/small_parts.h"
+#include "tests/command/small_sources.h"
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <filesystem>
+#include <gtest/gtest.h>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
+#include <thread>
+
+namespace hearth::test
+{
+
+namespace
+{
+
+namespace fs = std::filesystem;
+
+// A cooker that notes each of its processes, and does what the name of its source says. The lines that it is given hold
+// plain names only: they become words by sed. A crash is that of the batch.
+constexpr const char* kScript = R"sh(#!/bin/sh
+if [ "$1" = --batch ]; then
+  echo COOKER >> PROCESSES
+  while read -r line; do
+    eval "set -- $(echo "$line" | sed 's/^\[//; s/\]$//; s/","/" "/g')"
+    BATCH=$$ "$0" "$@" --in-batch
+    code=$?
+    printf '\036{"exit":%d,"seconds":0.01,"cpu_seconds":0.01,"peak_rss_bytes":1000000}\n' $code
+  done
+  exit 0
+fi
+case "$*" in *--in-batch) ;; *) echo alone >> PROCESSES ;; esac
+case "$1" in
+  *malformed*) echo "$1|/meshes/0: error: is bad [E1101] hint: mend it" >&2; exit 65 ;;
+  *warning*) echo "$1|/extras: warning: left out [W1400]" >&2 ;;
+  *crash*) echo "contract broken" >&2; kill -SEGV ${BATCH:-$$}; exit ;;
+  *slow*) exec sleep 60 ;;
+  *busy*) mkdir busy 2>/dev/null || touch together; sleep 0.05; rmdir busy 2>/dev/null ;;
+esac
+while [ "$1" != -o ]; do shift; done
+cp "PARTS.COOKER.part" "$2"
+)sh";
+
+void replaceAll(std::string& text, const std::string& what, const std::string& by)
+{
+    for (size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + by.size()))
+        text.replace(at, what.size(), by);
+}
+
+/// Twelve names, "NAME7.gltf".
+std::vector<std::string> crowd(const std::string& name = "a")
+{
+    std::vector<std::string> names;
+    for (int i = 0; i < 12; ++i)
+        names.push_back(name + std::to_string(i) + ".gltf");
+    return names;
+}
+
+class Batches : public ::testing::Test
+{
+protected:
+    Batches()
+    {
+        PackModel model = smallPack();
+        model.meta = importMeta("small.gltf");
+        writeParts(model, programs.path(), "small");
+        for (const char* cooker : {"import", "textures", "clusters", "skinning"})
+        {
+            std::string script = kScript;
+            replaceAll(script, "PROCESSES", programs / "processes");
+            replaceAll(script, "PARTS", programs / "small");
+            replaceAll(script, "COOKER", cooker);
+            programs.write(std::string("hearth-") + cooker, script, true);
+        }
+        fs::copy(HEARTH_BIN "/hearth", programs / "hearth");
+        fs::copy(HEARTH_BIN "/hearth-link", programs / "hearth-link");
+    }
+
+    std::vector<std::string> command(std::vector<std::string> sources,
+                                     const std::vector<std::string>& options) const
+    {
+        sources.insert(sources.begin(), {programs / "hearth", "cook", "--no-cache", "-o", "a.hearth"});
+        sources.insert(sources.end(), options.begin(), options.end());
+        return sources;
+    }
+
+    ProgramEnd cook(const std::vector<std::string>& sources,
+                    const std::vector<std::string>& options = {"-j2"})
+    {
+        fs::remove(programs / "processes");
+        return folder.run(command(sources, options), {"TMPDIR="});
+    }
+
+    size_t processes(const std::string& what) const
+    {
+        return programs.has("processes") ? countOf(programs.read("processes"), what + "\n") : 0;
+    }
+
+    Sandbox programs;
+    Sandbox folder;
+};
+
+} // namespace
+
+TEST_F(Batches, aFewProcessesRunManyActions)
+{
+    const ProgramEnd end = cook(crowd());
+    EXPECT_EQ(end.exit_code, 0) << end.err;
+    EXPECT_TRUE(command::verifyFile(folder / "a.hearth").ok());
+    EXPECT_EQ(folder.list(), std::vector<std::string>{"a.hearth"});
+    for (const char* cooker : {"import", "textures", "clusters", "skinning"})
+    {
+        EXPECT_EQ(countOf(end.err, std::string(cooker) + " "), 12u) << end.err;
+        EXPECT_GE(processes(cooker), 1u);
+        EXPECT_LE(processes(cooker), 2u) << cooker;
+    }
+    EXPECT_EQ(processes("alone"), 0u);
+}
+
+TEST_F(Batches, aHandfulRunsAlone)
+{
+    EXPECT_EQ(cook({"a.gltf", "b.gltf"}).exit_code, 0);
+    EXPECT_EQ(processes("alone"), 8u);
+    EXPECT_EQ(processes("import"), 0u);
+}
+
+TEST_F(Batches, whatIsLargeRunsAlone)
+{
+    // by its size it takes a third of a second and more
+    std::vector<std::string> sources = crowd();
+    folder.write("large.gltf", std::string(size_t{12} << 20, ' '));
+    sources.insert(sources.begin() + 3, "large.gltf");
+    EXPECT_EQ(cook(sources).exit_code, 0);
+    EXPECT_EQ(processes("alone"), 3u); // all but skinning, which is quick for any source
+    EXPECT_LE(processes("import"), 2u);
+}
+
+TEST_F(Batches, aCrashCostsTheActionThatCrashed)
+{
+    std::vector<std::string> sources = crowd();
+    sources[5] = "crash.gltf";
+    const ProgramEnd end = cook(sources);
+    EXPECT_EQ(end.exit_code, 70) << end.err;
+    EXPECT_EQ(countOf(end.err, ": error: "), 1u) << end.err;
+    EXPECT_NE(end.err.find("crash.gltf: error: hearth-import was ended by signal 11 (Segmentation fault): "
+                           "contract broken [E7001]"),
+              std::string::npos)
+        << end.err;
+    for (const char* cooker : {"import", "textures", "clusters", "skinning"})
+        EXPECT_EQ(countOf(end.err, std::string(cooker) + " "), 11u + (cooker == std::string("import")))
+            << end.err;
+    EXPECT_EQ(folder.list(), std::vector<std::string>{});
+}
+
+TEST_F(Batches, failuresAndWarningsBelongToTheirSource)
+{
+    std::vector<std::string> sources = crowd("warning");
+    sources[5] = "malformed.gltf";
+    const ProgramEnd end = cook(sources);
+    EXPECT_EQ(end.exit_code, 65) << end.err;
+    EXPECT_EQ(countOf(end.err, "malformed.gltf|/meshes/0: error: is bad [E1101]"), 1u) << end.err;
+    for (size_t i = 0; i < sources.size(); ++i)
+        EXPECT_EQ(countOf(end.err, sources[i] + "|/extras: warning: left out [W1400]"), i == 5 ? 0u : 1u)
+            << end.err;
+}
+
+TEST_F(Batches, eventsAreThoseOfActionsAlone)
+{
+    std::vector<std::string> sources = crowd();
+    sources[2] = "crash.gltf"; // those behind it are begun anew
+    EXPECT_EQ(cook(sources, {"-j2", "--events", programs / "events"}).exit_code, 70);
+    std::map<std::string, std::string> of_action;
+    std::istringstream lines(programs.read("events"));
+    for (std::string line; std::getline(lines, line);)
+    {
+        const auto event = nlohmann::json::parse(line);
+        if (event.contains("cooker"))
+            of_action[event["cooker"].get<std::string>() + " " + event["subject"].get<std::string>()] +=
+                event["event"].get<std::string>() + " " + event.value("state", "");
+    }
+    EXPECT_EQ(of_action.size(), 12u + 3 * 11u);
+    for (const auto& [action, events] : of_action)
+        EXPECT_EQ(events, action == "import crash.gltf" ? "start end failed" : "start end cooked") << action;
+}
+
+TEST_F(Batches, keepToTheMemory)
+{
+    EXPECT_EQ(cook(crowd("busy")).exit_code, 0);
+    EXPECT_TRUE(folder.has("together"));
+    fs::remove(folder / "together");
+    // an import of nothing is thought to take 16 MiB, and so is a batch of them
+    EXPECT_EQ(cook(crowd("busy"), {"-j2", "--memory", "20M"}).exit_code, 0);
+    EXPECT_FALSE(folder.has("together"));
+}
+
+TEST_F(Batches, endWhenInterrupted)
+{
+    const pid_t process = folder.start(command(crowd("slow"), {"-j2"}), {"TMPDIR="});
+    for (int i = 0; i < 500 && processes("import") < 2; ++i)
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    ASSERT_EQ(processes("import"), 2u);
+    const auto start = std::chrono::steady_clock::now();
+    ::kill(process, SIGINT);
+    EXPECT_EQ(folder.finish(process).exit_code, 130);
+    EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(10));
+    EXPECT_EQ(folder.list(), std::vector<std::string>{});
+}
+
+TEST(RealBatches, runEachLineAsIfAlone)
+{
+    Sandbox folder;
+    writeObj(folder, "o");
+    folder.write("lines", "[\"o.obj\", \"-o\", \"o.part\"]\n[\"none.obj\", \"-o\", \"none.part\"]\n"
+                          "[\"--help\"]\n[\"o.obj\"]\n[]\n[\"o.obj\", 1]\n");
+    const ProgramEnd end = folder.run({"/bin/sh", "-c", HEARTH_BIN "/hearth-import --batch < lines"});
+    EXPECT_EQ(end.exit_code, 2) << "the last line";
+    std::vector<int> exits;
+    std::istringstream lines(end.out);
+    for (std::string line; std::getline(lines, line);)
+    {
+        ASSERT_TRUE(line.starts_with('\x1E')) << end.out;
+        const auto json = nlohmann::json::parse(line.substr(1));
+        exits.push_back(json["exit"]);
+        EXPECT_GT(json["seconds"], 0);
+        EXPECT_GE(json["cpu_seconds"], 0);
+        EXPECT_GT(json["peak_rss_bytes"], 1 << 20);
+    }
+    EXPECT_EQ(exits, (std::vector<int>{0, 66, 0, 2, 2})) << end.out;
+    EXPECT_EQ(countOf(end.err, "none.obj: error: "), 1u) << end.err;
+    EXPECT_EQ(countOf(end.err, "line 6: error: --batch reads lines that are each a JSON array of words"), 1u)
+        << end.err;
+    EXPECT_EQ(folder.run({HEARTH_BIN "/hearth-import", "o.obj", "-o", "alone.part"}).exit_code, 0);
+    EXPECT_EQ(folder.read("o.part"), folder.read("alone.part"));
+}
+
+TEST(RealBatches, sameBytesAndRecordsAsAlone)
+{
+    Sandbox folder;
+    std::vector<std::string> sources;
+    for (int i = 0; i < 10; ++i)
+    {
+        writeObj(folder, "o" + std::to_string(i), 1 + 0.1 * i, 10 * i);
+        sources.push_back("o" + std::to_string(i) + ".obj");
+    }
+    const auto cook = [&](const std::vector<std::string>& of, const std::string& cache)
+    {
+        std::vector<std::string> command{HEARTH_BIN "/hearth",     "cook", "-q", "-o", "a.hearth", "--cache",
+                                         "dir:" + (folder / cache)};
+        command.insert(command.end(), of.begin(), of.end());
+        const ProgramEnd end = folder.run(command);
+        EXPECT_EQ(end.exit_code, 0) << end.err;
+    };
+    cook(sources, "batched");
+    for (const std::string& source : sources)
+        cook({source}, "alone");
+    // entries are called by what their action's record says, contents by their bytes
+    for (const char* kind : {"/ac", "/cas"})
+    {
+        const auto names = [&](const std::string& cache)
+        {
+            std::set<std::string> files;
+            for (const auto& file : fs::recursive_directory_iterator(folder / (cache + kind)))
+                if (file.is_regular_file())
+                    files.insert(file.path().filename().string());
+            return files;
+        };
+        const std::set<std::string> batched = names("batched"), alone = names("alone");
+        EXPECT_GE(batched.size(), 30u);
+        size_t others = 0;
+        for (const std::string& name : batched)
+            others += alone.count(name) == 0 ? 1 : 0;
+        EXPECT_EQ(others, 1u) << kind << ": the pack of all alone is another";
+    }
+}
+
+} // namespace hearth::test
