@@ -1,5 +1,6 @@
-// Rays side by side against the same rays one after the other.
+// Rays side by side against the same rays one after the other, and the light that they bring.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/bricks/face_lighting.h"
 #include "cook/bricks/march_lanes.h"
 #include "tests/formats/march_rays.h"
 
@@ -122,6 +123,42 @@ TEST(MarchLanes, endWhateverTheRaysAre)
     marchRays(MarchTable(masks), rays);
     for (const BrickRay& ray : rays)
         ASSERT_LE(ray.steps, 50u + 20 + 33);
+}
+
+TEST(FaceLighting, gathersAsRaysDoOneByOne)
+{
+    std::mt19937 random(4);
+    MarchScene scene = test::randomScene({30, 18, 40}, 600, random);
+    test::BrickModel& model = scene.model;
+    for (uint8_t& opacity : model.opacity)
+        opacity = random() % 3 == 0 ? 255 : static_cast<uint8_t>(1 + random() % 254);
+    for (uint32_t& light : model.lighting)
+        light = encodeRadiance({static_cast<float>(random() % 64), 1, 2});
+    const BrickView view{model.masks(), model.opacity,  model.albedo,
+                         model.normals, model.emission, model.lighting};
+    Lighting lighting{};
+    lighting.sky_zenith = {1, 2, 3};
+    lighting.sky_horizon = {3, 2, 1};
+    const BrickSky sky{lighting.sky_zenith, lighting.sky_horizon, lighting.sky_ground};
+    for (const uint32_t rays : {1u, 16u, 300u})
+    {
+        FaceLighting lit(view);
+        const FaceLighting before(view);
+        lit.sweep(lighting, rays, 1);
+        const std::vector<FacePlace> places = facePlaces(view.masks);
+        for (size_t face = 0; face < places.size(); face += rays)
+        {
+            const auto [x, y, z, side] = places[face];
+            const BrickStart start =
+                brickFaceStart(before.scene(), x, y, z, side, decodeFaceNormal(model.normals[face]));
+            const Float3 arrived =
+                brickGather(before.scene(), sky, start, rays, brickFaceSeed(x, y, z, side));
+            const BrickLight truth = encodeBrickLight(brickSentOut(
+                decodeRadiance(model.emission[face]), decodeAlbedo(model.albedo[face]), arrived));
+            ASSERT_EQ(lit.faces()[face].code, truth.code) << face;
+            ASSERT_EQ(lit.faces()[face].rest, truth.rest) << face;
+        }
+    }
 }
 
 } // namespace hearth::bricks
