@@ -12,8 +12,16 @@ namespace hearth::bricks
 
 using namespace shared;
 
+namespace
+{
+
+/// Rays that march side by side, about: of whole faces.
+constexpr uint32_t kRaysAtOnce = 256;
+
+} // namespace
+
 FaceLighting::FaceLighting(const BrickView& bricks)
-    : bricks_(bricks), places_(facePlaces(bricks.masks)), next_(places_.size())
+    : bricks_(bricks), table_(bricks.masks), places_(facePlaces(bricks.masks)), next_(places_.size())
 {
     HEARTH_ASSERT(places_.size() == bricks.lighting.size());
     faces_.reserve(bricks.lighting.size());
@@ -31,8 +39,13 @@ void FaceLighting::light(const Lighting& lighting, const FrameShare& share)
     const size_t first = firstFace(brickSliceBegin(brick_count, frame_, share.period));
     const size_t end = firstFace(brickSliceEnd(brick_count, frame_, share.period));
     ++frame_;
-    tbb::parallel_for(first, end,
-                      [&](size_t face) { next_[face] = encodeBrickLight(lit(lighting, share.rays, face)); });
+    const size_t at_once = std::max(1u, kRaysAtOnce / share.rays);
+    tbb::parallel_for(size_t{0}, (end - first + at_once - 1) / at_once,
+                      [&](size_t i)
+                      {
+                          const size_t some = first + i * at_once;
+                          light(lighting, share.rays, some, std::min(some + at_once, end));
+                      });
     std::copy(next_.begin() + static_cast<ptrdiff_t>(first), next_.begin() + static_cast<ptrdiff_t>(end),
               faces_.begin() + static_cast<ptrdiff_t>(first));
 }
@@ -52,17 +65,38 @@ std::vector<uint32_t> FaceLighting::codes() const
     return codes;
 }
 
-Float3 FaceLighting::lit(const Lighting& lighting, uint32_t rays, size_t face) const
+void FaceLighting::light(const Lighting& lighting, uint32_t rays, size_t first, size_t end)
 {
-    const auto [x, y, z, side] = places_[face];
     const BrickScene scene = this->scene();
-    const BrickStart start = brickFaceStart(scene, x, y, z, side, decodeFaceNormal(bricks_.normals[face]));
-    const Float3 middle = brickFaceMiddle(x, y, z, side);
+    std::vector<BrickStart> starts;
+    std::vector<BrickRay> marched;
+    marched.reserve((end - first) * rays);
+    for (size_t face = first; face < end; ++face)
+    {
+        const auto [x, y, z, side] = places_[face];
+        starts.push_back(brickFaceStart(scene, x, y, z, side, decodeFaceNormal(bricks_.normals[face])));
+        const uint32_t seed = brickFaceSeed(x, y, z, side);
+        for (uint32_t i = 0; i < rays; ++i)
+            marched.push_back(brickRayInVoxels(bricks_.masks.grid, starts.back().place,
+                                               brickRayDirection(starts.back().normal, i, rays, seed),
+                                               kBrickFar));
+    }
+    marchRays(table_, marched);
     const BrickSky sky{lighting.sky_zenith, lighting.sky_horizon, lighting.sky_ground};
-    Float3 arrived = brickGather(scene, sky, start, rays, brickFaceSeed(x, y, z, side));
-    for (uint32_t i = 0; i < lighting.light_count; ++i)
-        arrived += brickDirect(scene, start, middle, lighting.lights[i]);
-    return brickSentOut(decodeRadiance(bricks_.emission[face]), decodeAlbedo(bricks_.albedo[face]), arrived);
+    for (size_t face = first; face < end; ++face)
+    {
+        const BrickStart& start = starts[face - first];
+        // as brickGather does
+        Float3 sum;
+        for (size_t i = 0; i < rays; ++i)
+            sum += brickLightAlong(scene, sky, marched[(face - first) * rays + i]).radiance;
+        Float3 arrived = start.buried != 0 ? Float3{} : sum * (1.0f / static_cast<float>(rays));
+        const auto [x, y, z, side] = places_[face];
+        for (uint32_t i = 0; i < lighting.light_count; ++i)
+            arrived += brickDirect(scene, start, brickFaceMiddle(x, y, z, side), lighting.lights[i]);
+        next_[face] = encodeBrickLight(brickSentOut(decodeRadiance(bricks_.emission[face]),
+                                                    decodeAlbedo(bricks_.albedo[face]), arrived));
+    }
 }
 
 uint32_t sweepsToForget(float most_albedo, float share)

@@ -4,6 +4,7 @@
 
 #include "cook/bricks/brick_view.h"
 #include "cook/bricks/face_places.h"
+#include "cook/bricks/march_lanes.h"
 #include "formats/shared/brick_lighting.h"
 
 #include <vector>
@@ -41,9 +42,11 @@ public:
     shared::BrickScene scene() const { return {bricks_.masks, bricks_.opacity, faces_}; }
 
 private:
-    Float3 lit(const shared::Lighting& lighting, uint32_t rays, size_t face) const;
+    /// Some faces by so many rays each, into next_.
+    void light(const shared::Lighting& lighting, uint32_t rays, size_t first, size_t end);
 
     BrickView bricks_;
+    MarchTable table_;
     std::vector<FacePlace> places_;
     std::vector<shared::BrickLight> faces_;
     std::vector<shared::BrickLight> next_; ///< of the faces that this frame lights

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/bricks/march_rows.h"
 
+#include "cook/bricks/march_lanes.h"
 #include "cook/tools/number_rows.h"
 #include "cook/tools/whole_file.h"
 #include "formats/pack_check.h"
@@ -72,11 +73,14 @@ Result<std::vector<MarchRay>> readRays(std::string_view text, const std::string&
 
 std::string marchRows(const shared::BrickMasks& bricks, const std::vector<MarchRay>& rays)
 {
-    std::string text = "hit,x,y,z,face,t\n";
+    std::vector<shared::BrickRay> marched;
+    marched.reserve(rays.size());
     for (const MarchRay& ray : rays)
+        marched.push_back(brickRay(bricks.grid, ray.origin, ray.direction, shared::kBrickFar));
+    marchRays(MarchTable(bricks), marched);
+    std::string text = "hit,x,y,z,face,t\n";
+    for (const shared::BrickRay& end : marched)
     {
-        const shared::BrickRay end =
-            brickMarch(bricks, brickRay(bricks.grid, ray.origin, ray.direction, shared::kBrickFar));
         if (end.inside == 0)
             text += "0,,,,,\n";
         else

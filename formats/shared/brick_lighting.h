@@ -253,17 +253,14 @@ struct BrickRayLight
 };
 
 /// What a ray brings: light of the faces that it meets, of each as much as its voxel stops, and behind them all the sky's.
-/// place      in voxels
-/// direction  unit
-HEARTH_FUNCTION BrickRayLight brickRayLight(HEARTH_IN(BrickScene) scene, HEARTH_IN(BrickSky) sky,
-                                            Float3 place, Float3 direction)
+/// ray  in the first solid voxel that it meets, as brickMarch finds it
+HEARTH_FUNCTION BrickRayLight brickLightAlong(HEARTH_IN(BrickScene) scene, HEARTH_IN(BrickSky) sky,
+                                              BrickRay ray)
 {
     BrickRayLight light;
     light.radiance = Float3(0.0f, 0.0f, 0.0f);
     light.sky = 0.0f;
     float through = 1.0f;
-    BrickRay ray = brickMarch(
-        brickMasksOf(scene), brickRayInVoxels(brickGridOf(brickMasksOf(scene)), place, direction, kBrickFar));
     while (ray.inside != 0u)
     {
         Brick brick = brickAt(brickMasksOf(scene), ray.brick);
@@ -276,9 +273,20 @@ HEARTH_FUNCTION BrickRayLight brickRayLight(HEARTH_IN(BrickScene) scene, HEARTH_
             return light;
         ray = brickMarch(brickMasksOf(scene), brickPass(brickMasksOf(scene), ray));
     }
-    light.radiance = light.radiance + brickSkyRadiance(sky, direction) * through;
+    light.radiance = light.radiance + brickSkyRadiance(sky, ray.direction) * through;
     light.sky = through;
     return light;
+}
+
+/// The same from where it starts.
+/// place      in voxels
+/// direction  unit
+HEARTH_FUNCTION BrickRayLight brickRayLight(HEARTH_IN(BrickScene) scene, HEARTH_IN(BrickSky) sky,
+                                            Float3 place, Float3 direction)
+{
+    return brickLightAlong(scene, sky,
+                           brickMarch(brickMasksOf(scene), brickRayInVoxels(brickGridOf(brickMasksOf(scene)),
+                                                                            place, direction, kBrickFar)));
 }
 
 /// The share of light that passes along a ray. far  in voxels

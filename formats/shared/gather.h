@@ -9,8 +9,9 @@
 // The light that falls on a point is kept as cosine-weighted moments of the radiance over the hemisphere of its normal n:
 // the mean m0, which is irradiance / pi, and the mean of radiance times direction, of which the part across n is m1. For
 // radiance that is linear in the direction, L0 + dot(L1, d), the part of L1 across n is 4 m1, so that irradiance / pi at
-// another normal is m0 + 8 / 3 dot(m1, normal), and the radiance itself m0 + 4 dot(m1, d) (the part of L1 along n is taken
-// for none: what it does at n itself is in m0).
+// another normal is m0 + 8 / 3 dot(m1, normal) (the part of L1 along n is taken for none: what it does at n itself is in m0).
+//
+// Mirror images are kept as the means of two GGX lobes about the direction of the mirror: gather_lobe.h.
 
 HEARTH_SHARED_BEGIN
 
@@ -21,14 +22,16 @@ HEARTH_CONSTANT uint kGatherPixels = 8;
 HEARTH_CONSTANT uint kGatherRays = 16;
 HEARTH_CONSTANT uint kGatherFrames = 16;
 
-/// Of these so many more about the mirror's direction, for smooth surfaces: a cone of this tangent, that of a GGX lobe of
-/// roughness kGatherLobe.
-HEARTH_CONSTANT uint kGatherMirrorRays = 4;
-HEARTH_CONSTANT float kGatherLobe = 0.4f;
-HEARTH_CONSTANT float kGatherLobeTangent = 0.16f;
+/// Rays of a lobe a frame; there are two, and each ray of the hemisphere has one of a lobe beside it.
+HEARTH_CONSTANT uint kGatherLobeRays = 8;
 
-/// Frames whose mean the lobe shows: it follows the eye.
-HEARTH_CONSTANT float kGatherMirrorMemory = 8.0f;
+/// Roughness of the lobes. The sharp one is about as wide as the tiles that are smoothed over, at 1280 pixels, and as a voxel
+/// at a distance of 12.
+HEARTH_CONSTANT float kGatherSharp = 0.2f;
+HEARTH_CONSTANT float kGatherWide = 0.55f;
+
+/// Frames whose mean the lobes show: they follow the eye.
+HEARTH_CONSTANT float kGatherLobeMemory = 8.0f;
 
 /// Points of a workgroup.
 HEARTH_CONSTANT uint kGatherGroupPoints = 4;
@@ -49,9 +52,11 @@ struct GatherPoint
     float sky;     ///< share of its rays that met no brick
     Float3 mean;   ///< m0, linear colour
     float seen;    ///< 0: the tile shows nothing but sky, 1: a surface
-    Float4 red;    ///< m1 of each colour, world axes; w: radiance of the mirror's lobe
+    Float4 red;    ///< m1 of each colour, world axes; w: radiance of the sharp lobe
     Float4 green;
     Float4 blue;
+    Float3 wide; ///< radiance of the wide lobe
+    float reserved;
 };
 
 /// The tiles of a frame, and how those of the frame before were seen.
@@ -70,6 +75,28 @@ struct GatherView
     float tile_angle; ///< metres that a tile covers at a distance of one metre
 };
 
+/// How much of the sharp lobe, of the wide one and of the cosine's mean a surface shows.
+struct GatherLobeShares
+{
+    float sharp;
+    float wide;
+    float cosine;
+};
+
+/// Straight between kGatherSharp, kGatherWide and 1, where a lobe is next to the cosine's. Below kGatherSharp all is the
+/// sharp lobe: tiles and voxels show nothing finer.
+/// roughness  perceptual
+HEARTH_FUNCTION GatherLobeShares gatherLobeShares(float roughness)
+{
+    float to_wide = (roughness - kGatherSharp) / (kGatherWide - kGatherSharp);
+    float to_cosine = (roughness - kGatherWide) / (1.0f - kGatherWide);
+    GatherLobeShares shares;
+    shares.cosine = min(max(to_cosine, 0.0f), 1.0f);
+    shares.sharp = 1.0f - min(max(to_wide, 0.0f), 1.0f);
+    shares.wide = 1.0f - shares.sharp - shares.cosine;
+    return shares;
+}
+
 HEARTH_FUNCTION uint gatherTiles(uint pixels)
 {
     return (pixels + kGatherPixels - 1u) / kGatherPixels;
@@ -79,7 +106,7 @@ HEARTH_SHARED_END
 
 #ifdef __cplusplus
 // sizes as std430 and std140 lay them out
-static_assert(sizeof(hearth::shared::GatherPoint) == 96);
+static_assert(sizeof(hearth::shared::GatherPoint) == 112);
 static_assert(sizeof(hearth::shared::GatherView) == 96);
 #endif
 

@@ -5,7 +5,7 @@
 struct GatherTexels
 {
     uvec4 mean;    // mean and share of sky as halves, normal, where the plane of the point lies
-    uvec4 moments; // along the two axes of gatherAxes, of red, green and blue, as halves; the lobe as R11G11B10F
+    uvec4 lobes; // m1 over m0 along the two axes of gatherAxes; the sharp lobe and the wide one as R11G11B10F
 };
 
 vec2 gatherOctahedral(vec3 n)
@@ -36,6 +36,18 @@ void gatherAxes(vec3 n, out vec3 first, out vec3 second)
 // The plane's distance from the eye; infinite where nothing is known: the tile shows nothing but sky.
 const uint kNoPlane = 0x7F800000u;
 
+// m1 is at most m0 long: 10 bits for each colour.
+uint encodeShares(vec3 m1, vec3 m0)
+{
+    ivec3 code = ivec3(round(clamp(m1 / max(m0, vec3(1e-30)), vec3(-1.0), vec3(1.0)) * 511.0)) & 1023;
+    return uint(code.r | code.g << 10 | code.b << 20);
+}
+
+vec3 decodeShares(uint code)
+{
+    return vec3(ivec3(code << 22, code << 12, code << 2) >> 22) / 511.0;
+}
+
 GatherTexels encodeGathered(GatherPoint point)
 {
     const float most = 65000.0; // halves have infinities
@@ -44,13 +56,12 @@ GatherTexels encodeGathered(GatherPoint point)
     vec3 first, second;
     gatherAxes(normal, first, second);
     vec4 mean = min(vec4(point.mean, point.sky), vec4(most));
-    vec2 red = clamp(vec2(dot(first, point.red.xyz), dot(second, point.red.xyz)), -most, most);
-    vec2 green = clamp(vec2(dot(first, point.green.xyz), dot(second, point.green.xyz)), -most, most);
-    vec2 blue = clamp(vec2(dot(first, point.blue.xyz), dot(second, point.blue.xyz)), -most, most);
+    vec3 along_first = vec3(dot(first, point.red.xyz), dot(first, point.green.xyz), dot(first, point.blue.xyz));
+    vec3 along_second = vec3(dot(second, point.red.xyz), dot(second, point.green.xyz), dot(second, point.blue.xyz));
     GatherTexels texels;
     texels.mean = uvec4(packHalf2x16(mean.xy), packHalf2x16(mean.zw), normal_code,
                         point.seen > 0.0 ? floatBitsToUint(dot(normal, point.position)) : kNoPlane);
-    texels.moments = uvec4(packHalf2x16(red), packHalf2x16(green), packHalf2x16(blue),
-                          encodeRadiance(vec3(point.red.w, point.green.w, point.blue.w)));
+    texels.lobes = uvec4(encodeShares(along_first, mean.rgb), encodeShares(along_second, mean.rgb),
+                         encodeRadiance(vec3(point.red.w, point.green.w, point.blue.w)), encodeRadiance(point.wide));
     return texels;
 }

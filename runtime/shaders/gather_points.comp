@@ -41,6 +41,8 @@ void main()
     point.mean = vec3(0.0);
     point.seen = id != kNothingVisible ? 1.0 : 0.0;
     point.red = point.green = point.blue = vec4(0.0);
+    point.wide = vec3(0.0);
+    point.reserved = 0.0;
     if (id != kNothingVisible)
     {
         Surface s = resolveSurface(id, vec2(pixel) + 0.5);

@@ -1,11 +1,12 @@
-// Gathers the light of bricks: a thread a ray, kGatherRays of them for a point. Sums are taken in the order of the rays.
+// Gathers the light of bricks: kGatherRays threads for a point, each with a ray of the hemisphere and one of a lobe. Sums are taken in the order of the rays.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "bricks.glsl"
 #include "formats/shared/gather.h"
+#include "formats/shared/gather_lobe.h"
 
-layout(local_size_x = 16, local_size_y = 4) in; // kGatherRays, kGatherGroupPoints
+layout(local_size_x = 16, local_size_y = 4) in; // kGatherRays and 2 kGatherLobeRays, kGatherGroupPoints
 
 layout(set = 1, binding = 0, std140) uniform Gather { GatherView gather; };
 layout(set = 1, binding = 1, std430) buffer GatherPoints { GatherPoint gather_points[]; };
@@ -14,19 +15,27 @@ layout(set = 1, binding = 2, std430) readonly buffer GatherBefore { GatherPoint 
 // A ray's light, and how much of it is the sky's; its direction.
 shared vec4 ray_light[kGatherGroupPoints][kGatherRays];
 shared vec3 ray_direction[kGatherGroupPoints][kGatherRays];
-shared vec3 mirror_light[kGatherGroupPoints][kGatherMirrorRays];
+// Of the sharp lobe, and then of the wide one; weighed, and the weight.
+shared vec4 lobe_light[kGatherGroupPoints][2u * kGatherLobeRays];
 shared BrickStart starts[kGatherGroupPoints];
 
-// Of the cone about the mirror's direction, never below the surface.
-vec3 mirrorDirection(GatherPoint point, uint index)
+// What ray `index` of both lobes brings.
+vec4 lobeLight(GatherPoint point, vec3 place, uint index, uint seed)
 {
-    vec3 mirror = reflect(normalize(point.position), point.normal);
-    // by the cosine about the mirror, drawn together to the cone
-    vec3 about = brickRayDirection(mirror, index * kGatherFrames + gather.frame % kGatherFrames,
-                                   kGatherMirrorRays * kGatherFrames, 0u);
-    vec3 direction = mirror + (about - mirror * dot(mirror, about)) * kGatherLobeTangent;
-    float below = dot(direction, point.normal);
-    return normalize(direction - point.normal * (2.0 * min(below, 0.0)));
+    GatherLobeRay ray = gatherLobeRay(-normalize(point.position), point.normal, index < kGatherLobeRays ? kGatherSharp : kGatherWide,
+                                      index % kGatherLobeRays * kGatherFrames + gather.frame % kGatherFrames,
+                                      kGatherLobeRays * kGatherFrames, seed);
+    if (ray.weight == 0.0)
+        return vec4(0.0);
+    return vec4(brickRayLight(brick_view.grid, brickSky(), place, ray.direction).radiance * ray.weight, ray.weight);
+}
+
+vec3 lobeMean(uint row, uint first)
+{
+    vec4 sum = vec4(0.0);
+    for (uint i = 0u; i < kGatherLobeRays; ++i)
+        sum += lobe_light[row][first + i];
+    return sum.rgb / max(sum.a, 1e-6);
 }
 
 // The mean over the rays of a frame.
@@ -43,18 +52,16 @@ GatherPoint meanOf(GatherPoint point, uint row)
         point.blue.xyz += across * light.b;
     }
     float share = 1.0 / float(kGatherRays);
-    vec3 lobe = vec3(0.0);
-    for (uint i = 0u; i < kGatherMirrorRays; ++i)
-        lobe += mirror_light[row][i];
-    lobe /= float(kGatherMirrorRays);
+    vec3 sharp = lobeMean(row, 0u);
     point.mean *= share;
     point.sky *= share;
     point.red *= share;
     point.green *= share;
     point.blue *= share;
-    point.red.w = lobe.r;
-    point.green.w = lobe.g;
-    point.blue.w = lobe.b;
+    point.red.w = sharp.r;
+    point.green.w = sharp.g;
+    point.blue.w = sharp.b;
+    point.wide = lobeMean(row, kGatherLobeRays);
     return point;
 }
 
@@ -66,6 +73,7 @@ void add(inout GatherPoint sum, GatherPoint p, float weight)
     sum.red += p.red * weight;
     sum.green += p.green * weight;
     sum.blue += p.blue * weight;
+    sum.wide += p.wide * weight;
 }
 
 // How much what was known at `before` says about a point, both relative to the eye of now: it lies in the plane of the
@@ -85,6 +93,7 @@ GatherPoint knownBefore(GatherPoint point)
     known.count = known.sky = 0.0;
     known.mean = vec3(0.0);
     known.red = known.green = known.blue = vec4(0.0);
+    known.wide = vec3(0.0);
     if (gather.known == 0u)
         return known;
     vec3 place = point.position + gather.eye_step;
@@ -125,6 +134,7 @@ GatherPoint knownBefore(GatherPoint point)
     known.red *= scale;
     known.green *= scale;
     known.blue *= scale;
+    known.wide *= scale;
     return known;
 }
 
@@ -133,13 +143,14 @@ GatherPoint goOn(GatherPoint fresh, GatherPoint known)
 {
     float count = min(known.count + 1.0, gather.memory);
     float share = 1.0 / count;
-    float mirror_share = 1.0 / min(count, kGatherMirrorMemory);
+    float lobe_share = 1.0 / min(count, kGatherLobeMemory);
     fresh.mean = mix(known.mean, fresh.mean, share);
     fresh.sky = mix(known.sky, fresh.sky, share);
-    vec4 shares = vec4(vec3(share), mirror_share);
+    vec4 shares = vec4(vec3(share), lobe_share);
     fresh.red = mix(known.red, fresh.red, shares);
     fresh.green = mix(known.green, fresh.green, shares);
     fresh.blue = mix(known.blue, fresh.blue, shares);
+    fresh.wide = mix(known.wide, fresh.wide, lobe_share);
     fresh.count = count;
     return fresh;
 }
@@ -187,16 +198,15 @@ void main()
     if (open)
     {
         BrickStart start = starts[row];
+        uint seed = placeInBlock(tile) << 28;
         // of a spiral every kGatherFrames-th ray, so that a frame covers the hemisphere evenly, and a cycle more finely; the
         // spirals of a block lie between each other, since the upper bits of the seed shift them
         vec3 direction = brickRayDirection(start.normal, index * kGatherFrames + gather.frame % kGatherFrames,
-                                           kGatherRays * kGatherFrames, placeInBlock(tile) << 28);
+                                           kGatherRays * kGatherFrames, seed);
         ray_direction[row][index] = direction;
         BrickRayLight light = brickRayLight(brick_view.grid, brickSky(), start.place, direction);
         ray_light[row][index] = vec4(light.radiance, light.sky);
-        if (index < kGatherMirrorRays)
-            mirror_light[row][index] =
-                brickRayLight(brick_view.grid, brickSky(), start.place, mirrorDirection(point, index)).radiance;
+        lobe_light[row][index] = lobeLight(point, start.place, index, seed);
     }
     barrier();
     if (open && index == 0u)

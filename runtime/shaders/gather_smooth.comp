@@ -35,6 +35,7 @@ void main()
     sum.mean = vec3(0.0);
     sum.sky = 0.0;
     sum.red = sum.green = sum.blue = vec4(0.0);
+    sum.wide = vec3(0.0);
     float weights = 0.0;
     ivec2 last = ivec2(gather.tiles_x, gather.tiles_y) - 1;
     for (int y = -kGatherReach; y <= kGatherReach; ++y)
@@ -54,6 +55,7 @@ void main()
             sum.red += other.red * weight;
             sum.green += other.green * weight;
             sum.blue += other.blue * weight;
+            sum.wide += other.wide * weight;
             weights += weight;
         }
     if (point.seen == 0.0 || weights == 0.0)
@@ -66,8 +68,9 @@ void main()
         sum.red *= scale;
         sum.green *= scale;
         sum.blue *= scale;
+        sum.wide *= scale;
     }
     GatherTexels texels = encodeGathered(sum);
     imageStore(gather_texels, ivec2(tile.x * 2u, tile.y), texels.mean);
-    imageStore(gather_texels, ivec2(tile.x * 2u + 1u, tile.y), texels.moments);
+    imageStore(gather_texels, ivec2(tile.x * 2u + 1u, tile.y), texels.lobes);
 }

@@ -9,7 +9,7 @@ layout(set = 2, binding = 2) uniform usampler2D gathered;
 struct GatheredLight
 {
     vec3 diffuse; // irradiance / pi at the normal
-    vec3 mirror;  // radiance from the mirror's direction, blurred as by a surface of this roughness
+    vec3 mirror;  // radiance from the mirror's direction, blurred as by a surface of the roughness
     float sky;    // share of what is seen of the sky past the bricks, by the cosine
     bool known;   // false: all about it is sky
 };
@@ -17,9 +17,8 @@ struct GatheredLight
 // pixel     gl_FragCoord.xy
 // position  relative to the eye
 // normal    that is lit, unit
-// mirror    direction from which the mirror image comes, unit
 // roughness perceptual
-GatheredLight gatheredLight(vec2 pixel, vec3 position, vec3 normal, vec3 mirror, float roughness)
+GatheredLight gatheredLight(vec2 pixel, vec3 position, vec3 normal, float roughness)
 {
     vec2 at = pixel / float(kGatherPixels) - 0.5;
     vec2 low = floor(at);
@@ -28,7 +27,7 @@ GatheredLight gatheredLight(vec2 pixel, vec3 position, vec3 normal, vec3 mirror,
     float reach = length(position) * float(kGatherPixels) / view.lod_scale;
     GatheredLight sum = GatheredLight(vec3(0.0), vec3(0.0), 0.0, false);
     float weights = 0.0;
-    float rough = smoothstep(kGatherLobe, 1.0, roughness);
+    GatherLobeShares shares = gatherLobeShares(roughness);
     for (uint i = 0u; i < 4u; ++i)
     {
         vec2 corner = vec2(i & 1u, i >> 1);
@@ -46,19 +45,14 @@ GatheredLight gatheredLight(vec2 pixel, vec3 position, vec3 normal, vec3 mirror,
         float weight = (bilinear.x * bilinear.y + 1e-3) * (alike / (1.0 + 16.0 * off_plane * off_plane) + 1e-3);
 
         vec4 mean = vec4(unpackHalf2x16(code.x), unpackHalf2x16(code.y));
-        uvec4 moments = texelFetch(gathered, ivec2(tile.x * 2 + 1, tile.y), 0);
+        uvec4 lobes = texelFetch(gathered, ivec2(tile.x * 2 + 1, tile.y), 0);
         vec3 first, second;
         gatherAxes(point_normal, first, second);
-        vec2 red = unpackHalf2x16(moments.x);
-        vec2 green = unpackHalf2x16(moments.y);
-        vec2 blue = unpackHalf2x16(moments.z);
-        vec2 normal_across = vec2(dot(first, normal), dot(second, normal));
-        vec2 mirror_across = vec2(dot(first, mirror), dot(second, mirror));
-        // gather.h says why 8 / 3 and 4
-        vec3 bent = vec3(dot(red, normal_across), dot(green, normal_across), dot(blue, normal_across)) * (8.0 / 3.0);
-        vec3 aside = vec3(dot(red, mirror_across), dot(green, mirror_across), dot(blue, mirror_across)) * 4.0;
-        sum.diffuse += max(mean.rgb + bent, vec3(0.0)) * weight;
-        sum.mirror += mix(decodeRadiance(moments.w), max(mean.rgb + aside, vec3(0.0)), rough) * weight;
+        // gather.h says why 8 / 3
+        vec3 bent = (decodeShares(lobes.x) * dot(first, normal) + decodeShares(lobes.y) * dot(second, normal)) * (8.0 / 3.0);
+        vec3 diffuse = mean.rgb * max(1.0 + bent, vec3(0.0));
+        sum.diffuse += diffuse * weight;
+        sum.mirror += (shares.sharp * decodeRadiance(lobes.z) + shares.wide * decodeRadiance(lobes.w) + shares.cosine * diffuse) * weight;
         sum.sky += mean.a * weight;
         weights += weight;
     }

@@ -21,5 +21,5 @@ void main()
 {
     Surface s = resolveSurface(subpassLoad(visibility).x, gl_FragCoord.xy);
     vec3 normal = smoothNormal(s) * (s.front ? 1.0 : -1.0);
-    out_color = vec4(toneMap(gatheredLight(gl_FragCoord.xy, s.position, normal, normal, 1.0).diffuse), 1.0);
+    out_color = vec4(toneMap(gatheredLight(gl_FragCoord.xy, s.position, normal, 1.0).diffuse), 1.0);
 }

@@ -19,8 +19,7 @@ vec3 surroundingLight(SurfacePoint point, Shading shading, float occlusion)
 {
     vec2 scale_bias = specularScaleBias(shading.roughness, shading.n_dot_v);
     vec3 specular = shading.f0 * scale_bias.x + scale_bias.y;
-    vec3 mirror = reflect(-shading.to_eye, shading.normal);
-    GatheredLight light = gatheredLight(gl_FragCoord.xy, point.position, shading.normal, mirror, shading.roughness);
+    GatheredLight light = gatheredLight(gl_FragCoord.xy, point.position, shading.normal, shading.roughness);
     float fine = min(occlusion, fineOcclusion(point, shading.normal, light.sky));
     return fine * (1.0 - specular) * shading.diffuse * light.diffuse + occlusion * specular * light.mirror;
 }

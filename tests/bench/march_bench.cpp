@@ -1,5 +1,6 @@
-// The march through bricks on one core: rays of hemispheres from the ground of a terrain.
+// The march through bricks on one core: rays of hemispheres from the ground of a terrain, one by one and side by side.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/bricks/march_lanes.h"
 #include "tests/formats/brick_model.h"
 
 #include <benchmark/benchmark.h>
@@ -86,40 +87,105 @@ const Terrain& terrain()
     return the_terrain;
 }
 
-/// To the first solid voxel.
+BrickRay rayOf(const BrickMasks& masks, const Ray& ray)
+{
+    return brickRayInVoxels(masks.grid, ray.origin, ray.direction, kBrickFar);
+}
+
+/// Counts what rays found.
+struct Count
+{
+    uint64_t rays = 0;
+    uint64_t hits = 0;
+    uint64_t steps = 0;
+
+    void add(const BrickRay& end)
+    {
+        ++rays;
+        hits += end.inside;
+        steps += end.steps;
+    }
+
+    void report(benchmark::State& state) const
+    {
+        const auto count = static_cast<double>(rays);
+        state.SetItemsProcessed(static_cast<int64_t>(rays));
+        state.counters["hit"] = static_cast<double>(hits) / count;
+        state.counters["steps"] = static_cast<double>(steps) / count;
+    }
+};
+
+/// To the first solid voxel, one ray after the other.
 void march(benchmark::State& state, const std::vector<Ray>& rays)
 {
     const BrickMasks masks = terrain().model.masks();
-    uint64_t hits = 0, steps = 0;
+    Count count;
     for (auto _ : state)
         for (const Ray& ray : rays)
+            count.add(brickMarch(masks, rayOf(masks, ray)));
+    count.report(state);
+}
+
+/// The same side by side, in the numbers in which faces are lit.
+void marchLanes(benchmark::State& state, const std::vector<Ray>& rays)
+{
+    const BrickMasks masks = terrain().model.masks();
+    const bricks::MarchTable table(masks);
+    std::array<BrickRay, 256> some;
+    Count count;
+    for (auto _ : state)
+        for (size_t first = 0; first < rays.size(); first += some.size())
         {
-            const BrickRay end =
-                brickMarch(masks, brickRayInVoxels(masks.grid, ray.origin, ray.direction, kBrickFar));
-            hits += end.inside;
-            steps += end.steps;
+            for (size_t i = 0; i < some.size(); ++i)
+                some[i] = rayOf(masks, rays[first + i]);
+            bricks::marchRays(table, some);
+            for (const BrickRay& end : some)
+                count.add(end);
         }
-    const double count = static_cast<double>(state.iterations()) * static_cast<double>(rays.size());
-    state.SetItemsProcessed(static_cast<int64_t>(count));
-    state.counters["hit"] = static_cast<double>(hits) / count;
-    state.counters["steps"] = static_cast<double>(steps) / count;
+    count.report(state);
+}
+
+const std::vector<Ray>& fromFaces()
+{
+    return terrain().rays;
+}
+
+const std::vector<Ray>& fromAnywhere()
+{
+    static const std::vector<Ray> the_rays = []
+    {
+        std::vector<Ray> rays = terrain().rays;
+        std::shuffle(rays.begin(), rays.end(), std::mt19937(2));
+        return rays;
+    }();
+    return the_rays;
 }
 
 /// From one face to the next, as lighting takes them; their directions have nothing to do with each other.
 void marchFromFaces(benchmark::State& state)
 {
-    march(state, terrain().rays);
+    march(state, fromFaces());
 }
 BENCHMARK(marchFromFaces)->Unit(benchmark::kMillisecond);
+
+void marchLanesFromFaces(benchmark::State& state)
+{
+    marchLanes(state, fromFaces());
+}
+BENCHMARK(marchLanesFromFaces)->Unit(benchmark::kMillisecond);
 
 /// From anywhere to anywhere: the next ray finds nothing of its bricks in the caches.
 void marchFromAnywhere(benchmark::State& state)
 {
-    std::vector<Ray> rays = terrain().rays;
-    std::shuffle(rays.begin(), rays.end(), std::mt19937(2));
-    march(state, rays);
+    march(state, fromAnywhere());
 }
 BENCHMARK(marchFromAnywhere)->Unit(benchmark::kMillisecond);
+
+void marchLanesFromAnywhere(benchmark::State& state)
+{
+    marchLanes(state, fromAnywhere());
+}
+BENCHMARK(marchLanesFromAnywhere)->Unit(benchmark::kMillisecond);
 
 } // namespace
 

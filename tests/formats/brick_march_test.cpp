@@ -5,7 +5,7 @@
 // be such that it may be met, by a face through which it may be entered, there.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "formats/shared/brick_codes.h"
-#include "tests/formats/brick_model.h"
+#include "tests/formats/march_rays.h"
 
 #include <gtest/gtest.h>
 
@@ -25,59 +25,9 @@ using namespace shared;
 namespace
 {
 
-using Cell = std::array<uint32_t, 3>;
 using Point = std::array<double, 3>;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-struct Ray
-{
-    Float3 origin;
-    Float3 direction;
-    float far = kBrickFar;
-};
-
-struct Scene
-{
-    Cell voxels{};
-    std::vector<Cell> solid;
-    BrickModel model;
-};
-
-Scene makeScene(Cell voxels, std::vector<Cell> solid)
-{
-    Scene scene{voxels, std::move(solid), {}};
-    std::vector<uint8_t> filled(size_t{voxels[0]} * voxels[1] * voxels[2]);
-    const auto at = [&](uint32_t x, uint32_t y, uint32_t z)
-    { return x + size_t{voxels[0]} * (y + size_t{voxels[1]} * z); };
-    for (const Cell& cell : scene.solid)
-        filled[at(cell[0], cell[1], cell[2])] = 1;
-    scene.model =
-        brickModel(voxels, [&](uint32_t x, uint32_t y, uint32_t z) { return filled[at(x, y, z)] != 0; });
-    return scene;
-}
-
-/// A few blocks and many single voxels; about `count` in all.
-Scene randomScene(Cell voxels, uint32_t count, std::mt19937& random)
-{
-    std::vector<Cell> solid;
-    while (solid.size() < count)
-    {
-        Cell cell{};
-        for (size_t axis = 0; axis < 3; ++axis)
-            cell[axis] = static_cast<uint32_t>(random() % voxels[axis]);
-        const uint32_t block = random() % 8 == 0 ? 1 + static_cast<uint32_t>(random() % 3) : 1;
-        for (uint32_t i = 0; i < block * block * block; ++i)
-        {
-            const Cell part{cell[0] + i % block, cell[1] + i / block % block, cell[2] + i / block / block};
-            if (part[0] < voxels[0] && part[1] < voxels[1] && part[2] < voxels[2])
-                solid.push_back(part);
-        }
-    }
-    std::sort(solid.begin(), solid.end());
-    solid.erase(std::unique(solid.begin(), solid.end()), solid.end());
-    return makeScene(voxels, std::move(solid));
-}
 
 // ------------------------------------------------------------------------------------------------ the oracle
 
@@ -94,7 +44,7 @@ struct Chord
 class Oracle
 {
 public:
-    Oracle(const Scene& scene, const Ray& ray)
+    Oracle(const MarchScene& scene, const MarchRay& ray)
         : scene_(scene),
           origin_{double{ray.origin.x}, double{ray.origin.y}, double{ray.origin.z}},
           direction_{double{ray.direction.x}, double{ray.direction.y}, double{ray.direction.z}},
@@ -202,7 +152,7 @@ private:
         return {std::min(a, b), std::max(a, b)};
     }
 
-    const Scene& scene_;
+    const MarchScene& scene_;
     Point origin_;
     Point direction_;
     Point inverse_{};
@@ -217,7 +167,7 @@ Cell cellOf(const BrickRay& ray)
 }
 
 /// What is wrong with the answer, or nothing.
-std::optional<std::string> faultOf(const Scene& scene, const Ray& ray, const BrickRay& found)
+std::optional<std::string> faultOf(const MarchScene& scene, const MarchRay& ray, const BrickRay& found)
 {
     const Oracle oracle(scene, ray);
     const double first = oracle.firstThatMustBe();
@@ -247,142 +197,7 @@ std::optional<std::string> faultOf(const Scene& scene, const Ray& ray, const Bri
     return std::nullopt;
 }
 
-// ------------------------------------------------------------------------------------------------ the rays
-
-class RayMaker
-{
-public:
-    RayMaker(const Scene& scene, std::mt19937& random) : scene_(scene), random_(random) {}
-
-    Ray next()
-    {
-        Ray ray = make();
-        if (random_() % 8 == 0)
-            ray.far = static_cast<float>(uniform(0.1, 60));
-        return ray;
-    }
-
-private:
-    Ray make()
-    {
-        switch (random_() % 10)
-        {
-        case 0:
-            return {inBox(0), direction()};
-        case 1:
-            return towards(inBox(40), inBox(0));
-        case 2:
-            return towards(inBox(20000), inBox(0));
-        case 3: // from inside a solid voxel
-            return {inVoxel(), direction()};
-        case 4: // through corners, edges and the middles of faces exactly
-            return {onLattice(), alongLattice()};
-        case 5: // from a face, the ray along it or not
-            return {onFace(), flattened(direction(), 0)};
-        case 6: // along one plane or two, nearly or wholly
-            return {random_() % 2 == 0 ? inBox(10) : onFace(), flattened(direction(), tiny())};
-        case 7: // along an axis
-            return {random_() % 2 == 0 ? inBox(3) : onLattice(), alongAxis()};
-        case 8: // towards a corner or an edge's middle
-            return towards(inBox(20), onLattice());
-        default: // from one corner to another
-            return towards(onLattice(), onLattice());
-        }
-    }
-
-    double uniform(double low, double high)
-    {
-        return std::uniform_real_distribution<double>(low, high)(random_);
-    }
-
-    Float3 inBox(double margin)
-    {
-        Float3 p;
-        for (int axis = 0; axis < 3; ++axis)
-            p[axis] = static_cast<float>(uniform(-margin, scene_.voxels[static_cast<size_t>(axis)] + margin));
-        return p;
-    }
-
-    Cell solidVoxel() { return scene_.solid[random_() % scene_.solid.size()]; }
-
-    Float3 inVoxel()
-    {
-        const Cell cell = solidVoxel();
-        Float3 p;
-        for (int axis = 0; axis < 3; ++axis)
-            p[axis] = static_cast<float>(cell[static_cast<size_t>(axis)] + uniform(0, 1));
-        return p;
-    }
-
-    /// A multiple of a half, on or beside a solid voxel.
-    Float3 onLattice()
-    {
-        const Cell cell = solidVoxel();
-        Float3 p;
-        for (int axis = 0; axis < 3; ++axis)
-            p[axis] = static_cast<float>(cell[static_cast<size_t>(axis)]) +
-                      0.5f * static_cast<float>(random_() % 10) - 2;
-        return p;
-    }
-
-    Float3 onFace()
-    {
-        Float3 p = inVoxel();
-        const int axis = static_cast<int>(random_() % 3);
-        p[axis] = std::floor(p[axis]) + static_cast<float>(random_() % 2);
-        return p;
-    }
-
-    Float3 direction()
-    {
-        const double z = uniform(-1, 1), angle = uniform(0, 2 * std::numbers::pi), r = std::sqrt(1 - z * z);
-        return {static_cast<float>(r * std::cos(angle)), static_cast<float>(r * std::sin(angle)),
-                static_cast<float>(z)};
-    }
-
-    Float3 alongAxis()
-    {
-        Float3 d{random_() % 2 == 0 ? 0.0f : -0.0f, random_() % 2 == 0 ? 0.0f : -0.0f, 0};
-        d[static_cast<int>(random_() % 3)] = random_() % 2 == 0 ? 1.0f : -1.0f;
-        return d;
-    }
-
-    /// Components alike: their planes are met at once.
-    Float3 alongLattice()
-    {
-        Float3 d;
-        for (int axis = 0; axis < 3; ++axis)
-            d[axis] = static_cast<float>(random_() % 3) - 1;
-        const float size = length(d);
-        return size > 0 ? d / size : alongAxis();
-    }
-
-    float tiny()
-    {
-        constexpr float kTiny[] = {1e-6f,  1e-12f, 1e-20f, 1e-30f,  1.1754944e-38f, 1e-42f,
-                                   1e-45f, 0.0f,   -1e-7f, -1e-25f, -1e-41f,        -0.0f};
-        return kTiny[random_() % std::size(kTiny)];
-    }
-
-    Float3 flattened(Float3 d, float along)
-    {
-        d[static_cast<int>(random_() % 3)] = along;
-        const float size = length(d);
-        return size > 1e-3f ? Float3{d.x / size, d.y / size, d.z / size} : alongAxis();
-    }
-
-    Ray towards(Float3 from, Float3 to)
-    {
-        const Float3 d = to - from;
-        const float size = length(d);
-        return {from, size > 1e-3f ? d / size : alongAxis()};
-    }
-
-    const Scene& scene_;
-    std::mt19937& random_;
-};
-
-std::string describe(const Ray& ray, const BrickRay& found)
+std::string describe(const MarchRay& ray, const BrickRay& found)
 {
     std::ostringstream text;
     text.precision(9);
@@ -409,13 +224,13 @@ TEST(BrickMarch, findsWhatAnExhaustiveSearchFinds)
     uint32_t hits = 0, ends = 0;
     for (uint32_t i = 0; i < kScenes; ++i)
     {
-        const Scene scene =
+        const MarchScene scene =
             randomScene(kGrids[i % std::size(kGrids)], kCounts[i % std::size(kCounts)], random);
         const BrickMasks masks = scene.model.masks();
-        RayMaker rays(scene, random);
+        MarchRays rays(scene, random);
         for (uint32_t r = 0; r < kRays / kScenes; ++r)
         {
-            const Ray ray = rays.next();
+            const MarchRay ray = rays.next();
             const BrickRay found =
                 brickMarch(masks, brickRayInVoxels(masks.grid, ray.origin, ray.direction, ray.far));
             const auto fault = faultOf(scene, ray, found);
@@ -434,12 +249,12 @@ TEST(BrickMarch, passesThroughAllThatTheRayMeets)
     std::mt19937 random(2);
     for (uint32_t i = 0; i < 20; ++i)
     {
-        const Scene scene = randomScene({37, 20, 50}, 400, random);
+        const MarchScene scene = randomScene({37, 20, 50}, 400, random);
         const BrickMasks masks = scene.model.masks();
-        RayMaker rays(scene, random);
+        MarchRays rays(scene, random);
         for (uint32_t r = 0; r < 500; ++r)
         {
-            const Ray ray = rays.next();
+            const MarchRay ray = rays.next();
             const Oracle oracle(scene, ray);
             std::vector<Cell> met;
             float t = 0;
@@ -469,11 +284,11 @@ TEST(BrickMarch, passesThroughAllThatTheRayMeets)
 TEST(BrickMarch, endsWhateverTheRayIs)
 {
     std::mt19937 random(3);
-    const Scene scene = randomScene({50, 20, 33}, 40, random);
+    const MarchScene scene = randomScene({50, 20, 33}, 40, random);
     const BrickMasks masks = scene.model.masks();
     for (uint32_t i = 0; i < 100000; ++i)
     {
-        Ray ray;
+        MarchRay ray;
         for (int axis = 0; axis < 3; ++axis)
         {
             const float any = std::bit_cast<float>(static_cast<uint32_t>(random()));
@@ -553,7 +368,7 @@ TEST(BrickMarch, takesAFaceForWhatLiesBehindIt)
 TEST(BrickMarch, findsTheFaceOfAVoxel)
 {
     std::mt19937 random(5);
-    const Scene scene = randomScene({20, 20, 20}, 1500, random);
+    const MarchScene scene = randomScene({20, 20, 20}, 1500, random);
     const BrickMasks masks = scene.model.masks();
     uint32_t faces = 0, voxels = 0;
     for (const Brick& brick : masks.bricks)

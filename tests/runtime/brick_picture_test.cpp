@@ -1,6 +1,7 @@
 // The light of bricks in pictures: what is gathered for surfaces, beside the CPU's gather; how it stands still, and follows.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/bricks/face_lighting.h"
+#include "formats/shared/gather_lobe.h"
 #include "runtime/gpu/scene_shading.h"
 #include "tests/runtime/brick_scene.h"
 #include "tests/runtime/gpu_fixture.h"
@@ -44,7 +45,8 @@ protected:
         bricks.grid.voxel_size = 0.5f;
         model_ = bricks;
         const uint32_t white = test_.addMaterial(plainMaterial());
-        test_.addInstance(test_.addMesh(withMaterial(makeQuad(12, 12), white)), lying({0, 0, 0}));
+        const uint32_t floor = test_.addMaterial(floor_);
+        test_.addInstance(test_.addMesh(withMaterial(makeQuad(12, 12), floor)), lying({0, 0, 0}));
         test_.addInstance(test_.addMesh(withMaterial(makeQuad(1.5f, 1.5f), white)), translated(kCardFar));
         test_.addLight(sun({0.2f, -1, -0.3f}));
         if (with_bricks)
@@ -83,12 +85,41 @@ protected:
     static constexpr Float3 kCardNear{-4, 0.8f, 1};
     static constexpr uint32_t kCard = 1; ///< instance
 
+    /// The floor, anew: of metal.
+    void polish(float roughness)
+    {
+        floor_.metallic = 1;
+        floor_.roughness = roughness;
+        test_ = TestScene();
+        load();
+    }
+
+    static constexpr uint32_t kFloor = 0; ///< instance
+
+    formats::MaterialRecord floor_ = plainMaterial(); ///< of what is loaded next
     BrickModel model_;
     TestScene test_;
     std::optional<formats::PackView> pack_;
     std::unique_ptr<gpu::Scene> scene_;
     std::optional<gpu::FrameTargets> targets_;
 };
+
+/// What all rays of a lobe bring to the point of a tile.
+Float3 lobeOf(const BrickScene& scene, const BrickSky& sky, const BrickStart& start, const GatherPoint& point,
+              float roughness)
+{
+    constexpr uint32_t kRays = kGatherLobeRays * kGatherFrames;
+    const Float3 to_eye = point.position * (-1 / length(point.position));
+    Float3 sum;
+    float weights = 0;
+    for (uint32_t i = 0; i < kRays; ++i)
+    {
+        const GatherLobeRay ray = gatherLobeRay(to_eye, point.normal, roughness, i, kRays, 0);
+        sum += brickRayLight(scene, sky, start.place, ray.direction).radiance * ray.weight;
+        weights += ray.weight;
+    }
+    return sum / weights;
+}
 
 /// Of two pictures, the most that a channel differs.
 int mostDifference(const Picture& a, const Picture& b)
@@ -114,7 +145,7 @@ TEST_F(BrickPictureTest, gathersWhatTheCpuGathers)
     const Float3 eye{2, 3, 7};
     const std::vector<GatherPoint> gathered = points();
     ASSERT_GT(gathered.size(), 60u);
-    double square = 0, sum = 0;
+    double square = 0, sum = 0, lobe_square = 0, lobe_sum = 0;
     size_t count = 0;
     for (const GatherPoint& point : gathered)
     {
@@ -125,30 +156,73 @@ TEST_F(BrickPictureTest, gathersWhatTheCpuGathers)
             continue;
         ++count;
         const Float3 truth = brickGather(scene, sky, start, 512, 1);
+        const Float3 sharp = lobeOf(scene, sky, start, point, kGatherSharp);
+        const Float3 wide = lobeOf(scene, sky, start, point, kGatherWide);
+        const Float3 sharp_found{point.red.w, point.green.w, point.blue.w};
         for (int c = 0; c < 3; ++c)
         {
             square += std::pow(double(point.mean[c] - truth[c]), 2);
             sum += double(truth[c]);
+            lobe_square += std::pow(double(sharp_found[c] - sharp[c]), 2);
+            lobe_square += std::pow(double(point.wide[c] - wide[c]), 2);
+            lobe_sum += double(sharp[c] + wide[c]);
         }
     }
     ASSERT_GT(count, gathered.size() * 3 / 4);
     const double rms = std::sqrt(square * 3 * double(count)) / sum; // of the mean
     EXPECT_LT(rms, 0.02);
+    // of the last frames of their cycle the lobes have more than of the others
+    const double lobe_rms = std::sqrt(lobe_square * 6 * double(count)) / lobe_sum;
+    EXPECT_LT(lobe_rms, 0.05);
 }
 
 TEST_F(BrickPictureTest, standsStill)
 {
-    load();
-    settled({}, 40);
-    Picture last = frame();
-    int most = 0;
-    for (int i = 0; i < 16; ++i)
+    const auto unrest = [&]
     {
-        const Picture next = frame();
-        most = std::max(most, mostDifference(last, next));
-        last = next;
-    }
-    EXPECT_LE(most, 2); // of 255
+        settled({}, 40);
+        Picture last = frame();
+        int most = 0;
+        for (int i = 0; i < 16; ++i)
+        {
+            const Picture next = frame();
+            most = std::max(most, mostDifference(last, next));
+            last = next;
+        }
+        return most;
+    };
+    load();
+    EXPECT_LE(unrest(), 2); // of 255
+    polish(0.1f);
+    EXPECT_LE(unrest(), 3);
+    polish(0.5f);
+    EXPECT_LE(unrest(), 3);
+}
+
+TEST_F(BrickPictureTest, mirrorImagesAreAsSharpAsTheSurfaceIsSmooth)
+{
+    // the wall is seen in the left of the floor, the sky in its right
+    const auto contrast = [&](float roughness)
+    {
+        polish(roughness);
+        const Picture picture = settled({}, 20);
+        double red[2]{}, green[2]{};
+        for (uint32_t y = 0; y < kHeight; ++y)
+            for (uint32_t x = 0; x < kWidth; ++x)
+            {
+                if (picture.seen()[x + size_t{y} * kWidth][0] != kFloor ||
+                    (x > kWidth / 4 && x < kWidth * 3 / 4))
+                    continue;
+                red[x > kWidth / 2 ? 1 : 0] += channel(picture.at(x, y), 0);
+                green[x > kWidth / 2 ? 1 : 0] += channel(picture.at(x, y), 1);
+            }
+        return red[0] / green[0] / (red[1] / green[1]);
+    };
+    const double mirror = contrast(0.1f), smooth = contrast(0.35f), rough = contrast(0.6f),
+                 matt = contrast(1);
+    EXPECT_GT(mirror, 1.05 * smooth);
+    EXPECT_GT(smooth, 1.1 * rough);
+    EXPECT_GT(rough, 1.05 * matt);
 }
 
 TEST_F(BrickPictureTest, whatMovesReceivesLight)
