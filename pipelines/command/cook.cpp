@@ -314,10 +314,10 @@ void cookGraph(const graph::Graph& graph, CookMemory* memory, const CookOptions&
     graph::Resolver resolver(
         graph, cache, actions, [&]() -> const std::optional<graph::Journal>& { return memory->journal(); },
         options.force);
-    graph::Executor executor(graph, resolver, cache, actions,
-                             {limitsFor(options), !options.fail_fast, !options.depfile.empty(), programFolder(),
-                              options.output},
-                             eventsFor(options, log));
+    graph::Executor executor(
+        graph, resolver, cache, actions,
+        {limitsFor(options), !options.fail_fast, !options.depfile.empty(), programFolder(), options.output},
+        eventsFor(options, log));
     const bool interrupted = !executor.run(hash_there);
     std::string output_cause;
     if (interrupted)
