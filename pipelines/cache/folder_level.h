@@ -37,12 +37,15 @@ private:
     std::string path(const char* kind, const std::string& name) const;
     Result<std::optional<std::string>> entry(const std::string& key);
     Result<bool> fetchOne(const WantedContent& wanted);
+    std::string temporaryName();
     /// Make a file by `fill(temporary path)` and put it at `path`.
     Status appear(const std::string& path, const std::function<bool(const std::string&)>& fill);
 
     std::string folder_;
     bool writable_;
     uint64_t bytes_added_ = 0;
+    std::string own_name_; ///< that no other process has, on any machine
+    uint64_t temporary_count_ = 0;
 };
 
 /// A copy that shares blocks where the file system can (reflink). `to` does not exist. false: errno says why
