@@ -32,6 +32,7 @@ int program(int argc, char** argv)
                exitCodeTable());
     addCook(app, run);
     addInspect(app, run);
+    addDiff(app, run);
     addVerify(app, run);
     addExtract(app, run);
     addWhy(app, run);

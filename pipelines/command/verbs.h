@@ -17,6 +17,7 @@ using Work = std::function<int()>;
 
 void addCook(CLI::App& app, Work& run);
 void addInspect(CLI::App& app, Work& run);
+void addDiff(CLI::App& app, Work& run);
 void addVerify(CLI::App& app, Work& run);
 void addExtract(CLI::App& app, Work& run);
 void addWhy(CLI::App& app, Work& run);
