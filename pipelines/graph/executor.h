@@ -22,6 +22,8 @@ struct ExecutorOptions
     bool keeps_going = true;   ///< after a failure, with what does not depend on it
     std::string programs;      ///< folder of the cookers
     std::string output;        ///< the pack: temporary files are made beside it, or in TMPDIR
+    /// The last action makes the pack. Else all that is made is for the cache alone, and `output` only what messages call it.
+    bool makes_pack = true;
 };
 
 struct ActionOutcome
@@ -32,6 +34,7 @@ struct ActionOutcome
     Record record;
     /// Where the outputs lie while the executor lives; empty: in the cache only.
     std::vector<std::string> paths;
+    bool is_kept = false; ///< the result is in the cache, as far as that has not failed since
 };
 
 /// What it tells while it works; each may be empty.
@@ -55,7 +58,7 @@ public:
     Executor(const Graph& graph, Resolver& resolver, cache::Cache* cache, ActionCache* actions,
              ExecutorOptions options, ExecutorEvents events);
 
-    /// Make the pack, unless a file of that hash is there already.
+    /// Make the pack, unless a file of that hash is there already; without a pack, have every result whole in the cache.
     /// returns  false where a signal ended it
     bool run(const std::optional<std::string>& hash_there);
 
@@ -88,6 +91,8 @@ private:
     std::optional<Failure> checkOutputs(size_t action);
     void keepResult(size_t action);
     bool finishPack(const std::optional<std::string>& hash_there);
+    bool finishParts();
+    bool haveAgain(size_t action);
     void fail(size_t action, const Failure& failure);
     bool isPack(size_t action) const;
     std::string pathOf(size_t action, size_t output) const;
