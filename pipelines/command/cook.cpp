@@ -5,6 +5,7 @@
 #include "cook/tools/whole_file.h"
 #include "formats/pack_view.h"
 #include "pipelines/command/cook_memory.h"
+#include "pipelines/command/cook_tools.h"
 #include "pipelines/command/dry_run.h"
 #include "pipelines/command/event_log.h"
 #include "pipelines/graph/causes.h"
@@ -29,24 +30,9 @@ using graph::Failure;
 namespace
 {
 
-constexpr int kInterrupted = 130;
 constexpr int kSomeFailed = 1;
 
 // ---- messages
-
-void print(const std::string& line)
-{
-    std::fprintf(stderr, "%s\n", line.c_str());
-}
-
-/// Pass on a child's messages: errors always, the noise of libraries only when everything is asked for.
-void passOn(const std::vector<std::string>& lines, Verbosity verbosity)
-{
-    for (const std::string& line : lines)
-        if (graph::isError(line) || (graph::isWarning(line) && verbosity != Verbosity::quiet) ||
-            verbosity == Verbosity::all)
-            print(line);
-}
 
 std::string joined(const std::vector<std::string>& words, const char* between)
 {
@@ -54,12 +40,6 @@ std::string joined(const std::vector<std::string>& words, const char* between)
     for (const std::string& word : words)
         text += (text.empty() ? "" : between) + word;
     return text;
-}
-
-void printStage(const graph::Action& action, const graph::ActionOutcome& outcome)
-{
-    print(faint(fmt::format("{:<10}{:>8.2f} s {:>12}  {}", action.cooker, outcome.result.seconds,
-                            readableSize(outcome.result.outputs.front().bytes), action.subject)));
 }
 
 /// log  null: none
@@ -124,15 +104,6 @@ Status checkOutput(const CookOptions& options)
         if (std::filesystem::equivalent(lod.path, options.output, error))
             return Error{Issue::usage, options.output, "", "the output would overwrite a level of detail"};
     return success();
-}
-
-/// Three quarters of the machine's memory, where the user says nothing.
-uint64_t memoryFor(const CookOptions& options)
-{
-    if (options.memory_bytes > 0)
-        return options.memory_bytes;
-    return static_cast<uint64_t>(::sysconf(_SC_PHYS_PAGES)) * static_cast<uint64_t>(::sysconf(_SC_PAGESIZE)) /
-           4 * 3;
 }
 
 /// META of the pack at `path`, for the report.
@@ -278,7 +249,7 @@ void cookGraph(const graph::Graph& graph, CookMemory* memory, const CookOptions&
         options.force);
     graph::Executor executor(
         graph, resolver, cache, actions,
-        {options.jobs, memoryFor(options), !options.fail_fast, programFolder(), options.output},
+        {options.jobs, memoryOr(options.memory_bytes), !options.fail_fast, programFolder(), options.output},
         eventsFor(options, log));
     const bool interrupted = !executor.run(hash_there);
     std::string output_cause;
@@ -340,7 +311,7 @@ void cookInto(const CookOptions& options, EventLog* log, CookOutcome& outcome)
 int cook(const CookOptions& chosen)
 {
     CookOptions options = chosen;
-    options.statistics = !options.report_file.empty();
+    options.statistics = options.statistics || !options.report_file.empty();
     if (options.dry_run)
         return dryRun(options);
     const auto start = std::chrono::steady_clock::now();
