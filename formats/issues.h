@@ -1,6 +1,6 @@
 // The numbered list of everything that can be wrong with an input or a file: the one source for codes, exit codes,
 // hints and the checker. A number is never reused. E1xxx input files, E2xxx containers, E3xxx meaning of chunks,
-// E4xxx the machine, E7xxx Hearth itself; W is a warning with the same numbering.
+// E4xxx the machine, E5xxx plans and farms, E7xxx Hearth itself; W is a warning with the same numbering.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -21,6 +21,7 @@ enum class IssueClass : uint8_t
     internal,    ///< 70: a defect of Hearth
     cannotWrite, ///< 73: an output cannot be created
     io,          ///< 74: reading or writing failed half way
+    temporary,   ///< 75: another try may go better
 };
 
 // X(name, code, class, summary, hint)
@@ -133,6 +134,21 @@ enum class IssueClass : uint8_t
       "raise the budget to what the message says")                                                           \
     X(cache_failed, 4100, warning, "a cache cannot be used as it should; the cook goes on without it",       \
       "check the folder or the server, its rights and the space left")                                       \
+    X(plan_syntax, 5000, malformed, "a plan is not valid", "make it again with hearth plan")                 \
+    X(plan_stale, 5001, malformed, "an input is not what was planned", "make the plan again")                \
+    X(plan_build, 5002, malformed, "the cookers are not those of the plan",                                  \
+      "use the build that made the plan, or make the plan again")                                            \
+    X(plan_processor, 5003, malformed, "the processor is not of the plan's class",                           \
+      "use machines of the class that made the plan, or make the plan again on one of these")                \
+    X(shard_incomplete, 5100, warning, "results of a shard are missing", "")                                 \
+    X(shard_unverified, 5101, temporary, "the results of a shard are not there, whatever its launcher says", \
+      "run the shard again")                                                                                 \
+    X(results_lost, 5102, temporary, "results cannot be kept in a cache",                                    \
+      "check the cache's folder, its rights and the space left, then run the shard again")                   \
+    X(cooker_killed, 5103, temporary, "a cooker was killed",                                                 \
+      "give the shard more memory, then run it again")                                                       \
+    X(submit_failed, 5104, io, "the batch system has not taken the jobs",                                    \
+      "check its installation, or --print")                                                                  \
     X(child_failed, 7001, internal, "a cooker ended abnormally", "report it, with the input")                \
     X(internal, 7000, internal, "Hearth has a defect", "report it, with the input")
 

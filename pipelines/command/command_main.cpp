@@ -16,8 +16,14 @@ using namespace hearth::command;
 
 std::string helpOf(const CLI::App& app)
 {
-    const auto chosen = app.get_subcommands();
-    return chosen.empty() ? app.help() : chosen.front()->help("hearth") + "\n" + exitCodeTable();
+    const CLI::App* chosen = &app;
+    std::string before;
+    while (!chosen->get_subcommands().empty())
+    {
+        before += (before.empty() ? "" : " ") + chosen->get_name();
+        chosen = chosen->get_subcommands().front();
+    }
+    return chosen == &app ? app.help() : chosen->help(before) + "\n" + exitCodeTable();
 }
 
 int program(int argc, char** argv)
@@ -37,6 +43,10 @@ int program(int argc, char** argv)
     addExtract(app, run);
     addWhy(app, run);
     addCache(app, run);
+    addPlan(app, run);
+    addRun(app, run);
+    addMerge(app, run);
+    addFarm(app, run);
     addExplain(app, run);
     addVersion(app, run);
 

@@ -7,6 +7,7 @@
 #include "formats/flush.h"
 #include "formats/pack_view.h"
 #include "pipelines/command/cook_memory.h"
+#include "pipelines/command/cook_tools.h"
 #include "pipelines/command/depfile.h"
 #include "pipelines/command/dry_run.h"
 #include "pipelines/command/event_log.h"
@@ -20,7 +21,6 @@
 #include <fcntl.h>
 #include <filesystem>
 #include <fmt/format.h>
-#include <thread>
 #include <unistd.h>
 
 namespace hearth::command
@@ -33,24 +33,9 @@ using graph::Failure;
 namespace
 {
 
-constexpr int kInterrupted = 130;
 constexpr int kSomeFailed = 1;
 
 // ---- messages
-
-void print(const std::string& line)
-{
-    std::fprintf(stderr, "%s\n", line.c_str());
-}
-
-/// Pass on a child's messages: errors always, the noise of libraries only when everything is asked for.
-void passOn(const std::vector<std::string>& lines, Verbosity verbosity)
-{
-    for (const std::string& line : lines)
-        if (graph::isError(line) || (graph::isWarning(line) && verbosity != Verbosity::quiet) ||
-            verbosity == Verbosity::all)
-            print(line);
-}
 
 std::string joined(const std::vector<std::string>& words, const char* between)
 {
@@ -58,12 +43,6 @@ std::string joined(const std::vector<std::string>& words, const char* between)
     for (const std::string& word : words)
         text += (text.empty() ? "" : between) + word;
     return text;
-}
-
-void printStage(const graph::Action& action, const graph::ActionOutcome& outcome)
-{
-    print(faint(fmt::format("{:<10}{:>8.2f} s {:>12}  {}", action.cooker, outcome.result.seconds,
-                            readableSize(outcome.result.outputs.front().bytes), action.subject)));
 }
 
 /// log  null: none
@@ -134,23 +113,6 @@ Status checkOutput(const CookOptions& options)
         if (std::filesystem::equivalent(lod.path, options.output, error))
             return Error{Issue::usage, options.output, "", "the output would overwrite a level of detail"};
     return success();
-}
-
-/// Three quarters of the machine's memory, where the user says nothing.
-uint64_t memoryFor(const CookOptions& options)
-{
-    if (options.memory_bytes > 0)
-        return options.memory_bytes;
-    return static_cast<uint64_t>(::sysconf(_SC_PHYS_PAGES)) * static_cast<uint64_t>(::sysconf(_SC_PAGESIZE)) /
-           4 * 3;
-}
-
-graph::CrewLimits limitsFor(const CookOptions& options)
-{
-    constexpr unsigned kLarge = 2;
-    if (options.jobs > 0)
-        return {options.jobs, options.jobs, memoryFor(options)};
-    return {kLarge, std::max(kLarge, std::thread::hardware_concurrency()), memoryFor(options)};
 }
 
 /// META of the pack at `path`, for the report.
@@ -314,10 +276,10 @@ void cookGraph(const graph::Graph& graph, CookMemory* memory, const CookOptions&
     graph::Resolver resolver(
         graph, cache, actions, [&]() -> const std::optional<graph::Journal>& { return memory->journal(); },
         options.force);
-    graph::Executor executor(
-        graph, resolver, cache, actions,
-        {limitsFor(options), !options.fail_fast, !options.depfile.empty(), programFolder(), options.output},
-        eventsFor(options, log));
+    graph::Executor executor(graph, resolver, cache, actions,
+                             {limitsOf(options.jobs, options.memory_bytes), !options.fail_fast,
+                              !options.depfile.empty(), programFolder(), options.output},
+                             eventsFor(options, log));
     const bool interrupted = !executor.run(hash_there);
     std::string output_cause;
     if (interrupted)
@@ -382,7 +344,7 @@ void cookInto(const CookOptions& options, EventLog* log, CookOutcome& outcome)
 int cook(const CookOptions& chosen)
 {
     CookOptions options = chosen;
-    options.statistics = !options.report_file.empty();
+    options.statistics = options.statistics || !options.report_file.empty();
     if (options.dry_run)
         return dryRun(options);
     const auto start = std::chrono::steady_clock::now();

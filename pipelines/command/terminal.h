@@ -16,6 +16,12 @@ enum class Verbosity
     all,    ///< and the command line of each stage
 };
 
+/// Of -q and -v, which exclude each other.
+inline Verbosity verbosityOf(bool quiet, bool verbose)
+{
+    return quiet ? Verbosity::quiet : verbose ? Verbosity::all : Verbosity::normal;
+}
+
 /// Whether stderr is a terminal that wants colour: NO_COLOR, TERM=dumb and CI say no, CLICOLOR_FORCE says yes.
 bool colorOnStderr();
 

@@ -34,17 +34,21 @@ std::string unknownWord(const CLI::App& app, const std::vector<std::string>& wor
                     names.push_back("--" + long_name);
             return describe("option", name, tools::nearestMatch(name, names));
         }
-        if (verb != &app)
+        // a verb may have verbs of its own
+        const std::vector<const CLI::App*> known_verbs = verb->get_subcommands(nullptr);
+        if (known_verbs.empty())
             continue;
         std::vector<std::string> names;
-        for (const CLI::App* known : app.get_subcommands(nullptr))
+        const CLI::App* chosen = nullptr;
+        for (const CLI::App* known : known_verbs)
         {
             names.push_back(known->get_name());
             if (known->get_name() == word)
-                verb = known;
+                chosen = known;
         }
-        if (verb == &app)
+        if (chosen == nullptr)
             return describe("verb", word, tools::nearestMatch(word, names));
+        verb = chosen;
     }
     return "";
 }

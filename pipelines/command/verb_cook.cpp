@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "pipelines/command/verb_cook.h"
 #include "pipelines/cache/open_cache.h"
-#include "pipelines/command/cook.h"
 #include "pipelines/command/verb_tools.h"
 #include "pipelines/command/verbs.h"
 
@@ -10,29 +10,8 @@
 namespace hearth::command
 {
 
-void addCook(CLI::App& app, Work& run)
+void addSettings(CLI::App* verb, const std::shared_ptr<SettingsOptions>& options)
 {
-    CLI::App* verb = app.add_subcommand("cook", "Turn sources into a pack");
-    struct Options : CookOptions
-    {
-        bool bakes_visibility = false;
-        VisibilityOptions baked;
-        bool makes_bricks = false;
-        BrickOptions bricked;
-        std::string memory;
-        bool quiet = false;
-        bool verbose = false;
-    };
-    auto options = std::make_shared<Options>();
-    verb->add_option("SOURCE", options->sources, "glTF, GLB, OBJ, PLY, STL, OFF, Draco or image files")
-        ->required();
-    verb->add_option("-o,--output", options->output, "pack to write")->required();
-    verb->add_option("-j,--jobs", options->jobs,
-                     "cookers that run at once; two by default, and of small sources one a core")
-        ->check(CLI::Range(1, 1024));
-    verb->add_option("--memory", options->memory,
-                     "what the cookers may take together, as 12G; three quarters of the machine's by default")
-        ->check(CLI::Validator(sizeFault, ""));
     verb->add_option("--lod", options->lods,
                      "N=FILE: level of detail N of the source's only mesh, made by hand")
         ->allow_extra_args(false);
@@ -83,6 +62,81 @@ void addCook(CLI::App& app, Work& run)
                      "bake the light that bricks start with, of so many bounces")
         ->check(CLI::Range(0u, 64u).description(""))
         ->needs(bricks);
+}
+
+void takeSettings(SettingsOptions& options)
+{
+    if (options.bakes_visibility)
+        options.visibility = options.baked;
+    if (options.makes_bricks)
+        options.bricks = options.bricked;
+}
+
+std::vector<std::string> chosenSettings(const CLI::App& verb)
+{
+    CLI::App settings;
+    addSettings(&settings, std::make_shared<SettingsOptions>());
+    std::vector<std::string> words;
+    for (const CLI::Option* setting : settings.get_options())
+    {
+        const CLI::Option* option = verb.get_option_no_throw(setting->get_name());
+        if (option == nullptr || option->count() == 0)
+            continue;
+        const bool is_flag = option->get_items_expected_max() == 0;
+        for (const std::string& result : option->results())
+        {
+            words.push_back(option->get_name());
+            if (!is_flag)
+                words.push_back(result);
+        }
+    }
+    return words;
+}
+
+Result<graph::CookSettings> readRequest(const farm::Request& request)
+{
+    CLI::App settings;
+    const auto options = std::make_shared<SettingsOptions>();
+    addSettings(&settings, options);
+    // the last word is taken first
+    std::vector<std::string> words(request.options.rbegin(), request.options.rend());
+    try
+    {
+        settings.parse(std::move(words));
+    }
+    catch (const CLI::ParseError& error)
+    {
+        return Error{Issue::usage, "hearth", "", error.what()};
+    }
+    takeSettings(*options);
+    if (request.sources.empty())
+        return Error{Issue::usage, "hearth", "", "there are no sources"};
+    options->sources = request.sources;
+    options->output = farm::kPackName;
+    options->statistics = request.statistics;
+    return graph::CookSettings(*options);
+}
+
+void addCook(CLI::App& app, Work& run)
+{
+    CLI::App* verb = app.add_subcommand("cook", "Turn sources into a pack");
+    struct Options : SettingsOptions
+    {
+        std::string memory;
+        bool quiet = false;
+        bool verbose = false;
+    };
+    auto options = std::make_shared<Options>();
+    verb->add_option("SOURCE", options->sources, "glTF, GLB, OBJ, PLY, STL, OFF, Draco or image files")
+        ->required();
+    verb->add_option("-o,--output", options->output, "pack to write")->required();
+    verb->add_option("-j,--jobs", options->jobs,
+                     "cookers that run at once; two by default, and of small sources one a core")
+        ->check(CLI::Range(1, 1024));
+    verb->add_option("--memory", options->memory,
+                     "what the cookers may take together, as 12G; three quarters of the machine's by default")
+        ->check(CLI::Validator(sizeFault, ""));
+    addSettings(verb, options);
     verb->add_option("--report", options->report_file, "write a report as JSON");
     verb->add_option("--events", options->events_file,
                      "write what happens while it happens, a JSON object a line");
@@ -108,13 +162,8 @@ void addCook(CLI::App& app, Work& run)
     verb->callback(
         [options, &run]
         {
-            options->verbosity = options->quiet     ? Verbosity::quiet
-                                 : options->verbose ? Verbosity::all
-                                                    : Verbosity::normal;
-            if (options->bakes_visibility)
-                options->visibility = options->baked;
-            if (options->makes_bricks)
-                options->bricks = options->bricked;
+            options->verbosity = verbosityOf(options->quiet, options->verbose);
+            takeSettings(*options);
             if (!options->memory.empty())
                 options->memory_bytes = cache::parseSize(options->memory, "").value();
             run = [options] { return cook(*options); };

@@ -22,6 +22,10 @@ void addVerify(CLI::App& app, Work& run);
 void addExtract(CLI::App& app, Work& run);
 void addWhy(CLI::App& app, Work& run);
 void addCache(CLI::App& app, Work& run);
+void addPlan(CLI::App& app, Work& run);
+void addRun(CLI::App& app, Work& run);
+void addMerge(CLI::App& app, Work& run);
+void addFarm(CLI::App& app, Work& run);
 void addExplain(CLI::App& app, Work& run);
 void addVersion(CLI::App& app, Work& run);
 

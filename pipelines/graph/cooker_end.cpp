@@ -30,14 +30,16 @@ Failure crashed(const Action& action, const tools::ChildEnd& end, const std::vec
         how += fmt::format(" ended with code {} and no error message", end.exit_code);
     if (!lines.empty())
         how += ": " + lines.back();
-    return failureOf({Issue::child_failed, action.subject, "", how}, action.source);
+    Failure failure = failureOf({Issue::child_failed, action.subject, "", how}, action.source);
+    failure.is_temporary = end.signal == SIGKILL;
+    return failure;
 }
 
 } // namespace
 
 Failure failureOf(const Error& error, size_t source)
 {
-    return {exitCode(error), formatMessage(error), source, false};
+    return {exitCode(error), formatMessage(error), source, false, false};
 }
 
 std::optional<Failure> failureOf(const Action& action, const tools::ChildEnd& end,
@@ -45,7 +47,7 @@ std::optional<Failure> failureOf(const Action& action, const tools::ChildEnd& en
 {
     const auto error = std::find_if(lines.begin(), lines.end(), isError);
     if (end.signal == 0 && isClearCode(end.exit_code) && error != lines.end())
-        return Failure{end.exit_code, *error, action.source, true};
+        return Failure{end.exit_code, *error, action.source, true, false};
     if (end.signal != 0 || end.exit_code != 0)
         return crashed(action, end, lines);
     return std::nullopt;

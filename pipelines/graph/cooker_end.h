@@ -20,6 +20,8 @@ struct Failure
     size_t source = 0; ///< index; their number for what is not of one
     /// Whether a cooker has said it; else nobody has, and it is still to be told.
     bool is_told = false;
+    /// Whether another try may go better: the cooker was killed, by whom it does not say.
+    bool is_temporary = false;
 };
 
 Failure failureOf(const Error& error, size_t source);

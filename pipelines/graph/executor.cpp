@@ -16,6 +16,8 @@ namespace hearth::graph
 namespace
 {
 
+constexpr const char* kLost = "its result is not in the cache, or not whole";
+
 std::optional<uint64_t> sizeOf(const std::string& path)
 {
     std::error_code error;
@@ -56,13 +58,16 @@ std::optional<Failure> Executor::makeFolders()
 {
     if (parts_)
         return std::nullopt;
-    Result<tools::PrivateFolder> beside =
-        tools::PrivateFolder::create(tools::folderOf(options_.output), options_.output);
-    if (!beside.ok())
-        return failureOf(beside.error(), graph_.source_count);
-    beside_.emplace(std::move(beside).value());
+    if (options_.makes_pack)
+    {
+        Result<tools::PrivateFolder> beside =
+            tools::PrivateFolder::create(tools::folderOf(options_.output), options_.output);
+        if (!beside.ok())
+            return failureOf(beside.error(), graph_.source_count);
+        beside_.emplace(std::move(beside).value());
+    }
     Result<tools::PrivateFolder> parts =
-        tools::PrivateFolder::create(tools::temporaryOr(beside_->path()), options_.output);
+        tools::PrivateFolder::create(tools::temporaryOr(beside_ ? beside_->path() : "/tmp"), options_.output);
     if (!parts.ok())
         return failureOf(parts.error(), graph_.source_count);
     parts_.emplace(std::move(parts).value());
@@ -76,7 +81,7 @@ std::string Executor::readListOf(size_t action) const
 
 bool Executor::isPack(size_t action) const
 {
-    return action + 1 == graph_.actions.size();
+    return options_.makes_pack && action + 1 == graph_.actions.size();
 }
 
 /// Where the action's cooker writes.
@@ -165,11 +170,9 @@ bool Executor::haveInputs(size_t action)
     bool have = true;
     for (const size_t maker : makers)
     {
-        if (!outcomes_[maker].paths.empty())
+        if (!outcomes_[maker].paths.empty() || haveAgain(maker))
             continue;
         have = false;
-        states_[maker] = State::must_run;
-        outcomes_[maker].causes = {"its result is not in the cache, or not whole"};
         // what is made again may differ
         states_[action] = State::waiting;
     }
@@ -242,6 +245,7 @@ bool Executor::advance(size_t index)
     }
     states_[index] = State::done;
     outcome.ending = Ending::kept;
+    outcome.is_kept = true;
     outcome.result = std::move(*resolved.result);
     if (events_.ended)
         events_.ended(action, outcome, outcome.result.warnings);
@@ -325,6 +329,7 @@ void Executor::keepResult(size_t index)
         cache_->put(outcome.result.outputs[i].hash, outcome.paths[i],
                     isPack(index) ? cache::Use::given_away : cache::Use::read_only);
     actions_->keep(action, outcome.record, outcome.result);
+    outcome.is_kept = cache_->isWritable();
 }
 
 void Executor::takeEnd(const CrewEnd& crew_end)
@@ -373,14 +378,31 @@ bool Executor::finishPack(const std::optional<std::string>& hash_there)
         return true;
     if (cache_ != nullptr && hash_there == outcomes_[last].result.outputs.front().hash)
         return true;
-    if (!materialize(last))
-    {
-        states_[last] = State::must_run;
-        outcomes_[last].causes = {"its result is not in the cache, or not whole"};
+    if (!haveAgain(last))
         return false;
-    }
     pack_path_ = outcomes_[last].paths.front();
     return true;
+}
+
+/// Have an action's result as files; where the cache has lost it, the action must run, and false is returned.
+bool Executor::haveAgain(size_t action)
+{
+    if (materialize(action))
+        return true;
+    states_[action] = State::must_run;
+    outcomes_[action].is_kept = false;
+    outcomes_[action].causes = {kLost};
+    return false;
+}
+
+/// Have every result as files, so that each is known to be whole; false where some must be made again first.
+bool Executor::finishParts()
+{
+    bool have = true;
+    for (size_t i = 0; i < states_.size(); ++i)
+        if (states_[i] == State::done)
+            have = haveAgain(i) && have;
+    return have;
 }
 
 bool Executor::run(const std::optional<std::string>& hash_there)
@@ -397,7 +419,7 @@ bool Executor::run(const std::optional<std::string>& hash_there)
         }
         if (crew_.isIdle())
         {
-            if (finishPack(hash_there))
+            if (options_.makes_pack ? finishPack(hash_there) : finishParts())
                 return true;
             continue;
         }

@@ -23,6 +23,8 @@ struct ExecutorOptions
     bool lists_files = false; ///< has cookers list what they find without a cache, too: for filesFound()
     std::string programs;     ///< folder of the cookers
     std::string output;       ///< the pack: temporary files are made beside it, or in TMPDIR
+    /// The last action makes the pack. Else all that is made is for the cache alone, and `output` only what messages call it.
+    bool makes_pack = true;
 };
 
 struct ActionOutcome
@@ -33,6 +35,7 @@ struct ActionOutcome
     Record record;
     /// Where the outputs lie while the executor lives; empty: in the cache only.
     std::vector<std::string> paths;
+    bool is_kept = false; ///< the result is in the cache, as far as that has not failed since
 };
 
 /// What it tells while it works; each may be empty.
@@ -56,7 +59,7 @@ public:
     Executor(const Graph& graph, Resolver& resolver, cache::Cache* cache, ActionCache* actions,
              ExecutorOptions options, ExecutorEvents events);
 
-    /// Make the pack, unless a file of that hash is there already.
+    /// Make the pack, unless a file of that hash is there already; without a pack, have every result whole in the cache.
     /// returns  false where a signal ended it
     bool run(const std::optional<std::string>& hash_there);
 
@@ -93,6 +96,8 @@ private:
     std::optional<Failure> checkOutputs(size_t action);
     void keepResult(size_t action);
     bool finishPack(const std::optional<std::string>& hash_there);
+    bool finishParts();
+    bool haveAgain(size_t action);
     void fail(size_t action, const Failure& failure);
     bool isPack(size_t action) const;
     std::string pathOf(size_t action, size_t output) const;

@@ -43,6 +43,8 @@ TEST_F(CommandLine, typosGetTheNearestMatch)
     expectUsageError({"cook", "a.glb", "--ouptut", "b"}, "did you mean '--output'?");
     expectUsageError({"inspect", "a", "--fromat=json"}, "did you mean '--format'?");
     expectUsageError({"paint"}, "unknown verb 'paint' [E1000]");
+    expectUsageError({"farm", "slrum", "a"}, "did you mean 'slurm'?");
+    expectUsageError({"farm", "slurm", "a", "--partitoin", "b"}, "did you mean '--partition'?");
 }
 
 TEST_F(CommandLine, nothingUnknownIsIgnored)
@@ -69,11 +71,18 @@ TEST_F(CommandLine, saysWhatIsMissingOrOutOfRange)
     expectUsageError({"extract", "a", "--part", "specular", "--mesh", "0", "--error", "0", "-o", "b"},
                      "excludes");
     expectUsageError({"explain", "E9999"}, "E9999");
+    expectUsageError({"plan", "a", "-o", "b", "--shards", "0"}, "--shards");
+    expectUsageError({"plan", "a", "-o", "b", "--emit", "makefile"}, "--emit");
+    expectUsageError({"plan", "a", "-o", "b", "--visibility-quality", "high"}, "--visibility");
+    expectUsageError({"merge", "a"}, "--output is required");
+    expectUsageError({"farm"}, "");
+    expectUsageError({"farm", "ninja", "a"}, "--output is required");
 }
 
 TEST_F(CommandLine, helpEndsWithAnExampleAndTheExitCodes)
 {
-    for (const char* verb : {"", "cook", "inspect", "verify", "extract", "why", "cache", "explain"})
+    for (const char* verb : {"", "cook", "inspect", "verify", "extract", "why", "cache", "plan", "run",
+                             "merge", "farm", "explain"})
     {
         const ProgramEnd end = *verb == '\0' ? hearth({"--help"}) : hearth({std::string(verb), "-h"});
         EXPECT_EQ(end.exit_code, 0);

@@ -1,0 +1,28 @@
+// What the verbs that run cookers share: how they tell of stages, and how much memory they take.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "pipelines/command/terminal.h"
+#include "pipelines/graph/executor.h"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace hearth::command
+{
+
+inline constexpr int kInterrupted = 130;
+
+/// A line on stderr.
+void print(const std::string& line);
+
+/// Pass on a child's messages: errors always, the noise of libraries only when everything is asked for.
+void passOn(const std::vector<std::string>& lines, Verbosity verbosity);
+
+void printStage(const graph::Action& action, const graph::ActionOutcome& outcome);
+
+/// What cookers may take together; 0: two at once, of small sources one a core, and three quarters of the machine's memory.
+graph::CrewLimits limitsOf(unsigned jobs, uint64_t memory_bytes);
+
+} // namespace hearth::command

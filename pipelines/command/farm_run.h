@@ -1,0 +1,56 @@
+// hearth plan, hearth run and hearth merge: a cook in three steps, the middle one on as many machines as there are.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "pipelines/command/open_plan.h"
+#include "pipelines/command/terminal.h"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace hearth::command
+{
+
+struct MakePlanOptions
+{
+    farm::Request request;
+    std::string output;                ///< file, or "-"
+    std::optional<size_t> shard_count; ///< nothing: as many as are worth while
+    std::vector<std::string> caches;
+    bool emits_commands = false; ///< print a command line for each shard
+    bool quiet = false;
+};
+
+struct RunOptions : PlanOptions
+{
+    std::string shard;         ///< "I/N"; empty: as the batch system says
+    unsigned jobs = 0;         ///< see limitsOf
+    uint64_t memory_bytes = 0; ///< see limitsOf
+    std::string launcher;      ///< words before the command line of the shard; empty: it runs here
+    std::string record_file;   ///< empty: none
+    Verbosity verbosity = Verbosity::normal;
+};
+
+struct MergeOptions : PlanOptions
+{
+    std::string output;
+    bool cooks_missing = true; ///< else what is missing is listed
+    std::string report_file;
+    unsigned jobs = 0;
+    uint64_t memory_bytes = 0;
+    Verbosity verbosity = Verbosity::normal;
+};
+
+// Each returns the exit code; every problem has been told on stderr.
+
+int makePlanFile(const MakePlanOptions& options, const farm::ReadRequest& read);
+
+/// Through a launcher, what the shard has left in the cache is looked at, whatever the launcher says.
+int runShard(const RunOptions& options, const farm::ReadRequest& read);
+
+/// Read and hash every result, have what is missing cooked here (or list it: code 1), and link the pack.
+int merge(const MergeOptions& options, const farm::ReadRequest& read);
+
+} // namespace hearth::command

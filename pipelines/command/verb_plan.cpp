@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "pipelines/cache/open_cache.h"
+#include "pipelines/command/farm_run.h"
+#include "pipelines/command/verb_cook.h"
+#include "pipelines/command/verb_tools.h"
+#include "pipelines/command/verbs.h"
+
+#include <CLI/CLI.hpp>
+#include <charconv>
+
+namespace hearth::command
+{
+
+namespace
+{
+
+/// Options of verbs that run cookers.
+struct Effort
+{
+    std::string memory;
+    bool quiet = false;
+    bool verbose = false;
+};
+
+void addEffort(CLI::App& verb, unsigned& jobs, Effort& effort)
+{
+    verb.add_option("-j,--jobs", jobs,
+                    "cookers that run at once; two by default, and of small sources one a core")
+        ->check(CLI::Range(1, 1024));
+    verb.add_option("--memory", effort.memory,
+                    "what the cookers may take together, as 12G; three quarters of the machine's by default")
+        ->check(CLI::Validator(sizeFault, ""));
+    auto* quiet = verb.add_flag("-q,--quiet", effort.quiet, "print errors only");
+    verb.add_flag("-v,--verbose", effort.verbose, "print all that cookers say")->excludes(quiet);
+}
+
+uint64_t memoryOf(const Effort& effort)
+{
+    return effort.memory.empty() ? 0 : cache::parseSize(effort.memory, "").value();
+}
+
+std::string shardsFault(const std::string& text)
+{
+    size_t count = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), count);
+    const bool is_count =
+        error == std::errc() && end == text.data() + text.size() && count >= 1 && count <= farm::kMaxShards;
+    return text == "auto" || is_count ? ""
+                                      : "'" + text + "' is no number of shards: write auto, or 1 to " +
+                                            std::to_string(farm::kMaxShards);
+}
+
+} // namespace
+
+void addPlanFile(CLI::App& verb, PlanOptions& options)
+{
+    verb.add_option("PLAN", options.plan_file, "file that hearth plan has written")->required();
+    verb.add_option("-C,--directory", options.directory,
+                    "folder that relative paths of sources start from; by default where the plan was made");
+    addCaches(verb, options.caches);
+}
+
+void addPlan(CLI::App& app, Work& run)
+{
+    CLI::App* verb = app.add_subcommand("plan", "Write down a cook, so that several machines can share it");
+    struct Options : MakePlanOptions
+    {
+        std::shared_ptr<SettingsOptions> settings = std::make_shared<SettingsOptions>();
+        std::string shards = "auto";
+        std::string emitted;
+    };
+    auto options = std::make_shared<Options>();
+    verb->add_option("SOURCE", options->request.sources,
+                     "glTF, GLB, OBJ, PLY, STL, OFF, Draco or image files")
+        ->required();
+    verb->add_option("-o,--output", options->output, "plan to write")->required();
+    verb->add_option("--shards", options->shards,
+                     "how many machines may share it; auto: as many as have a minute to do each")
+        ->check(CLI::Validator(shardsFault, ""))
+        ->capture_default_str();
+    verb->add_flag("--statistics", options->request.statistics,
+                   "have cookers say what became of their input, for hearth merge --report");
+    verb->add_option("--emit", options->emitted, "commands: print a command line for each shard")
+        ->check(CLI::IsMember({"commands"}));
+    addSettings(verb, options->settings);
+    addCaches(*verb, options->caches);
+    verb->add_flag("-q,--quiet", options->quiet, "print errors only");
+    verb->footer("Examples:\n"
+                 "  hearth plan *.glb -o village.plan.json --shards 7\n"
+                 "  hearth plan *.glb -o village.plan.json --emit commands | parallel\n"
+                 "Then hearth run for each shard, or hearth farm for all, and hearth merge.");
+    verb->callback(
+        [options, verb, &run]
+        {
+            options->request.options = chosenSettings(*verb);
+            if (options->shards != "auto")
+                options->shard_count = std::stoul(options->shards);
+            options->emits_commands = !options->emitted.empty();
+            run = [options] { return makePlanFile(*options, readRequest); };
+        });
+}
+
+void addRun(CLI::App& app, Work& run)
+{
+    CLI::App* verb = app.add_subcommand("run", "Cook one shard of a plan, into the cache");
+    struct Options : RunOptions
+    {
+        Effort effort;
+    };
+    auto options = std::make_shared<Options>();
+    addPlanFile(*verb, *options);
+    verb->add_option("--shard", options->shard,
+                     "I/N, from 0/N; by default the index that Slurm, Kubernetes, AWS Batch, Grid Engine or "
+                     "PBS gives to an array's job");
+    verb->add_option("--launcher", options->launcher,
+                     "start it by this command, as \"srun -Q -n1\", and look at what it has left");
+    verb->add_option("--record", options->record_file, "write what was done as JSON, when all of it was");
+    addEffort(*verb, options->jobs, options->effort);
+    verb->footer("Example: hearth run village.plan.json --shard 3/7\n"
+                 "It may be run again, and by two machines at once. Code 75: another try may go better.");
+    verb->callback(
+        [options, &run]
+        {
+            options->memory_bytes = memoryOf(options->effort);
+            options->verbosity = verbosityOf(options->effort.quiet, options->effort.verbose);
+            run = [options] { return runShard(*options, readRequest); };
+        });
+}
+
+void addMerge(CLI::App& app, Work& run)
+{
+    CLI::App* verb = app.add_subcommand("merge", "Make the pack of what the shards of a plan have left");
+    struct Options : MergeOptions
+    {
+        Effort effort;
+        std::string missing = "cook";
+    };
+    auto options = std::make_shared<Options>();
+    addPlanFile(*verb, *options);
+    verb->add_option("-o,--output", options->output, "pack to write")->required();
+    verb->add_option("--missing", options->missing,
+                     "what becomes of results that are not there: cook them here, or list them and end with "
+                     "code 1")
+        ->check(CLI::IsMember({"cook", "list"}))
+        ->capture_default_str();
+    verb->add_option("--report", options->report_file, "write a report as JSON");
+    addEffort(*verb, options->jobs, options->effort);
+    verb->footer("Example: hearth merge village.plan.json -o village.hearth\n"
+                 "Every result is read and hashed, whatever became of the processes that made it.");
+    verb->callback(
+        [options, &run]
+        {
+            options->memory_bytes = memoryOf(options->effort);
+            options->verbosity = verbosityOf(options->effort.quiet, options->effort.verbose);
+            options->cooks_missing = options->missing == "cook";
+            run = [options] { return merge(*options, readRequest); };
+        });
+}
+
+} // namespace hearth::command

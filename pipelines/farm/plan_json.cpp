@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "pipelines/graph/plan_json.h"
+#include "cook/tools/sha256.h"
+#include "pipelines/farm/plan.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <set>
+
+namespace hearth::farm
+{
+
+namespace
+{
+
+using Json = nlohmann::ordered_json;
+
+// More memory or time than any machine has: the executor adds estimates up.
+constexpr uint64_t kMostBytes = uint64_t{1} << 50;
+constexpr double kMostSeconds = 1e9;
+
+Json foundJson(const Plan& plan)
+{
+    Json list = Json::array();
+    for (const auto& [action, found] : plan.found_of_action)
+    {
+        Json files = Json::object();
+        for (const auto& [name, hash] : found)
+            files[name.substr(graph::kFound.size())] = hash;
+        list.push_back({{"action", action}, {"files", files}});
+    }
+    return list;
+}
+
+/// The members of a plan that are more than its graph.
+void readMembers(const Json& json, Plan& plan)
+{
+    const Json& cook = json.at("cook");
+    cook.at("sources").get_to(plan.request.sources);
+    cook.at("options").get_to(plan.request.options);
+    cook.at("statistics").get_to(plan.request.statistics);
+    json.at("folder").get_to(plan.folder);
+    plan.processor = json.value("processor", "");
+    json.at("cookers").get_to(plan.version_of_cooker);
+    json.at("files").get_to(plan.hash_of_file);
+    json.at("shards").get_to(plan.shards);
+    for (const Json& found : json.at("found"))
+        for (const auto& [name, hash] : found.at("files").items())
+            plan.found_of_action[found.at("action").get<size_t>()].emplace_back(
+                std::string(graph::kFound) + name, hash.get<std::string>());
+}
+
+/// May throw, as readMembers: what is not there, or of another type.
+void readEstimates(const Json& actions, graph::Graph& graph)
+{
+    for (size_t i = 0; i < graph.actions.size(); ++i)
+    {
+        const Json& estimate = actions.at(i).at("estimate");
+        estimate.at("memory_bytes").get_to(graph.actions[i].estimate.memory_bytes);
+        estimate.at("seconds").get_to(graph.actions[i].estimate.seconds);
+    }
+}
+
+/// Where a value is not allowed, as a JSON pointer; empty where all are.
+std::string wrongPlace(const Plan& plan)
+{
+    const auto isPath = [](const std::string& path)
+    // a cooker would take it for an option
+    { return !path.empty() && path[0] != '-'; };
+    const auto areHashes = [](const std::map<std::string, std::string>& hashes)
+    {
+        return std::all_of(hashes.begin(), hashes.end(),
+                           [](const auto& field) { return tools::isSha256(field.second); });
+    };
+    if (!plan.folder.starts_with('/'))
+        return "/folder";
+    std::set<std::string> files;
+    std::set<std::string> cookers;
+    bool needs_processor = false;
+    for (const graph::Action& action : plan.graph.actions)
+    {
+        cookers.insert(action.cooker);
+        needs_processor = needs_processor || action.depends_on_processor;
+        if (action.estimate.memory_bytes > kMostBytes || !(action.estimate.seconds >= 0) ||
+            action.estimate.seconds > kMostSeconds)
+            return "/actions";
+        for (const graph::Input& input : action.inputs)
+            if (input.action == graph::kNoAction)
+            {
+                files.insert(input.path);
+                if (!isPath(input.path))
+                    return "/cook";
+            }
+    }
+    const auto areKeys = [](const std::map<std::string, std::string>& map, const std::set<std::string>& keys)
+    {
+        return std::equal(map.begin(), map.end(), keys.begin(), keys.end(),
+                          [](const auto& field, const std::string& key) { return field.first == key; });
+    };
+    if (!areKeys(plan.version_of_cooker, cookers) || !areHashes(plan.version_of_cooker))
+        return "/cookers";
+    if (!areKeys(plan.hash_of_file, files) || !areHashes(plan.hash_of_file))
+        return "/files";
+    if (needs_processor == plan.processor.empty())
+        return "/processor";
+    for (const auto& [action, found] : plan.found_of_action)
+        if (action >= plan.graph.actions.size() || !plan.graph.actions[action].finds_files)
+            return "/found";
+    return "";
+}
+
+/// Each source is in one shard, in order.
+bool areShards(const Shards& shards, size_t source_count)
+{
+    std::vector<size_t> sources;
+    for (const std::vector<size_t>& shard : shards)
+    {
+        if (!std::is_sorted(shard.begin(), shard.end()))
+            return false;
+        sources.insert(sources.end(), shard.begin(), shard.end());
+    }
+    std::sort(sources.begin(), sources.end());
+    for (size_t i = 0; i < sources.size(); ++i)
+        if (sources[i] != i)
+            return false;
+    return sources.size() == source_count && !shards.empty() && shards.size() <= kMaxShards;
+}
+
+/// The first place where two documents differ, whatever the order of members; nullopt where they are the same.
+std::optional<std::string> firstDifference(const std::string& a, std::string_view b)
+{
+    const nlohmann::json difference =
+        nlohmann::json::diff(nlohmann::json::parse(a), nlohmann::json::parse(b));
+    return difference.empty() ? std::nullopt
+                              : std::optional(difference.front().at("path").get<std::string>());
+}
+
+} // namespace
+
+std::string planText(const Plan& plan)
+{
+    Json json = Json::parse(graph::planJson(plan.graph));
+    json["cook"] = {{"sources", plan.request.sources},
+                    {"options", plan.request.options},
+                    {"statistics", plan.request.statistics}};
+    json["folder"] = plan.folder;
+    if (!plan.processor.empty())
+        json["processor"] = plan.processor;
+    json["cookers"] = plan.version_of_cooker;
+    json["files"] = plan.hash_of_file;
+    json["found"] = foundJson(plan);
+    json["shards"] = plan.shards;
+    return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+Result<Plan> parsePlan(std::string_view text, const std::string& file, const ReadRequest& read)
+{
+    const auto wrong = [&](const std::string& where, const std::string& what) {
+        return Error{Issue::plan_syntax, file, where, what};
+    };
+    // text would end there for whoever is handed it
+    if (text.find("\\u0000") != std::string_view::npos)
+        return wrong("", "has a text with a zero in it");
+    const Json json = Json::parse(text, nullptr, false);
+    if (json.is_discarded())
+        return Error{Issue::json_syntax, file, "", ""};
+    if (json.is_object() && json.contains("actions") && !json.contains("shards"))
+        return wrong("", "has no shards: it shows a cook, and is none to be run");
+    Plan plan;
+    // the reader throws where a member is missing or of another type; what it says is of no help to users
+    try
+    {
+        readMembers(json, plan);
+    }
+    catch (const Json::exception&)
+    {
+        return wrong("", "a member is missing, or of another type");
+    }
+    const Result<graph::CookSettings> settings = read(plan.request);
+    if (!settings.ok())
+        return wrong("/cook", settings.error().detail);
+    plan.settings = *settings;
+    Result<graph::Graph> graph = graph::makeCookGraph(plan.settings);
+    if (!graph.ok())
+        return wrong("/cook", graph.error().detail);
+    plan.graph = std::move(graph).value();
+    try
+    {
+        readEstimates(json.at("actions"), plan.graph);
+    }
+    catch (const Json::exception&)
+    {
+        return wrong("/actions", "are not those that the cook would have");
+    }
+    if (const std::string place = wrongPlace(plan); !place.empty())
+        return wrong(place, "has a value that is not allowed");
+    if (!areShards(plan.shards, plan.graph.source_count))
+        return wrong("/shards", "do not have each source once");
+    // what has been understood is all that it says
+    if (const auto place = firstDifference(planText(plan), text))
+        return wrong(*place,
+                     "is not what the cook would have there: it was edited, or made by another version");
+    return plan;
+}
+
+} // namespace hearth::farm

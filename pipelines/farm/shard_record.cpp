@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "pipelines/farm/shard_record.h"
+
+#include "cook/tools/sha256.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <unistd.h>
+
+namespace hearth::farm
+{
+
+namespace
+{
+
+using Json = nlohmann::ordered_json;
+
+constexpr const char* kSchema = "hearth.shard/1";
+constexpr std::array<std::string_view, 5> kEndings{"unknown", "cooked", "kept", "failed", "left out"};
+
+std::optional<uint64_t> numberOf(std::string_view text)
+{
+    uint64_t number = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    return error == std::errc() && end == text.data() + text.size() ? std::optional(number) : std::nullopt;
+}
+
+std::string milliseconds(double seconds)
+{
+    return fmt::format("{:.0f}", seconds * 1e3);
+}
+
+/// false where a field is not one of an action
+bool takeField(const std::string& name, const std::string& value, ShardAction& action)
+{
+    const std::optional<uint64_t> number = numberOf(value);
+    if (name == "ending")
+    {
+        const auto ending = std::find(kEndings.begin(), kEndings.end(), value);
+        if (ending == kEndings.end())
+            return false;
+        action.ending = static_cast<graph::Ending>(ending - kEndings.begin());
+        return true;
+    }
+    if (name == cache::kContentField)
+    {
+        action.result.outputs.push_back({value, 0});
+        return tools::isSha256(value);
+    }
+    if (!number)
+        return false;
+    if (name == "bytes" && !action.result.outputs.empty())
+        action.result.outputs.back().bytes = *number;
+    else if (name == "milliseconds")
+        action.result.seconds = static_cast<double>(*number) * 1e-3;
+    else if (name == "peak_rss_bytes")
+        action.result.peak_rss_bytes = *number;
+    else
+        return false;
+    return true;
+}
+
+/// Whether the cache has a content, whole.
+bool isWhole(const std::string& hash, cache::Cache& cache, const std::string& scratch)
+{
+    const std::string path = scratch + "/content";
+    const bool fetched = cache.fetch(hash, path, cache::Use::read_only);
+    ::unlink(path.c_str());
+    return fetched;
+}
+
+bool areWhole(const graph::KeptResult& result, cache::Cache& cache, const std::string& scratch)
+{
+    return std::all_of(result.outputs.begin(), result.outputs.end(),
+                       [&](const graph::KeptOutput& output) { return isWhole(output.hash, cache, scratch); });
+}
+
+/// All actions of the shard, each with all that it makes.
+bool namesAll(const ShardRecord& record, const Plan& plan, size_t shard)
+{
+    std::vector<size_t> action_of;
+    const graph::Graph graph = actionsOf(plan.graph, plan.shards[shard], action_of);
+    return std::equal(record.actions.begin(), record.actions.end(), action_of.begin(), action_of.end(),
+                      [&](const ShardAction& said, size_t action) {
+                          return said.action == action &&
+                                 said.result.outputs.size() == plan.graph.actions[action].outputs.size();
+                      });
+}
+
+} // namespace
+
+std::string recordKey(const std::string& plan_hash, size_t shard)
+{
+    return tools::sha256Of(fmt::format("shard\n{}\n{}\n", plan_hash, shard));
+}
+
+cache::Fields recordFields(const ShardRecord& record)
+{
+    cache::Fields fields{{"schema", kSchema},
+                         {"exit", std::to_string(record.exit_code)},
+                         {"shard milliseconds", milliseconds(record.seconds)},
+                         {"machine", record.machine}};
+    for (const std::string& error : record.errors)
+        fields.emplace_back("error", error);
+    for (const ShardAction& action : record.actions)
+    {
+        fields.emplace_back("action", std::to_string(action.action));
+        fields.emplace_back("ending", kEndings[static_cast<size_t>(action.ending)]);
+        fields.emplace_back("milliseconds", milliseconds(action.result.seconds));
+        fields.emplace_back("peak_rss_bytes", std::to_string(action.result.peak_rss_bytes));
+        for (const graph::KeptOutput& output : action.result.outputs)
+        {
+            fields.emplace_back(cache::kContentField, output.hash);
+            fields.emplace_back("bytes", std::to_string(output.bytes));
+        }
+    }
+    return fields;
+}
+
+std::optional<ShardRecord> recordOf(const cache::Fields& fields)
+{
+    if (cache::valueOf(fields, "schema") != kSchema)
+        return std::nullopt;
+    ShardRecord record;
+    for (const auto& [name, value] : fields)
+    {
+        if (name == "schema")
+            continue;
+        const std::optional<uint64_t> number = numberOf(value);
+        if (name == "machine")
+            record.machine = value;
+        else if (name == "error")
+            record.errors.push_back(value);
+        else if (name == "exit" && number && *number < 256)
+            record.exit_code = static_cast<int>(*number);
+        else if (name == "shard milliseconds" && number)
+            record.seconds = static_cast<double>(*number) * 1e-3;
+        else if (name == "action" && number)
+            record.actions.emplace_back().action = *number;
+        else if (record.actions.empty() || !takeField(name, value, record.actions.back()))
+            return std::nullopt;
+    }
+    return record;
+}
+
+std::string recordJson(const ShardRecord& record, const Plan& plan, size_t shard)
+{
+    Json json{{"schema", kSchema},
+              {"shard", shard},
+              {"shards", plan.shards.size()},
+              {"exit", record.exit_code},
+              {"machine", record.machine},
+              {"seconds", record.seconds},
+              {"errors", record.errors},
+              {"actions", Json::array()}};
+    for (const ShardAction& said : record.actions)
+    {
+        const graph::Action& action = plan.graph.actions[said.action];
+        Json outputs = Json::object();
+        for (size_t i = 0; i < said.result.outputs.size(); ++i)
+            outputs[action.outputs[i]] = {{"sha256", said.result.outputs[i].hash},
+                                          {"bytes", said.result.outputs[i].bytes}};
+        json["actions"].push_back({{"cooker", action.cooker},
+                                   {"subject", action.subject},
+                                   {"state", kEndings[static_cast<size_t>(said.ending)]},
+                                   {"seconds", said.result.seconds},
+                                   {"peak_rss", said.result.peak_rss_bytes},
+                                   {"outputs", outputs}});
+    }
+    return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+ShardState stateOf(const Plan& plan, const std::string& plan_hash, size_t shard, cache::Cache& cache,
+                   const std::string& scratch)
+{
+    const std::optional<cache::Fields> fields = cache.entry(recordKey(plan_hash, shard));
+    const std::optional<ShardRecord> record = fields ? recordOf(*fields) : std::nullopt;
+    if (!record)
+        return {};
+    ShardState state{ShardState::Kind::failed, *record};
+    if (record->exit_code != 0)
+        return state;
+    const bool is_whole =
+        namesAll(*record, plan, shard) &&
+        std::all_of(record->actions.begin(), record->actions.end(),
+                    [&](const ShardAction& action) { return areWhole(action.result, cache, scratch); });
+    state.kind = is_whole ? ShardState::Kind::whole : ShardState::Kind::lost;
+    return state;
+}
+
+std::vector<size_t> missingResults(const graph::Graph& graph, cache::Cache& cache,
+                                   graph::ActionCache& actions, const std::string& scratch)
+{
+    std::vector<size_t> missing;
+    std::vector<std::string> hash_of_action(graph.actions.size());
+    for (size_t i = 0; i < graph.actions.size(); ++i)
+    {
+        const graph::Action& action = graph.actions[i];
+        if (action.source == graph.source_count)
+            continue;
+        std::vector<std::string> part_hashes;
+        bool is_known = true;
+        for (const graph::Input& input : action.inputs)
+        {
+            part_hashes.push_back(input.action == graph::kNoAction ? "" : hash_of_action[input.action]);
+            is_known = is_known && (input.action == graph::kNoAction || !part_hashes.back().empty());
+        }
+        const auto record = is_known ? actions.recordOf(action, part_hashes) : std::nullopt;
+        const auto result = record ? actions.find(action, *record).result : std::nullopt;
+        if (result && areWhole(*result, cache, scratch))
+            hash_of_action[i] = result->outputs.front().hash;
+        else
+            missing.push_back(i);
+    }
+    return missing;
+}
+
+} // namespace hearth::farm

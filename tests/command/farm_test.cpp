@@ -1,0 +1,474 @@
+// A cook on several machines, with the real cookers: whatever happens to shards, the pack is that of a cook on one.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "tests/command/sandbox.h"
+#include "tests/command/small_sources.h"
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <numeric>
+#include <random>
+#include <sys/stat.h>
+#include <thread>
+
+namespace hearth::test
+{
+
+namespace
+{
+
+namespace fs = std::filesystem;
+
+class Farm : public ::testing::Test
+{
+protected:
+    Farm()
+    {
+        writeObj(folder, "house");
+        writeObj(folder, "barn", 2, 60);
+        writeGltf(folder, "tree");
+        writeGltf(folder, "bush", 0.5F);
+    }
+
+    ProgramEnd hearthIn(Sandbox& place, const std::vector<std::string>& arguments,
+                        const std::vector<std::string>& environment = {})
+    {
+        std::vector<std::string> command{HEARTH_BIN "/hearth"};
+        command.insert(command.end(), arguments.begin(), arguments.end());
+        return place.run(command, environment);
+    }
+
+    ProgramEnd hearth(const std::vector<std::string>& arguments,
+                      const std::vector<std::string>& environment = {})
+    {
+        return hearthIn(folder, arguments, environment);
+    }
+
+    /// A verb over all sources.
+    ProgramEnd over(const std::string& verb, const std::vector<std::string>& options,
+                    const std::vector<std::string>& more = {})
+    {
+        std::vector<std::string> arguments{verb};
+        arguments.insert(arguments.end(), sources.begin(), sources.end());
+        arguments.insert(arguments.end(), options.begin(), options.end());
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return hearth(arguments);
+    }
+
+    /// A plan of all sources; its text.
+    std::string plan(size_t shards, const std::vector<std::string>& options = {})
+    {
+        const ProgramEnd end =
+            over("plan", {"-o", "plan.json", "-q", "--shards", std::to_string(shards)}, options);
+        EXPECT_EQ(end.exit_code, 0) << end.err;
+        return folder.read("plan.json");
+    }
+
+    /// The pack that a cook on this machine makes.
+    std::string localPack(const std::vector<std::string>& options = {})
+    {
+        EXPECT_EQ(over("cook", {"-o", "local.hearth", "-q", "--no-cache"}, options).exit_code, 0);
+        return folder.read("local.hearth");
+    }
+
+    ProgramEnd run(size_t shard, size_t count, const std::vector<std::string>& more = {})
+    {
+        std::vector<std::string> arguments{"run", "plan.json", "--shard",
+                                           std::to_string(shard) + "/" + std::to_string(count)};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return hearth(arguments);
+    }
+
+    /// The pack that the merge makes.
+    std::string merged()
+    {
+        fs::remove(folder / "farm.hearth");
+        const ProgramEnd end = hearth({"merge", "plan.json", "-o", "farm.hearth"});
+        EXPECT_EQ(end.exit_code, 0) << end.err;
+        return folder.read("farm.hearth");
+    }
+
+    void forget() { fs::remove_all(folder.cachePath()); }
+
+    std::vector<std::string> contents() const
+    {
+        std::vector<std::string> paths;
+        for (const auto& file : fs::recursive_directory_iterator(folder.cachePath() + "/cas"))
+            if (file.is_regular_file())
+                paths.push_back(file.path().string());
+        return paths;
+    }
+
+    Sandbox folder;
+    std::vector<std::string> sources{"house.obj", "tree.gltf", "barn.obj", "bush.gltf"};
+};
+
+} // namespace
+
+TEST_F(Farm, makesTheBytesOfALocalCook)
+{
+    sources = {"house.obj", "tree.gltf"};
+    const std::vector<std::string> options{"--visibility", "--visibility-quality", "draft", "--bricks"};
+    const std::string pack = localPack(options);
+    ASSERT_FALSE(pack.empty());
+    std::mt19937 random(3);
+    for (const size_t count : {size_t{1}, size_t{7}})
+    {
+        forget();
+        plan(count, options);
+        std::vector<size_t> order(count);
+        std::iota(order.begin(), order.end(), size_t{0});
+        for (const bool is_warm : {false, true})
+        {
+            std::shuffle(order.begin(), order.end(), random);
+            for (const size_t shard : order)
+            {
+                const ProgramEnd end = run(shard, count);
+                EXPECT_EQ(end.exit_code, 0) << end.err;
+                EXPECT_TRUE(!is_warm || countOf(end.err, " 0 cooked") == 1) << end.err;
+            }
+            EXPECT_TRUE(merged() == pack) << count << " shards, " << (is_warm ? "warm" : "cold");
+        }
+    }
+}
+
+TEST_F(Farm, makesTheSameBytesElsewhere)
+{
+    const std::string pack = localPack();
+    const mode_t mask = ::umask(077);
+    Sandbox elsewhere;
+    for (const std::string& name : folder.list())
+        if (name != "local.hearth")
+            fs::copy(folder / name, elsewhere / name);
+    plan(2);
+    const std::vector<std::vector<std::string>> environments{
+        {"LC_ALL=de_DE.UTF-8", "TZ=Asia/Tokyo"},
+        {"LC_ALL=C", "TZ=America/New_York", "TMPDIR=" + elsewhere.path()}};
+    for (const std::string& shard : {std::string("0/2"), std::string("1/2")})
+    {
+        // the plan's folder is not that of this machine: its sources lie elsewhere
+        const ProgramEnd end = hearthIn(
+            elsewhere,
+            {"run", folder / "plan.json", "-C", ".", "--shard", shard, "--cache", folder.cacheSpec()},
+            environments[shard[0] == '0' ? 0 : 1]);
+        EXPECT_EQ(end.exit_code, 0) << end.err;
+    }
+    ::umask(022);
+    const ProgramEnd end = hearthIn(
+        elsewhere, {"merge", folder / "plan.json", "-o", "farm.hearth", "--cache", folder.cacheSpec()});
+    ::umask(mask);
+    EXPECT_EQ(end.exit_code, 0) << end.err;
+    EXPECT_EQ(countOf(end.err, "import  "), 0u) << "nothing was left to cook: " << end.err;
+    EXPECT_TRUE(elsewhere.read("farm.hearth") == pack);
+}
+
+TEST_F(Farm, cooksWhatShardsHaveNotLeft)
+{
+    const std::string pack = localPack();
+    plan(2);
+    EXPECT_EQ(run(1, 2).exit_code, 0);
+    const ProgramEnd list = hearth({"merge", "plan.json", "-o", "farm.hearth", "--missing", "list"});
+    EXPECT_EQ(list.exit_code, 1);
+    EXPECT_FALSE(folder.has("farm.hearth"));
+    EXPECT_EQ(countOf(list.out, "shard 0/2\n"), 8u) << list.out;
+    EXPECT_EQ(countOf(list.out, "shard 1/2\n"), 0u) << list.out;
+    EXPECT_NE(
+        list.err.find("plan.json|shard 0/2: warning: 8 results are missing: it has left no record [W5100]"),
+        std::string::npos)
+        << list.err;
+    const ProgramEnd end = hearth({"merge", "plan.json", "-o", "farm.hearth"});
+    EXPECT_EQ(end.exit_code, 0) << end.err;
+    EXPECT_EQ(countOf(end.err, "import  "), 2u) << end.err;
+    EXPECT_NE(end.err.find("8 results are missing, and cooked here"), std::string::npos) << end.err;
+    EXPECT_TRUE(folder.read("farm.hearth") == pack);
+    EXPECT_EQ(hearth({"merge", "plan.json", "-o", "farm.hearth", "--missing", "list"}).exit_code, 0);
+}
+
+TEST_F(Farm, believesNoByteOfTheCache)
+{
+    const std::string pack = localPack();
+    plan(1);
+    EXPECT_EQ(run(0, 1).exit_code, 0);
+    EXPECT_EQ(hearth({"farm", "status", "plan.json"}).exit_code, 0);
+    const auto damage = [&]
+    {
+        for (const std::string& path : contents())
+        {
+            fs::permissions(path, fs::perms::owner_all);
+            std::ofstream(path, std::ios::binary | std::ios::in) << "damage";
+        }
+    };
+    damage();
+    const ProgramEnd status = hearth({"farm", "status", "plan.json"});
+    EXPECT_EQ(status.exit_code, 1);
+    EXPECT_NE(status.out.find(" lost "), std::string::npos) << status.out;
+    EXPECT_NE(status.out.find("0 of 1 shards are done\n"), std::string::npos) << status.out;
+    // a shard that is run again mends what it had left
+    EXPECT_EQ(run(0, 1).exit_code, 0);
+    damage();
+    EXPECT_EQ(run(0, 1).exit_code, 0);
+    EXPECT_EQ(hearth({"farm", "status", "plan.json"}).exit_code, 0);
+    EXPECT_TRUE(merged() == pack);
+    damage();
+    EXPECT_TRUE(merged() == pack);
+}
+
+TEST_F(Farm, aKilledShardLeavesNothingWrong)
+{
+    const std::string pack = localPack();
+    plan(1);
+    std::mt19937 random(11);
+    for (int round = 0; round < 2; ++round)
+    {
+        forget();
+        const pid_t process =
+            folder.start({HEARTH_BIN "/hearth", "run", "plan.json", "--shard", "0/1", "-j1"});
+        std::this_thread::sleep_for(std::chrono::milliseconds(50 + random() % 300));
+        ::kill(process, SIGKILL);
+        folder.finish(process);
+        EXPECT_EQ(hearth({"farm", "status", "plan.json"}).exit_code, 1);
+        EXPECT_TRUE(merged() == pack);
+    }
+}
+
+TEST_F(Farm, refusesToCookSomethingElse)
+{
+    plan(2);
+    folder.write("house.obj", folder.read("house.obj") + "# edited\n");
+    const ProgramEnd status = hearth({"farm", "status", "plan.json"});
+    EXPECT_EQ(status.exit_code, 1);
+    const ProgramEnd first = run(0, 2);
+    const ProgramEnd second = run(1, 2);
+    const ProgramEnd& refused = first.exit_code != 0 ? first : second;
+    EXPECT_EQ(first.exit_code + second.exit_code, 65) << first.err << second.err;
+    EXPECT_NE(refused.err.find("house.obj: error: its content has changed since it was planned [E5001]"),
+              std::string::npos)
+        << refused.err;
+    const ProgramEnd merge = hearth({"merge", "plan.json", "-o", "farm.hearth"});
+    EXPECT_EQ(merge.exit_code, 65);
+    EXPECT_FALSE(folder.has("farm.hearth"));
+    const ProgramEnd after = hearth({"farm", "status", "plan.json", "--format", "json"});
+    const auto shards = nlohmann::json::parse(after.out)["shards"];
+    EXPECT_EQ(shards[&refused == &first ? 0 : 1]["state"], "failed");
+    EXPECT_EQ(shards[&refused == &first ? 0 : 1]["exit"], 65);
+    EXPECT_EQ(shards[&refused == &first ? 1 : 0]["state"], "done");
+}
+
+TEST_F(Farm, refusesTexturesThatAreNotThoseOfThePlan)
+{
+    // what the import finds is known to a plan where it has been cooked before
+    localPack();
+    EXPECT_EQ(hearth({"cook", "house.obj", "-o", "house.hearth", "-q"}).exit_code, 0);
+    plan(1);
+    EXPECT_EQ(countOf(folder.read("plan.json"), "source/house.tga"), 1u);
+    folder.write("house.tga", tgaImage(9));
+    const ProgramEnd end = run(0, 1);
+    EXPECT_EQ(end.exit_code, 65);
+    EXPECT_NE(end.err.find("house.tga, which it refers to, has changed"), std::string::npos) << end.err;
+    // else the merge sees to it: what was cooked of another texture is no result of these files
+    forget();
+    plan(1);
+    EXPECT_EQ(run(0, 1).exit_code, 0);
+    folder.write("house.tga", tgaImage(200));
+    const std::string pack = localPack();
+    const ProgramEnd list = hearth({"merge", "plan.json", "-o", "farm.hearth", "--missing", "list"});
+    EXPECT_EQ(countOf(list.out, "house.obj"), 4u) << list.out;
+    EXPECT_TRUE(merged() == pack);
+}
+
+TEST_F(Farm, aFailedSourceIsToldOnceAndByName)
+{
+    folder.write("tree.bin", "short");
+    plan(4);
+    int failed = 0;
+    for (size_t shard = 0; shard < 4; ++shard)
+        if (const ProgramEnd end = run(shard, 4); end.exit_code != 0)
+        {
+            ++failed;
+            EXPECT_EQ(end.exit_code, 65);
+            EXPECT_EQ(countOf(end.err, ": error: "), 1u) << end.err;
+            EXPECT_NE(end.err.find("tree.gltf"), std::string::npos) << end.err;
+        }
+    EXPECT_EQ(failed, 1);
+    const ProgramEnd merge = hearth({"merge", "plan.json", "-o", "farm.hearth"});
+    EXPECT_EQ(merge.exit_code, 65);
+    EXPECT_NE(merge.err.find("with code 65: tree.gltf"), std::string::npos) << merge.err;
+    EXPECT_FALSE(folder.has("farm.hearth"));
+}
+
+TEST_F(Farm, asksForAnotherTryWhereThatMayHelp)
+{
+    // a cache that cannot be written to, as when the disk of all machines is away
+    plan(1);
+    folder.write("file", "not a folder");
+    const ProgramEnd lost = run(0, 1, {"--cache", "dir:file"});
+    EXPECT_EQ(lost.exit_code, 75) << lost.err;
+    EXPECT_EQ(countOf(lost.err, "[E5102]"), 1u) << lost.err;
+    // a cooker that the machine has killed
+    const fs::path copies = folder / "bin";
+    fs::create_directory(copies);
+    for (const auto& program : fs::directory_iterator(HEARTH_BIN))
+        if (program.path().filename().string().starts_with("hearth"))
+            fs::copy(program.path(), copies / program.path().filename());
+    folder.write("bin/hearth-clusters", "#!/bin/sh\nkill -KILL $$\n", true);
+    const std::string program = copies / "hearth";
+    EXPECT_EQ(folder.run({program, "plan", "house.obj", "-o", "killed.json"}).exit_code, 0);
+    const ProgramEnd killed = folder.run({program, "run", "killed.json", "--shard", "0/1"});
+    EXPECT_EQ(killed.exit_code, 75) << killed.err;
+    EXPECT_EQ(countOf(killed.err, "[E5103]"), 1u) << killed.err;
+    const ProgramEnd nothing = run(0, 1, {"--cache", "dir:nowhere,ro"});
+    EXPECT_EQ(nothing.exit_code, 2) << nothing.err;
+    // another build
+    const ProgramEnd other = folder.run({program, "run", "plan.json", "--shard", "0/1"});
+    EXPECT_EQ(other.exit_code, 65) << other.err;
+    EXPECT_EQ(countOf(other.err, "[E5002]"), 1u) << other.err;
+}
+
+TEST_F(Farm, aLauncherIsNotBelieved)
+{
+    plan(2);
+    folder.write("liar", "#!/bin/sh\nexit 0\n", true);
+    folder.write("honest", "#!/bin/sh\n\"$@\"\nexit 3\n", true);
+    const ProgramEnd lied = run(0, 2, {"--launcher", folder / "liar --much", "--record", "0.json"});
+    EXPECT_EQ(lied.exit_code, 75);
+    EXPECT_NE(lied.err.find("plan.json|shard 0/2: error: the launcher ended well, but the shard has left no "
+                            "record in the cache [E5101]"),
+              std::string::npos)
+        << lied.err;
+    EXPECT_FALSE(folder.has("0.json"));
+    const ProgramEnd done = run(0, 2, {"--launcher", folder / "honest", "--record", "0.json"});
+    EXPECT_EQ(done.exit_code, 0) << "its code is no matter: " << done.err;
+    EXPECT_EQ(nlohmann::json::parse(folder.read("0.json"))["actions"].size(), 8u);
+    // it still lies, but all is there
+    EXPECT_EQ(run(0, 2, {"--launcher", folder / "liar"}).exit_code, 0);
+    fs::remove(contents().front());
+    EXPECT_EQ(run(0, 2, {"--launcher", folder / "liar"}).exit_code, 75);
+}
+
+TEST_F(Farm, givesLinesToWhoeverTakesThem)
+{
+    const std::string pack = localPack();
+    const ProgramEnd plan = over("plan", {"-o", "it's a plan.json", "--shards", "3", "--emit", "commands"});
+    EXPECT_EQ(plan.exit_code, 0) << plan.err;
+    EXPECT_EQ(countOf(plan.out, "\n"), 3u) << plan.out;
+    folder.write("lines", plan.out);
+    const size_t merge = plan.err.find("after them: ");
+    ASSERT_NE(merge, std::string::npos) << plan.err;
+    // from another folder, the last first
+    const ProgramEnd end = folder.run({"/bin/sh", "-c", "mkdir sub; cd sub; tac ../lines | sh -e"});
+    EXPECT_EQ(end.exit_code, 0) << end.err;
+    EXPECT_EQ(hearth({"farm", "status", "it's a plan.json"}).exit_code, 0);
+    EXPECT_EQ(folder.run({"/bin/sh", "-c", plan.err.substr(merge + 12)}).exit_code, 0);
+    EXPECT_TRUE(folder.read("it's a plan.hearth") == pack);
+}
+
+TEST_F(Farm, isBuiltByNinja)
+{
+    const std::string pack = localPack();
+    plan(3);
+    const ProgramEnd written = hearth({"farm", "ninja", "plan.json", "-o", "build.ninja", "--launcher",
+                                       "env WHERE=$HOME", "--pack", "out put.hearth"});
+    EXPECT_EQ(written.exit_code, 0) << written.err;
+    const auto ninja = [&] { return folder.run({"/usr/bin/env", "ninja", "-k", "0"}); };
+    const ProgramEnd built = ninja();
+    EXPECT_EQ(built.exit_code, 0) << built.out << built.err;
+    EXPECT_TRUE(folder.read("out put.hearth") == pack);
+    EXPECT_NE(ninja().out.find("no work to do"), std::string::npos);
+    // a launcher that lies breaks the build where it would have gone on with nothing
+    forget();
+    fs::remove_all(folder / "plan.json.shards");
+    fs::remove(folder / "out put.hearth");
+    EXPECT_EQ(hearth({"farm", "ninja", "plan.json", "-o", "build.ninja", "--launcher", "true", "--pack",
+                      "out put.hearth"})
+                  .exit_code,
+              0);
+    const ProgramEnd lied = ninja();
+    EXPECT_NE(lied.exit_code, 0);
+    EXPECT_EQ(countOf(lied.out, "[E5101]"), 3u) << lied.out;
+    EXPECT_FALSE(folder.has("out put.hearth"));
+}
+
+TEST_F(Farm, printsTheScriptForSlurm)
+{
+    plan(7);
+    const ProgramEnd end = hearth({"farm", "slurm", "plan.json", "--print", "--partition", "cook",
+                                   "--mem-per-shard", "2G", "--max-retries", "5"});
+    EXPECT_EQ(end.exit_code, 0) << end.err;
+    for (const char* line : {"#SBATCH --array=0-6\n", "#SBATCH --partition=cook\n", "#SBATCH --mem=2048M\n",
+                             "--dependency=\"afterany:", "\"$SLURM_ARRAY_TASK_ID/7\" --memory 2048M",
+                             "-lt 5 ]", "hearth merge "})
+        EXPECT_NE(end.out.find(line), std::string::npos) << line << end.out;
+    folder.write("script", end.out);
+    EXPECT_EQ(folder.run({"/bin/sh", "-n", "script"}).exit_code, 0);
+    EXPECT_EQ(hearth({"farm", "slurm", "plan.json", "--print", "--partition", "a\nb"}).exit_code, 2);
+    // it is that script which submits: here to a cluster that is none
+    folder.write("sbatch", "#!/bin/sh\ncat > job$$\necho 17\n", true);
+    const ProgramEnd submitted =
+        hearth({"farm", "slurm", "plan.json"}, {"PATH=" + folder.path() + ":/usr/bin:/bin"});
+    EXPECT_EQ(submitted.out, "shards: job 17\nmerge: job 17\n") << submitted.err;
+    folder.write("sbatch", "#!/bin/sh\nexit 1\n", true);
+    EXPECT_EQ(hearth({"farm", "slurm", "plan.json"}, {"PATH=" + folder.path() + ":/usr/bin:/bin"}).exit_code,
+              74);
+}
+
+TEST_F(Farm, reportsWhatWasPlannedWithStatistics)
+{
+    plan(2);
+    EXPECT_EQ(hearth({"merge", "plan.json", "-o", "a.hearth", "--report", "a.json"}).exit_code, 2);
+    plan(2, {"--statistics"});
+    EXPECT_EQ(run(0, 2).exit_code, 0);
+    EXPECT_EQ(run(1, 2).exit_code, 0);
+    EXPECT_EQ(hearth({"merge", "plan.json", "-o", "a.hearth", "--report", "a.json"}).exit_code, 0);
+    const auto report = nlohmann::json::parse(folder.read("a.json"));
+    EXPECT_EQ(report["totals"]["cached"], 16) << "all but the link";
+    EXPECT_FALSE(report["assets"][3]["clusters"].is_null());
+    EXPECT_TRUE(folder.read("a.hearth") == localPack());
+}
+
+TEST_F(Farm, refusesWhatIsNoPlan)
+{
+    const auto refused = [&](const std::string& file, int code)
+    {
+        for (const std::vector<std::string>& arguments :
+             {std::vector<std::string>{"run", file, "--shard", "0/1"},
+              {"merge", file, "-o", "a.hearth"},
+              {"farm", "status", file},
+              {"farm", "slurm", file, "--print"},
+              {"farm", "ninja", file, "-o", "build.ninja"}})
+        {
+            const ProgramEnd end = hearth(arguments);
+            EXPECT_EQ(end.exit_code, code) << arguments[0] << end.err;
+            EXPECT_EQ(countOf(end.err, "\n"), 1u) << end.err;
+            EXPECT_EQ(end.out, "");
+        }
+        EXPECT_FALSE(folder.has("a.hearth"));
+        EXPECT_FALSE(folder.has("build.ninja"));
+    };
+    refused("nowhere.json", 66);
+    folder.write("torn.json", plan(1).substr(0, 300));
+    refused("torn.json", 65);
+    folder.write("shown.json", hearth({"cook", "house.obj", "-o", "a.hearth", "-n", "--format", "json"}).out);
+    refused("shown.json", 65);
+    // options are those of a command line, with its limits
+    for (const char* options : {R"(["--brick-bake", "3"])", R"(["--bricks", "--brick-bake", "99"])",
+                                R"(["--visibility", "--visibility-quality", "best"])", R"(["-o", "x"])",
+                                R"(["--help"])", R"(["more.obj"])"})
+    {
+        nlohmann::json json = nlohmann::json::parse(plan(1));
+        json["cook"]["options"] = nlohmann::json::parse(options);
+        folder.write("edited.json", json.dump());
+        const ProgramEnd end = hearth({"run", "edited.json", "--shard", "0/1"});
+        EXPECT_EQ(end.exit_code, 65) << options;
+        EXPECT_NE(end.err.find("edited.json|/cook: error: "), std::string::npos) << end.err;
+    }
+    EXPECT_EQ(hearth({"plan", "--", "-o.obj", "-o", "p.json"}).exit_code, 2);
+    EXPECT_EQ(hearth({"run", "plan.json"}).exit_code, 2) << "which shard?";
+    EXPECT_EQ(hearth({"run", "plan.json"}, {"SLURM_ARRAY_TASK_ID=0"}).exit_code, 0);
+    EXPECT_EQ(hearth({"run", "plan.json", "--shard", "0/2"}).exit_code, 2);
+}
+
+} // namespace hearth::test

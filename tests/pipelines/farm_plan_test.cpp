@@ -1,0 +1,365 @@
+// Plans of farms: how sources are shared out, which shard a job is, and that a plan is believed in nothing.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "pipelines/farm/emit.h"
+#include "pipelines/farm/plan.h"
+#include "pipelines/farm/shard_index.h"
+#include "pipelines/farm/shard_record.h"
+#include "pipelines/farm/shards.h"
+#include "tests/command/sandbox.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <functional>
+#include <gtest/gtest.h>
+#include <limits>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <numeric>
+#include <random>
+
+namespace hearth::farm
+{
+
+namespace
+{
+
+using test::Sandbox;
+
+double longestOf(const Shards& shards, const std::vector<double>& seconds)
+{
+    double longest = 0;
+    for (const std::vector<size_t>& shard : shards)
+        longest = std::max(longest, std::accumulate(shard.begin(), shard.end(), 0.0,
+                                                    [&](double sum, size_t s) { return sum + seconds[s]; }));
+    return longest;
+}
+
+/// The least that the longest shard can take: every distribution is tried.
+double bestOf(const std::vector<double>& seconds, size_t count)
+{
+    double best = std::numeric_limits<double>::infinity();
+    std::vector<size_t> shard_of(seconds.size(), 0);
+    for (;;)
+    {
+        std::vector<double> load(count);
+        for (size_t i = 0; i < seconds.size(); ++i)
+            load[shard_of[i]] += seconds[i];
+        best = std::min(best, *std::max_element(load.begin(), load.end()));
+        size_t digit = 0;
+        while (digit < shard_of.size() && ++shard_of[digit] == count)
+            shard_of[digit++] = 0;
+        if (digit == shard_of.size())
+            return best;
+    }
+}
+
+/// As the command line is read, of what these tests give.
+Result<graph::CookSettings> readRequest(const Request& request)
+{
+    graph::CookSettings settings;
+    settings.sources = request.sources;
+    settings.output = kPackName;
+    settings.statistics = request.statistics;
+    for (size_t i = 0; i < request.options.size(); ++i)
+        if (request.options[i] == "--visibility")
+            settings.visibility.emplace();
+        else if (request.options[i] == "--profile" && i + 1 < request.options.size())
+            settings.profile = request.options[++i];
+        else
+            return Error{Issue::usage, "hearth", "", "unknown option " + request.options[i]};
+    return settings;
+}
+
+/// A folder with sources and cookers, and a plan for them.
+class PlanFile : public ::testing::Test
+{
+protected:
+    PlanFile()
+    {
+        for (const char* name : {"a.obj", "b.obj", "c.obj", "house.toml", "wood.png"})
+            folder.write(name, name);
+        for (const char* cooker :
+             {"import", "textures", "clusters", "skinning", "visibility", "specular", "link"})
+            folder.write(std::string("hearth-") + cooker, cooker, true);
+    }
+
+    Result<Plan> make(const Request& request)
+    {
+        graph::FileHashes hashes(folder.path());
+        graph::ActionCache actions(cache, hashes, folder.path());
+        return makePlan(request, readRequest, folder.path(), 2, folder.path(), actions, hashes);
+    }
+
+    Request request()
+    {
+        return {{folder / "a.obj", folder / "b.obj", folder / "c.obj"},
+                {"--visibility", "--profile", folder / "house.toml"},
+                true};
+    }
+
+    Status check(const Plan& plan, const std::vector<size_t>& sources)
+    {
+        graph::FileHashes hashes(folder.path());
+        graph::ActionCache actions(cache, hashes, folder.path());
+        return checkPlan(plan, sources, folder.path(), actions, hashes);
+    }
+
+    Sandbox folder;
+    cache::Cache cache{{}, [](const Error&) {}};
+};
+
+} // namespace
+
+TEST(Shards, takeAtMostFourThirdsOfTheBest)
+{
+    std::mt19937 random(5);
+    for (int round = 0; round < 40; ++round)
+    {
+        const size_t count = 2 + random() % 2;
+        std::vector<double> seconds(1 + random() % 8);
+        for (double& s : seconds)
+            s = 1 + static_cast<double>(random() % 100);
+        const Shards shards = distribute(seconds, count);
+        ASSERT_EQ(shards.size(), count);
+        const double bound = 4.0 / 3 - 1 / (3 * static_cast<double>(count));
+        EXPECT_LE(longestOf(shards, seconds), bestOf(seconds, count) * bound * (1 + 1e-12));
+    }
+}
+
+TEST(Shards, haveEachSourceOnceAndInOrder)
+{
+    EXPECT_EQ(distribute(std::vector<double>{5, 4, 3, 3, 3}, 2), (Shards{{0, 3}, {1, 2, 4}}));
+    EXPECT_EQ(distribute(std::vector<double>{1, 1, 1}, 2), (Shards{{0, 2}, {1}})) << "the first of equals";
+    EXPECT_EQ(distribute(std::vector<double>{1}, 3), (Shards{{0}, {}, {}}));
+}
+
+TEST(Shards, areAsManyAsHaveAMinuteToDo)
+{
+    EXPECT_EQ(shardCountFor(std::vector<double>{1, 2}), 1u);
+    EXPECT_EQ(shardCountFor(std::vector<double>(10, 30.0)), 5u);
+    EXPECT_EQ(shardCountFor(std::vector<double>{1000, 1000}), 2u) << "a source is not shared";
+    EXPECT_EQ(shardCountFor({}), 1u);
+}
+
+TEST(ShardIndex, isWhatIsSaidFirst)
+{
+    using Variables = std::map<std::string, std::string>;
+    const auto index = [](const std::string& option, const Variables& variables)
+    {
+        const Result<size_t> shard =
+            shardIndex(option, 7,
+                       [&](const char* name) -> const char*
+                       {
+                           const auto found = variables.find(name);
+                           return found == variables.end() ? nullptr : found->second.c_str();
+                       });
+        return shard.ok() ? static_cast<int>(*shard) : -exitCode(shard.error());
+    };
+    Variables all{{"SLURM_ARRAY_TASK_ID", "3"},
+                  {"SLURM_ARRAY_TASK_MIN", "1"},
+                  {"SLURM_ARRAY_TASK_MAX", "7"},
+                  {"JOB_COMPLETION_INDEX", "3"},
+                  {"AWS_BATCH_JOB_ARRAY_INDEX", "4"},
+                  {"SGE_TASK_ID", "7"},
+                  {"SGE_TASK_FIRST", "2"},
+                  {"SGE_TASK_LAST", "8"},
+                  {"PBS_ARRAY_INDEX", "6"}};
+    EXPECT_EQ(index("1/7", all), 1);
+    EXPECT_EQ(index("", all), 2) << "Slurm, counted from 1";
+    all.erase("SLURM_ARRAY_TASK_ID");
+    EXPECT_EQ(index("", all), 3);
+    all.erase("JOB_COMPLETION_INDEX");
+    EXPECT_EQ(index("", all), 4);
+    all.erase("AWS_BATCH_JOB_ARRAY_INDEX");
+    EXPECT_EQ(index("", all), 5) << "Grid Engine, counted from 2";
+    all["SGE_TASK_ID"] = "undefined";
+    EXPECT_EQ(index("", all), 6);
+    EXPECT_EQ(index("", {}), -2);
+    for (const char* wrong : {"7/7", "0/6", "1", "1/", "/7", "-1/7", "1/7x", "1 /7", "x"})
+        EXPECT_EQ(index(wrong, all), -2) << wrong;
+    EXPECT_EQ(index("", {{"JOB_COMPLETION_INDEX", "7"}}), -2);
+    EXPECT_EQ(index("", {{"PBS_ARRAY_INDEX", "two"}}), -2);
+    // part of an array that is submitted again: it may not be taken for the whole
+    EXPECT_EQ(
+        index("",
+              {{"SLURM_ARRAY_TASK_ID", "3"}, {"SLURM_ARRAY_TASK_MIN", "3"}, {"SLURM_ARRAY_TASK_MAX", "5"}}),
+        -2);
+    EXPECT_EQ(index("", {{"SLURM_ARRAY_TASK_ID", "2"},
+                         {"SLURM_ARRAY_TASK_MIN", "0"},
+                         {"SLURM_ARRAY_TASK_MAX", "6"},
+                         {"SLURM_ARRAY_TASK_STEP", "2"}}),
+              -2);
+}
+
+TEST_F(PlanFile, comesBack)
+{
+    const Result<Plan> plan = make(request());
+    ASSERT_TRUE(plan.ok()) << formatMessage(plan.error());
+    const std::string text = planText(*plan);
+    EXPECT_EQ(planText(*make(request())), text) << "the same plan";
+    const Result<Plan> again = parsePlan(text, "plan.json", readRequest);
+    ASSERT_TRUE(again.ok()) << formatMessage(again.error());
+    EXPECT_EQ(planText(*again), text);
+    EXPECT_EQ(again->hash_of_file.size(), 4u) << "three sources and a profile";
+    EXPECT_EQ(again->shards.size(), 2u);
+    EXPECT_FALSE(again->processor.empty()) << "rays are traced";
+}
+
+TEST_F(PlanFile, isRefusedWhereItIsNotWhatACookWouldBe)
+{
+    using nlohmann::json;
+    const std::string text = planText(*make(request()));
+    const auto changed = [&](const std::function<void(json&)>& change)
+    {
+        json plan = json::parse(text);
+        change(plan);
+        return plan.dump();
+    };
+    const auto placeOf = [](const std::string& plan)
+    {
+        const Result<Plan> parsed = parsePlan(plan, "plan.json", readRequest);
+        if (parsed.ok())
+            return std::string("taken");
+        EXPECT_EQ(exitCode(parsed.error()), 65);
+        EXPECT_EQ(parsed.error().file, "plan.json");
+        return parsed.error().where;
+    };
+    EXPECT_EQ(placeOf(changed([](json&) {})), "taken");
+
+    struct Row
+    {
+        std::string where;
+        std::function<void(json&)> change;
+    };
+    const std::vector<Row> rows{
+        // programs and command lines
+        {"/actions/0/cooker", [](json& p) { p["actions"][0]["cooker"] = "../../bin/sh"; }},
+        {"/actions/0/words/0", [](json& p) { p["actions"][0]["words"][0] = "-o/etc/passwd"; }},
+        {"/actions/2/words/-", [](json& p) { p["actions"][2]["words"].push_back("--debug-output"); }},
+        {"/actions/0/outputs/0", [](json& p) { p["actions"][0]["outputs"][0] = "../../../etc/cron.d/x"; }},
+        {"/actions/0/inputs/0/path", [](json& p) { p["actions"][0]["inputs"][0]["path"] = "/etc/shadow"; }},
+        {"/cook", [](json& p) { p["cook"]["options"].push_back("--launcher"); }},
+        {"/cook", [](json& p) { p["cook"]["sources"][0] = "--depfile=/etc/passwd"; }},
+        {"/cook", [](json& p) { p["cook"]["options"][2] = "-o"; }},
+        {"/cookers", [](json& p) { p["cookers"]["sh"] = p["cookers"]["import"]; }},
+        {"/cookers", [](json& p) { p["cookers"].erase("link"); }},
+        {"/cookers", [](json& p) { p["cookers"]["import"] = "whatever"; }},
+        // contents
+        {"/files", [](json& p) { p["files"].begin().value() = "x"; }},
+        {"/files", [](json& p) { p["files"].erase(p["files"].begin()); }},
+        {"/files", [](json& p) { p["files"]["more.obj"] = std::string(64, 'a'); }},
+        {"/found",
+         [](json& p) {
+             p["found"] = {{{"action", 1}, {"files", {{"source/x", "absent"}}}}};
+         }},
+        {"/processor", [](json& p) { p.erase("processor"); }},
+        {"/folder", [](json& p) { p["folder"] = "relative"; }},
+        // shards
+        {"/shards", [](json& p) { p["shards"] = json::array(); }},
+        {"/shards",
+         [](json& p) {
+             p["shards"] = {{0, 1}, {1, 2}};
+         }},
+        {"/shards",
+         [](json& p) {
+             p["shards"] = {{0, 1}};
+         }},
+        {"/shards",
+         [](json& p) {
+             p["shards"] = {{2, 1, 0}};
+         }},
+        {"/shards",
+         [](json& p) {
+             p["shards"] = {{0, 1, 2, 3}};
+         }},
+        // numbers
+        {"/actions", [](json& p) { p["actions"][0]["estimate"]["memory_bytes"] = -1; }},
+        {"/actions", [](json& p) { p["actions"][0]["estimate"]["seconds"] = -1; }},
+        {"/actions", [](json& p) { p["actions"][0]["estimate"].erase("seconds"); }},
+        {"/actions", [](json& p) { p["actions"] = json::array(); }},
+        {"/sources", [](json& p) { p["sources"] = 4; }},
+        {"/schema", [](json& p) { p["schema"] = "hearth.plan/2"; }},
+        {"/run", [](json& p) { p["run"] = "rm"; }},
+        {"/cook/run", [](json& p) { p["cook"]["run"] = "rm"; }},
+        {"", [](json& p) { p.erase("shards"); }},
+        {"", [](json& p) { p.erase("cook"); }},
+        {"", [](json& p) { p["folder"] = 7; }},
+        {"/shards", [](json& p) { p["shards"][0][0] = -1; }},
+        {"", [](json& p) { p["cook"]["sources"][0] = std::string("a.obj\0.exe", 10); }},
+    };
+    for (const Row& row : rows)
+        EXPECT_EQ(placeOf(changed(row.change)), row.where) << "row " << &row - rows.data();
+    EXPECT_EQ(placeOf("[]"), "");
+    EXPECT_EQ(parsePlan(text.substr(0, text.size() / 2), "plan.json", readRequest).error().issue,
+              Issue::json_syntax);
+    EXPECT_EQ(parsePlan(std::string(100000, '['), "plan.json", readRequest).error().issue,
+              Issue::json_syntax);
+}
+
+TEST_F(PlanFile, isNotCookedFromSomethingElse)
+{
+    const Plan plan = *make(request());
+    EXPECT_TRUE(check(plan, {0, 1, 2}).ok());
+    folder.write("b.obj", "edited");
+    EXPECT_EQ(check(plan, {0, 1, 2}).error().issue, Issue::plan_stale);
+    EXPECT_EQ(check(plan, {1}).error().file, folder / "b.obj");
+    EXPECT_TRUE(check(plan, {0, 2}).ok()) << "what others cook is no matter";
+    folder.write("b.obj", "b.obj");
+    folder.write("house.toml", "edited");
+    EXPECT_EQ(check(plan, {0}).error().file, folder / "house.toml");
+    folder.write("house.toml", "house.toml");
+    folder.write("hearth-clusters", "another build", true);
+    EXPECT_EQ(check(plan, {0}).error().issue, Issue::plan_build);
+    folder.write("hearth-clusters", "clusters", true);
+    folder.write("hearth-link", "another build", true);
+    EXPECT_TRUE(check(plan, {0}).ok()) << "a shard does not link";
+    EXPECT_EQ(check(plan, {0, 1, 2}).error().issue, Issue::plan_build);
+    folder.write("hearth-link", "link", true);
+    Plan of_others = plan;
+    of_others.processor = "pdp11";
+    EXPECT_EQ(check(of_others, {0}).error().issue, Issue::plan_processor);
+    Plan with_texture = plan;
+    with_texture.found_of_action[0] = {{"found source/wood.png", plan.hash_of_file.begin()->second}};
+    EXPECT_EQ(check(with_texture, {0}).error().issue, Issue::plan_stale);
+    EXPECT_NE(check(with_texture, {0}).error().detail.find("wood.png"), std::string::npos);
+    std::filesystem::remove(folder / "c.obj");
+    EXPECT_EQ(check(plan, {2}).error().issue, Issue::input_missing);
+    EXPECT_EQ(make(request()).error().issue, Issue::input_missing);
+}
+
+TEST(ShardRecord, comesBack)
+{
+    ShardRecord record;
+    record.exit_code = 65;
+    record.seconds = 1.5;
+    record.machine = "w1";
+    record.errors = {"one", "two\nlines"};
+    record.actions = {
+        {4, graph::Ending::cooked, {{{std::string(64, 'a'), 7}, {std::string(64, 'b'), 8}}, {}, 2, 0, 9}},
+        {5, graph::Ending::left_out, {}}};
+    const cache::Fields fields = recordFields(record);
+    const auto again = recordOf(fields);
+    ASSERT_TRUE(again.has_value());
+    EXPECT_EQ(recordFields(*again), fields);
+    EXPECT_EQ(again->actions[0].result.outputs[1].bytes, 8u);
+    for (size_t i = 0; i < fields.size(); ++i)
+    {
+        cache::Fields damaged = fields;
+        damaged[i].first = "strange";
+        EXPECT_FALSE(recordOf(damaged).has_value()) << fields[i].first;
+    }
+    EXPECT_NE(recordKey("h", 1), recordKey("h", 11));
+}
+
+TEST(ShellQuoted, isOneWordToAShell)
+{
+    Sandbox folder;
+    for (const std::string word :
+         {"plain-/_.:=,+@%1", "", "two words", "it's", "'", "$HOME `id` \"x\" \\", "a;b&c|d>e\nf", "*", "~"})
+    {
+        const test::ProgramEnd end = folder.run({"/bin/sh", "-c", "printf %s " + shellQuoted(word)});
+        EXPECT_EQ(end.out, word);
+    }
+}
+
+} // namespace hearth::farm
