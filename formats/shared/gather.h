@@ -25,8 +25,8 @@ HEARTH_CONSTANT uint kGatherFrames = 16;
 /// Rays of a lobe a frame; there are two, and each ray of the hemisphere has one of a lobe beside it.
 HEARTH_CONSTANT uint kGatherLobeRays = 8;
 
-/// Roughness of the lobes. The sharp one is about as wide as the tiles that are smoothed over, at 1280 pixels, and as a voxel
-/// at a distance of 12.
+/// Roughness of the lobes. Half of the sharp one lies within .08 of the mirror's direction, which is as wide as a voxel at a
+/// distance of 12 of its sizes: one that is sharper shows voxels.
 HEARTH_CONSTANT float kGatherSharp = 0.2f;
 HEARTH_CONSTANT float kGatherWide = 0.55f;
 
@@ -84,7 +84,7 @@ struct GatherLobeShares
 };
 
 /// Straight between kGatherSharp, kGatherWide and 1, where a lobe is next to the cosine's. Below kGatherSharp all is the
-/// sharp lobe: tiles and voxels show nothing finer.
+/// sharp lobe.
 /// roughness  perceptual
 HEARTH_FUNCTION GatherLobeShares gatherLobeShares(float roughness)
 {

@@ -9,7 +9,7 @@
 namespace hearth::gpu
 {
 
-/// Of FrameTargets: 3.5 bytes a pixel.
+/// Of FrameTargets: 4 bytes a pixel.
 class GatherTargets
 {
 public:
