@@ -10,10 +10,12 @@ function(hearth_library name)
   target_link_libraries(${name} PUBLIC hearth_settings ${ARG_LINKS} PRIVATE hearth_warnings ${ARG_PRIVATE_LINKS})
 endfunction()
 
+configure_file(${CMAKE_CURRENT_LIST_DIR}/program_version.cpp.in ${PROJECT_BINARY_DIR}/program_version.cpp @ONLY)
+
 # hearth_executable(NAME SOURCES ... LINKS ...): a program in <build>/bin.
 function(hearth_executable name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LINKS" ${ARGN})
-  add_executable(${name} ${ARG_SOURCES})
+  add_executable(${name} ${ARG_SOURCES} ${PROJECT_BINARY_DIR}/program_version.cpp)
   target_link_libraries(${name} PRIVATE hearth_settings hearth_warnings ${ARG_LINKS})
   add_dependencies(hearth_unit_tests ${name})
 endfunction()

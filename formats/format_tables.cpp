@@ -235,6 +235,8 @@ std::string_view className(IssueClass kind)
         return "cannot write, 73";
     case IssueClass::io:
         return "I/O, 74";
+    case IssueClass::config:
+        return "settings, 78";
     }
     return "";
 }

@@ -73,6 +73,8 @@ int exitCode(const Error& error)
         return 73;
     case IssueClass::io:
         return 74;
+    case IssueClass::config:
+        return 78;
     }
     return 70;
 }

@@ -62,6 +62,7 @@ std::string exitCodeTable()
            "   70  a defect of Hearth\n"
            "   73  an output cannot be written\n"
            "   74  reading or writing failed half way\n"
+           "   78  a profile or another file of settings is wrong\n"
            "  130  interrupted\n";
 }
 

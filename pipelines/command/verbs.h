@@ -21,7 +21,12 @@ void addVerify(CLI::App& app, Work& run);
 void addExtract(CLI::App& app, Work& run);
 void addWhy(CLI::App& app, Work& run);
 void addCache(CLI::App& app, Work& run);
+void addConfig(CLI::App& app, Work& run);
+void addCompletion(CLI::App& app, Work& run);
+void addDoctor(CLI::App& app, Work& run);
 void addExplain(CLI::App& app, Work& run);
+void addMan(CLI::App& app, Work& run);
+void addSchema(CLI::App& app, Work& run);
 void addVersion(CLI::App& app, Work& run);
 
 } // namespace hearth::command
