@@ -10,6 +10,8 @@ function(hearth_library name)
   target_link_libraries(${name} PUBLIC hearth_settings ${ARG_LINKS} PRIVATE hearth_warnings ${ARG_PRIVATE_LINKS})
 endfunction()
 
+configure_file(${CMAKE_CURRENT_LIST_DIR}/program_version.cpp.in ${PROJECT_BINARY_DIR}/program_version.cpp @ONLY)
+
 # hearth_archive(NAME OBJECTS_OF ... EXPORTS_AS X INCLUDES DIRECTORY): a static library for those who use Hearth, hearth::X,
 # of all that the named libraries are compiled to, without the settings that hold inside the house. INCLUDES is where
 # its headers lie here.
@@ -35,7 +37,7 @@ endfunction()
 # unless they are of tests/.
 function(hearth_executable name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LINKS" ${ARGN})
-  add_executable(${name} ${ARG_SOURCES})
+  add_executable(${name} ${ARG_SOURCES} ${PROJECT_BINARY_DIR}/program_version.cpp)
   target_link_libraries(${name} PRIVATE hearth_settings hearth_warnings ${ARG_LINKS})
   add_dependencies(hearth_unit_tests ${name})
   file(RELATIVE_PATH folder ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_SOURCE_DIR})

@@ -237,6 +237,8 @@ std::string_view className(IssueClass kind)
         return "I/O, 74";
     case IssueClass::temporary:
         return "temporary, 75";
+    case IssueClass::config:
+        return "settings, 78";
     }
     return "";
 }

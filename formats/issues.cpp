@@ -75,6 +75,8 @@ int exitCode(const Error& error)
         return 74;
     case IssueClass::temporary:
         return 75;
+    case IssueClass::config:
+        return 78;
     }
     return 70;
 }

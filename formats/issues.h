@@ -22,6 +22,7 @@ enum class IssueClass : uint8_t
     cannotWrite, ///< 73: an output cannot be created
     io,          ///< 74: reading or writing failed half way
     temporary,   ///< 75: another try may go better
+    config,      ///< 78: a profile or another file of settings is wrong
 };
 
 // X(name, code, class, summary, hint)
@@ -77,11 +78,16 @@ enum class IssueClass : uint8_t
     X(dropped, 1400, warning, "a part of the source is not kept", "")                                        \
     X(degraded, 1401, warning, "a part of the source is drawn in a simpler way", "")                         \
     X(repaired, 1402, warning, "a part of the source was repaired", "")                                      \
-    X(profile_syntax, 1500, malformed, "a profile is not valid TOML",                                        \
+    X(profile_syntax, 1500, config, "a file of settings is not valid TOML",                                  \
       "see https://toml.io for how TOML is written")                                                         \
-    X(profile_key, 1501, malformed, "a profile has a key that is not known", "check its spelling")           \
-    X(profile_value, 1502, malformed, "a value of a profile is not allowed",                                 \
-      "correct the value in the profile")                                                                    \
+    X(profile_key, 1501, config, "a setting is not known here", "check its spelling: see hearth config")     \
+    X(profile_value, 1502, config, "the value of a setting is not allowed", "correct the value")             \
+    X(profile_unknown, 1510, config, "there is no profile of that name",                                     \
+      "name one that is built in or in hearth.toml, or a TOML file")                                         \
+    X(profile_circle, 1511, config, "profiles inherit from each other in a circle",                          \
+      "let one of them inherit from none")                                                                   \
+    X(no_source, 1512, missing, "a folder or pattern has no source in it",                                   \
+      "name a folder with glTF, GLB, OBJ, PLY, STL, OFF or Draco files")                                     \
     X(camera_path, 1600, malformed, "a camera path is not valid",                                            \
       "write a camera a line: PX,PY,PZ,TX,TY,TZ,FOV")                                                        \
     X(table_rows, 1601, malformed, "rows of numbers are not as they should be",                              \

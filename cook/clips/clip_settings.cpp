@@ -60,15 +60,19 @@ Result<StatedError> readStatedError(const std::string& profile_path)
     std::ifstream file(profile_path, std::ios::binary);
     if (!file.is_open() || std::filesystem::is_directory(profile_path, error))
         return Error{Issue::input_missing, profile_path, "", "the profile cannot be read"};
-    const std::string text((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+    return parseStatedError(
+        std::string(std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()), profile_path);
+}
+
+Result<StatedError> parseStatedError(std::string_view text, const std::string& name)
+{
     try
     {
-        return statedErrorOf(toml::parse(text), profile_path);
+        return statedErrorOf(toml::parse(text), name);
     }
     catch (const toml::parse_error& malformed)
     {
-        return Error{Issue::profile_syntax, profile_path,
-                     fmt::format("line {}", malformed.source().begin.line),
+        return Error{Issue::profile_syntax, name, fmt::format("line {}", malformed.source().begin.line),
                      std::string(malformed.description())};
     }
 }

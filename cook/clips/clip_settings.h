@@ -6,6 +6,7 @@
 #include "formats/result.h"
 
 #include <string>
+#include <string_view>
 
 namespace hearth::clips
 {
@@ -14,5 +15,9 @@ namespace hearth::clips
 /// the size of each model. Strict, as the cluster builder is with its own table.
 /// errors: input_missing, profile_syntax, profile_key, profile_value; they name the line and the key.
 Result<StatedError> readStatedError(const std::string& profile_path);
+
+/// The same of TOML text; `name` is what messages call it.
+/// errors: profile_syntax, profile_key, profile_value.
+Result<StatedError> parseStatedError(std::string_view text, const std::string& name);
 
 } // namespace hearth::clips

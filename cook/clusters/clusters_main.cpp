@@ -6,6 +6,7 @@
 #include "cook/clusters/source_part.h"
 #include "cook/clusters/statistics.h"
 #include "cook/tools/batch.h"
+#include "cook/tools/lines.h"
 #include "cook/tools/whole_file.h"
 
 #include <CLI/CLI.hpp>
@@ -30,6 +31,7 @@ struct Arguments
     std::vector<std::string> lods;
     size_t jobs = 0;
     std::string profile;
+    std::vector<std::string> settings;
     std::string statistics;
     bool statistics_with_times = false;
     bool visibility = false;
@@ -146,7 +148,9 @@ Status cook(const Arguments& arguments, const clusters::Profile& profile,
 
 Result<clusters::Profile> profileOf(const Arguments& arguments)
 {
-    return arguments.profile.empty() ? clusters::Profile{} : clusters::readProfile(arguments.profile);
+    if (!arguments.profile.empty())
+        return clusters::readProfile(arguments.profile);
+    return clusters::parseProfile(tools::joinedLines(arguments.settings), "--set");
 }
 
 int run(const Arguments& arguments)
@@ -158,8 +162,8 @@ int run(const Arguments& arguments)
     const Result<clusters::Profile> profile = profileOf(arguments);
     if (!profile.ok())
         return fail(profile.error());
-    const clusters::SourcePart source =
-        clusters::openSourcePart(arguments.input, {arguments.lods, arguments.profile}, arguments.output);
+    const clusters::SourcePart source = clusters::openSourcePart(
+        arguments.input, {arguments.lods, arguments.profile, arguments.settings}, arguments.output);
     if (!source.part)
         return source.exit_code;
     const Status status = cook(arguments, *profile, *source.part);
@@ -178,8 +182,12 @@ int program(int argc, char** argv)
            "N=FILE: level of detail N of the source's only mesh, made by hand; not with an import part")
         ->allow_extra_args(false);
     app.add_option("-j,--jobs", arguments.jobs, "threads to use; the result does not depend on it");
-    app.add_option("--profile", arguments.profile,
-                   "TOML file that says how far each level is simplified; see cook/clusters/README.md");
+    auto* profile =
+        app.add_option("--profile", arguments.profile,
+                       "TOML file that says how far each level is simplified; see cook/clusters/README.md");
+    app.add_option("--set", arguments.settings, "KEY=VALUE: a line of a profile, as clusters.normal_bits=16")
+        ->allow_extra_args(false)
+        ->excludes(profile);
     app.add_flag("--visibility", arguments.visibility,
                  "give vertices with normals a visibility, open until hearth-visibility bakes it");
     auto* statistics = app.add_option("--stats", arguments.statistics,
@@ -200,7 +208,7 @@ int program(int argc, char** argv)
         "  hearth-clusters scene.import.part -o scene.clusters.part\n"
         "  hearth-clusters rock.glb -o rock.part --stats - --debug-level 3 --debug-output rock3.ply\n"
         "Exit codes: 0 done, 2 usage, 65 malformed input, 66 input missing, 70 internal, 73 cannot write, "
-        "74 I/O, 130 interrupted");
+        "74 I/O, 78 wrong settings, 130 interrupted");
     try
     {
         app.parse(argc, argv);

@@ -228,8 +228,9 @@ Status readRules(const toml::table& table, std::string_view name, const Place& p
 
 Result<Profile> profileOf(const toml::table& root, const std::string& path)
 {
-    // [animation] is for hearth-import
-    HEARTH_TRY(tableAt(root, {path, ""}, {"animation", "clusters"}));
+    // the other tables are for other cookers, and hearth reads what a profile inherits
+    HEARTH_TRY(tableAt(root, {path, ""},
+                       {"animation", "bricks", "clusters", "import", "inherits", "textures", "visibility"}));
     Profile profile;
     const toml::node* node = root.get("clusters");
     if (node == nullptr)
@@ -255,14 +256,19 @@ Result<Profile> readProfile(const std::string& path)
     std::ifstream file(path, std::ios::binary);
     if (!file.is_open() || std::filesystem::is_directory(path, error))
         return Error{Issue::input_missing, path, "", "the profile cannot be read"};
-    const std::string text((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+    return parseProfile(std::string(std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()),
+                        path);
+}
+
+Result<Profile> parseProfile(std::string_view text, const std::string& name)
+{
     try
     {
-        return profileOf(toml::parse(text), path);
+        return profileOf(toml::parse(text), name);
     }
     catch (const toml::parse_error& wrong)
     {
-        return Error{Issue::profile_syntax, path, fmt::format("line {}", wrong.source().begin.line),
+        return Error{Issue::profile_syntax, name, fmt::format("line {}", wrong.source().begin.line),
                      std::string(wrong.description())};
     }
 }

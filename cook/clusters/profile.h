@@ -51,6 +51,10 @@ struct Profile
 /// errors: input_missing, profile_syntax, profile_key, profile_value; they name the line and the key.
 Result<Profile> readProfile(const std::string& path);
 
+/// The same of TOML text; `name` is what messages call it.
+/// errors: profile_syntax, profile_key, profile_value.
+Result<Profile> parseProfile(std::string_view text, const std::string& name);
+
 /// What the profile says of one mesh: the first rule that matches its name, what that leaves open as for all, and for
 /// each material the first rule that matches its own.
 Config configOf(const Profile& profile, std::string_view mesh_name,

@@ -79,6 +79,8 @@ SourcePart importSource(const std::string& source, const ImportArguments& argume
         command.insert(command.end(), {"--lod", lod});
     if (!arguments.profile.empty())
         command.insert(command.end(), {"--profile", arguments.profile});
+    for (const std::string& setting : arguments.settings)
+        command.insert(command.end(), {"--set", setting});
     const auto child = children.start(command);
     if (!child.ok())
         return failed(child.error());

@@ -20,8 +20,9 @@ struct SourcePart
 /// What hearth-import is told, where it runs; an import part has been told before.
 struct ImportArguments
 {
-    std::span<const std::string> lods; ///< "N=FILE"
-    std::string profile;               ///< empty: none
+    std::span<const std::string> lods;     ///< "N=FILE"
+    std::string profile;                   ///< empty: none
+    std::span<const std::string> settings; ///< of --set, where there is no profile
 };
 
 /// Open an import part; a file that is no container goes through the program hearth-import beside this one, into a

@@ -7,6 +7,8 @@
 #include "formats/pack_view.h"
 #include "formats/scene.h"
 
+#include <algorithm>
+
 namespace hearth::textures
 {
 
@@ -15,15 +17,12 @@ using namespace formats;
 namespace
 {
 
-// What Vulkan devices on phones can use; larger sizes could also overflow the sizes of the data.
-constexpr uint32_t kMaxSize = 16384;
-
 /// The texels of the finest mip.
 Result<std::vector<std::byte>> readTexels(const ContainerReader& part, const ImageRecord& image,
                                           uint32_t index)
 {
     const std::string where = "image " + std::to_string(index);
-    if (image.width == 0 || image.width > kMaxSize || image.height == 0 || image.height > kMaxSize ||
+    if (image.width == 0 || image.width > kLargestSize || image.height == 0 || image.height > kLargestSize ||
         texelBytes(image.format) == 0)
         return Error{Issue::meaning_value, part.name(), where,
                      std::to_string(image.width) + " x " + std::to_string(image.height) +
@@ -39,9 +38,23 @@ Result<std::vector<std::byte>> readTexels(const ContainerReader& part, const Ima
                                   data.bytes().begin() + static_cast<std::ptrdiff_t>(finest));
 }
 
+/// Leave out the finest mips of the chain, until no side is longer than `max_size`; returns the bytes of those.
+uint64_t leaveOutLargeMips(ImageRecord& image, uint32_t max_size)
+{
+    uint32_t left_out = 0;
+    while (std::max(image.width, image.height) >> left_out > max_size)
+        ++left_out;
+    const uint64_t bytes = mipOffset(image, left_out);
+    const MipExtent extent = mipExtent(image, left_out);
+    image.width = extent.width;
+    image.height = extent.height;
+    image.mip_count -= left_out;
+    return bytes;
+}
+
 } // namespace
 
-Status cookTextures(const std::string& import_path, const std::string& output_path)
+Status cookTextures(const std::string& import_path, const std::string& output_path, uint32_t max_size)
 {
     HEARTH_ASSIGN_OR_RETURN(const ContainerReader part, ContainerReader::open(import_path, Check::structure));
     HEARTH_ASSIGN_OR_RETURN(const Records<ImageRecord> sources, part.records<ImageRecord>(kChunkImages));
@@ -54,7 +67,9 @@ Status cookTextures(const std::string& import_path, const std::string& output_pa
         HEARTH_ASSIGN_OR_RETURN(std::vector<std::byte> texels, readTexels(part, images[i], i));
         images[i].mip_count = fullMipCount(images[i].width, images[i].height);
         const std::vector<std::byte> chain = buildMipChain(images[i], std::move(texels));
-        HEARTH_TRY(writer.addChunk({.type = kChunkImageData, .index = i}, chain, 1, Codec::zstd));
+        const uint64_t left_out = max_size == 0 ? 0 : leaveOutLargeMips(images[i], max_size);
+        HEARTH_TRY(writer.addChunk({.type = kChunkImageData, .index = i}, std::span(chain).subspan(left_out),
+                                   1, Codec::zstd));
     }
     HEARTH_TRY(writer.addRecords<ImageRecord>(kChunkImages, images));
     return writer.finish();

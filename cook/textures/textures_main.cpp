@@ -20,6 +20,7 @@ struct Arguments
     std::string input;
     std::string output;
     size_t jobs = 0;
+    uint32_t max_size = 0;
 };
 
 int run(const Arguments& arguments)
@@ -28,7 +29,7 @@ int run(const Arguments& arguments)
     if (arguments.jobs > 0)
         limit = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism,
                                                       arguments.jobs);
-    const Status written = textures::cookTextures(arguments.input, arguments.output);
+    const Status written = textures::cookTextures(arguments.input, arguments.output, arguments.max_size);
     if (written)
         return 0;
     std::fprintf(stderr, "%s\n", formatMessage(written.error()).c_str());
@@ -42,6 +43,9 @@ int program(int argc, char** argv)
     app.add_option("part", arguments.input, "import part")->required();
     app.add_option("-o,--output", arguments.output, "textures part to write")->required();
     app.add_option("-j,--jobs", arguments.jobs, "threads to use; the result does not depend on it");
+    app.add_option("--max-size", arguments.max_size,
+                   "texels: the longer side of what is kept; finer mips are left out")
+        ->check(CLI::Range(1u, textures::kLargestSize).description(""));
     app.footer(
         "Example: hearth-textures scene.import.part -o scene.textures.part\n"
         "Exit codes: 0 done, 2 usage, 65 malformed input, 66 input missing, 70 internal, 73 cannot write, "

@@ -83,6 +83,19 @@ std::string usersFolder()
     return home.empty() ? "" : home + "/.cache/hearth";
 }
 
+/// As HEARTH_CACHE_MODE says: machines of one team differ in what they may do, not in where the caches are.
+Status obeyMode(std::vector<FolderSpec>& specs)
+{
+    const std::string mode = variable("HEARTH_CACHE_MODE");
+    if (mode == "off")
+        specs.clear();
+    for (FolderSpec& spec : specs)
+        spec.writable = spec.writable && mode != "ro";
+    if (mode.empty() || mode == "rw" || mode == "ro" || mode == "off")
+        return success();
+    return Error{Issue::usage, "HEARTH_CACHE_MODE", "", "'" + mode + "' must be rw, ro or off"};
+}
+
 } // namespace
 
 Result<uint64_t> parseSize(const std::string& text, const std::string& option)
@@ -119,6 +132,7 @@ Result<std::vector<LevelSpec>> cacheSpecs(std::span<const std::string> options)
         specs.emplace_back();
         specs.back().place = folder;
     }
+    HEARTH_TRY(obeyMode(specs));
     return specs;
 }
 

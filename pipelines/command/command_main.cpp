@@ -1,12 +1,14 @@
 // hearth: the command that users type. Reads the command line; each verb is a file of its own.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "formats/program.h"
+#include "pipelines/command/common_options.h"
 #include "pipelines/command/explain.h"
 #include "pipelines/command/typing_errors.h"
 #include "pipelines/command/verb_tools.h"
 #include "pipelines/command/verbs.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 
 namespace
 {
@@ -47,15 +49,29 @@ int program(int argc, char** argv)
     addRun(app, run);
     addMerge(app, run);
     addFarm(app, run);
+    addConfig(app, run);
+    addDoctor(app, run);
+    addSchema(app, run);
     addExplain(app, run);
+    addMan(app, run);
+    addCompletion(app, run);
     addVersion(app, run);
+    addCommonOptions(app);
+    for (CLI::App* verb : app.get_subcommands(nullptr))
+        verb->fallthrough();
 
-    const std::string unknown = unknownWord(app, std::vector<std::string>(argv + 1, argv + argc));
+    Result<std::vector<std::string>> words =
+        withArgumentFiles(std::vector<std::string>(argv + 1, argv + argc));
+    if (!words.ok())
+        return fail(words.error());
+    const std::string unknown = unknownWord(app, *words);
     if (!unknown.empty())
         return usageError(unknown);
     try
     {
-        app.parse(argc, argv);
+        // the last word is taken first
+        std::reverse(words->begin(), words->end());
+        app.parse(std::move(words).value());
     }
     catch (const CLI::CallForHelp&)
     {
@@ -65,7 +81,8 @@ int program(int argc, char** argv)
     {
         return usageError(error.what());
     }
-    return run();
+    const Status applied = applyCommonOptions();
+    return applied.ok() ? run() : fail(applied.error());
 }
 
 } // namespace

@@ -74,7 +74,7 @@ Json assetJson(const CookOptions& options, const CookOutcome& outcome, size_t so
             asset["stages"].push_back(stageJson(stage));
     if (source < outcome.cluster_statistics.size())
         asset["clusters"] = clustersJson(outcome.cluster_statistics[source]);
-    if (options.visibility && source < outcome.visibility.size())
+    if (source < outcome.visibility.size() && !outcome.visibility[source].statistics.empty())
         asset["visibility"] = visibilityJson(outcome.visibility[source]);
     return asset;
 }

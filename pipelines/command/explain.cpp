@@ -63,6 +63,7 @@ std::string exitCodeTable()
            "   73  an output cannot be written\n"
            "   74  reading or writing failed half way\n"
            "   75  temporary: another try may go better\n"
+           "   78  a profile or another file of settings is wrong\n"
            "  130  interrupted\n";
 }
 

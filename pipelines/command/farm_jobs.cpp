@@ -117,9 +117,9 @@ std::string statusJson(const farm::Plan& plan, const std::vector<farm::ShardStat
 
 } // namespace
 
-int farmSlurm(const SlurmVerbOptions& options, const farm::ReadRequest& read)
+int farmSlurm(const SlurmVerbOptions& options)
 {
-    const Result<OpenedPlan> opened = openPlan(options, read);
+    const Result<OpenedPlan> opened = openPlan(options);
     if (!opened.ok())
         return tell(opened.error());
     const graph::Graph& graph = opened->plan.graph;
@@ -130,18 +130,18 @@ int farmSlurm(const SlurmVerbOptions& options, const farm::ReadRequest& read)
     return tellEnd(options.prints ? tools::writeText("-", script) : runScript(script));
 }
 
-int farmNinja(const NinjaVerbOptions& options, const farm::ReadRequest& read)
+int farmNinja(const NinjaVerbOptions& options)
 {
-    const Result<OpenedPlan> opened = openPlan(options, read);
+    const Result<OpenedPlan> opened = openPlan(options);
     if (!opened.ok())
         return tell(opened.error());
     return tellEnd(
         tools::writeText(options.output, farm::ninjaFile(jobOf(*opened, options.pack), options.launcher)));
 }
 
-int farmStatus(const PlanOptions& options, const std::string& format, const farm::ReadRequest& read)
+int farmStatus(const PlanOptions& options, const std::string& format)
 {
-    const Result<OpenedPlan> opened = openPlan(options, read);
+    const Result<OpenedPlan> opened = openPlan(options);
     if (!opened.ok())
         return tell(opened.error());
     const auto memory = CookMemory::open(opened->caches, opened->file, opened->plan.folder,

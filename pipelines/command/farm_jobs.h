@@ -28,10 +28,10 @@ struct NinjaVerbOptions : PlanOptions
 
 // Each returns the exit code; every problem has been told on stderr.
 
-int farmSlurm(const SlurmVerbOptions& options, const farm::ReadRequest& read);
-int farmNinja(const NinjaVerbOptions& options, const farm::ReadRequest& read);
+int farmSlurm(const SlurmVerbOptions& options);
+int farmNinja(const NinjaVerbOptions& options);
 
 /// Read and hash what every shard has left. returns  1 where a shard has not left all
-int farmStatus(const PlanOptions& options, const std::string& format, const farm::ReadRequest& read);
+int farmStatus(const PlanOptions& options, const std::string& format);
 
 } // namespace hearth::command

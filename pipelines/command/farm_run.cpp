@@ -169,15 +169,13 @@ int runThere(const RunOptions& options, const OpenedPlan& opened, size_t shard)
                                  : "results of the shard are not in the cache, or not whole")});
 }
 
-Result<std::string> planOf(const MakePlanOptions& options, const farm::ReadRequest& read, CookMemory& memory,
-                           farm::Plan& plan)
+Result<std::string> planOf(const MakePlanOptions& options, CookMemory& memory, farm::Plan& plan)
 {
-    HEARTH_ASSIGN_OR_RETURN(plan,
-                            farm::makePlan(options.request, read, graph::workingFolder(), options.shard_count,
-                                           tools::programFolder(), memory.actions(), memory.hashes()));
+    HEARTH_ASSIGN_OR_RETURN(plan, farm::makePlan(options.request, graph::workingFolder(), options.shard_count,
+                                                 tools::programFolder(), memory.actions(), memory.hashes()));
     const std::string text = farm::planText(plan);
     // no machine would take a plan whose names are no UTF-8, or look like options
-    HEARTH_TRY(farm::parsePlan(text, options.output, read));
+    HEARTH_TRY(farm::parsePlan(text, options.output));
     return text;
 }
 
@@ -196,7 +194,7 @@ void printPlan(const farm::Plan& plan, const std::string& output)
 
 } // namespace
 
-int makePlanFile(const MakePlanOptions& options, const farm::ReadRequest& read)
+int makePlanFile(const MakePlanOptions& options)
 {
     if (options.emits_commands && options.output == "-")
         return tell({Issue::usage, "--emit", "", "needs a plan in a file, not on stdout"});
@@ -204,7 +202,7 @@ int makePlanFile(const MakePlanOptions& options, const farm::ReadRequest& read)
     if (!memory.ok())
         return tell(memory.error());
     farm::Plan plan;
-    const Result<std::string> text = planOf(options, read, **memory, plan);
+    const Result<std::string> text = planOf(options, **memory, plan);
     if (!text.ok())
         return tell(text.error());
     if (const Status written = tools::writeText(options.output, *text); !written.ok())
@@ -222,12 +220,12 @@ int makePlanFile(const MakePlanOptions& options, const farm::ReadRequest& read)
     return printed.ok() ? 0 : tell(printed.error());
 }
 
-int runShard(const RunOptions& chosen, const farm::ReadRequest& read)
+int runShard(const RunOptions& chosen)
 {
     RunOptions options = chosen;
     if (!options.record_file.empty() && options.record_file != "-")
         options.record_file = graph::absolutePath(options.record_file);
-    const Result<OpenedPlan> opened = openPlan(options, read);
+    const Result<OpenedPlan> opened = openPlan(options);
     if (!opened.ok())
         return tell(opened.error());
     const Result<size_t> shard = farm::shardIndex(options.shard, opened->plan.shards.size(),

@@ -45,12 +45,12 @@ struct MergeOptions : PlanOptions
 
 // Each returns the exit code; every problem has been told on stderr.
 
-int makePlanFile(const MakePlanOptions& options, const farm::ReadRequest& read);
+int makePlanFile(const MakePlanOptions& options);
 
 /// Through a launcher, what the shard has left in the cache is looked at, whatever the launcher says.
-int runShard(const RunOptions& options, const farm::ReadRequest& read);
+int runShard(const RunOptions& options);
 
 /// Read and hash every result, have what is missing cooked here (or list it: code 1), and link the pack.
-int merge(const MergeOptions& options, const farm::ReadRequest& read);
+int merge(const MergeOptions& options);
 
 } // namespace hearth::command

@@ -99,9 +99,9 @@ int cookPack(const OpenedPlan& opened, const MergeOptions& options)
     return cook(cooked);
 }
 
-Result<int> mergePlan(const MergeOptions& options, const farm::ReadRequest& read)
+Result<int> mergePlan(const MergeOptions& options)
 {
-    HEARTH_ASSIGN_OR_RETURN(const OpenedPlan opened, openPlan(options, read));
+    HEARTH_ASSIGN_OR_RETURN(const OpenedPlan opened, openPlan(options));
     if (!options.report_file.empty() && !opened.plan.request.statistics)
         return Error{Issue::usage, "--report", "", "needs a plan that was made with --statistics"};
     HEARTH_ASSIGN_OR_RETURN(const auto memory,
@@ -119,13 +119,13 @@ Result<int> mergePlan(const MergeOptions& options, const farm::ReadRequest& read
 
 } // namespace
 
-int merge(const MergeOptions& chosen, const farm::ReadRequest& read)
+int merge(const MergeOptions& chosen)
 {
     MergeOptions options = chosen;
     options.output = graph::absolutePath(options.output);
     if (!options.report_file.empty() && options.report_file != "-")
         options.report_file = graph::absolutePath(options.report_file);
-    const Result<int> merged = mergePlan(options, read);
+    const Result<int> merged = mergePlan(options);
     if (merged.ok())
         return *merged;
     print(formatMessage(merged.error()));

@@ -53,13 +53,13 @@ std::vector<std::string> absoluteCaches(const std::vector<std::string>& caches)
     return given;
 }
 
-Result<OpenedPlan> openPlan(const PlanOptions& options, const farm::ReadRequest& read)
+Result<OpenedPlan> openPlan(const PlanOptions& options)
 {
     const std::optional<std::string> text = cache::readText(options.plan_file);
     if (!text)
         return Error{Issue::input_missing, options.plan_file, "", ""};
     OpenedPlan opened;
-    HEARTH_ASSIGN_OR_RETURN(opened.plan, farm::parsePlan(*text, options.plan_file, read));
+    HEARTH_ASSIGN_OR_RETURN(opened.plan, farm::parsePlan(*text, options.plan_file));
     if (!options.directory.empty())
         opened.plan.folder = opened.directory = graph::absolutePath(options.directory);
     opened.file = graph::absolutePath(options.plan_file);

@@ -30,7 +30,7 @@ struct OpenedPlan
 };
 
 /// errors  input_missing, and those of farm::parsePlan
-Result<OpenedPlan> openPlan(const PlanOptions& options, const farm::ReadRequest& read);
+Result<OpenedPlan> openPlan(const PlanOptions& options);
 
 /// Go to the folder of the sources; paths that were not made absolute before mean others from here on.
 /// errors  input_missing

@@ -4,6 +4,7 @@
 #include "cook/tools/suggest.h"
 
 #include <CLI/CLI.hpp>
+#include <utility>
 
 namespace hearth::command
 {
@@ -16,8 +17,11 @@ std::string unknownWord(const CLI::App& app, const std::vector<std::string>& wor
                (nearest.empty() ? std::string() : ": did you mean '" + nearest + "'?");
     };
     const CLI::App* verb = &app;
+    bool is_value = false; // of an option that stands before the verb
     for (const std::string& word : words)
     {
+        if (std::exchange(is_value, false))
+            continue;
         const bool is_option = word.size() > 1 && word[0] == '-' && word.find_first_of("0123456789.") != 1;
         if (word == "--")
             break;
@@ -26,12 +30,16 @@ std::string unknownWord(const CLI::App& app, const std::vector<std::string>& wor
             const std::string name = word.substr(0, word.find('='));
             // -j4 and -qv are short options with more in the same word
             const std::string shortened = name[1] == '-' ? name : name.substr(0, 2);
-            if (verb->get_option_no_throw(shortened) != nullptr)
+            const CLI::Option* common = app.get_option_no_throw(shortened);
+            is_value = verb == &app && common != nullptr && common->get_items_expected_max() > 0 &&
+                       word == shortened;
+            if (common != nullptr || verb->get_option_no_throw(shortened) != nullptr)
                 continue;
             std::vector<std::string> names;
-            for (const CLI::Option* option : verb->get_options())
-                for (const std::string& long_name : option->get_lnames())
-                    names.push_back("--" + long_name);
+            for (const CLI::App* known : {verb, &app})
+                for (const CLI::Option* option : known->get_options())
+                    for (const std::string& long_name : option->get_lnames())
+                        names.push_back("--" + long_name);
             return describe("option", name, tools::nearestMatch(name, names));
         }
         // a verb may have verbs of its own

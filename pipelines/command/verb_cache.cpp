@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/cache/open_cache.h"
 #include "pipelines/command/cache_verbs.h"
+#include "pipelines/command/common_options.h"
 #include "pipelines/command/verb_tools.h"
 #include "pipelines/command/verbs.h"
 
@@ -37,16 +38,19 @@ void addCache(CLI::App& app, Work& run)
         {
             run = [options]
             {
+                const auto caches = configuredCaches(options->caches);
+                if (!caches.ok())
+                    return fail(caches.error());
                 if (options->work == "stat")
-                    return printResult(cacheStat(options->caches));
+                    return printResult(cacheStat(*caches));
                 if (options->work == "gc")
                 {
                     std::optional<uint64_t> limit;
                     if (!options->limit.empty())
                         limit = cache::parseSize(options->limit, "").value();
-                    return printResult(cacheGc(options->caches, limit));
+                    return printResult(cacheGc(*caches, limit));
                 }
-                const auto verified = cacheVerify(options->caches);
+                const auto verified = cacheVerify(*caches);
                 if (!verified.ok())
                     return fail(verified.error());
                 const int printed = printResult(verified->text);

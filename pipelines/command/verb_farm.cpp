@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/cache/open_cache.h"
 #include "pipelines/command/farm_jobs.h"
-#include "pipelines/command/verb_cook.h"
+#include "pipelines/command/verb_plan.h"
 #include "pipelines/command/verb_tools.h"
 #include "pipelines/command/verbs.h"
 
@@ -55,7 +55,7 @@ void addSlurm(CLI::App& farm, Work& run)
         {
             if (options->memory != "auto")
                 options->memory_bytes = cache::parseSize(options->memory, "").value();
-            run = [options] { return farmSlurm(*options, readRequest); };
+            run = withPlan(*options, [options] { return farmSlurm(*options); });
         });
 }
 
@@ -69,7 +69,7 @@ void addNinja(CLI::App& farm, Work& run)
     verb->add_option("--launcher", options->launcher,
                      "what starts each shard, as \"srun -Q -n1\"; by default they run on this machine");
     verb->footer("Example: hearth farm ninja village.plan.json -o build.ninja --launcher \"srun -Q -n1\"");
-    verb->callback([options, &run] { run = [options] { return farmNinja(*options, readRequest); }; });
+    verb->callback([options, &run] { run = withPlan(*options, [options] { return farmNinja(*options); }); });
 }
 
 void addStatus(CLI::App& farm, Work& run)
@@ -84,8 +84,9 @@ void addStatus(CLI::App& farm, Work& run)
     addPlanFile(*verb, *options);
     addFormat(*verb, options->format);
     verb->footer("Example: hearth farm status village.plan.json");
-    verb->callback([options, &run]
-                   { run = [options] { return farmStatus(*options, options->format, readRequest); }; });
+    verb->callback(
+        [options, &run]
+        { run = withPlan(*options, [options] { return farmStatus(*options, options->format); }); });
 }
 
 } // namespace

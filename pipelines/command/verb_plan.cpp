@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "pipelines/command/verb_plan.h"
 #include "pipelines/cache/open_cache.h"
+#include "pipelines/command/common_options.h"
 #include "pipelines/command/farm_run.h"
-#include "pipelines/command/verb_cook.h"
+#include "pipelines/command/setting_options.h"
 #include "pipelines/command/verb_tools.h"
 #include "pipelines/command/verbs.h"
 
@@ -50,7 +52,39 @@ std::string shardsFault(const std::string& text)
                                             std::to_string(farm::kMaxShards);
 }
 
+int planConfigured(MakePlanOptions options, const SettingOptions& settings,
+                   const std::vector<std::string>& sources, const std::vector<std::string>& lods)
+{
+    auto given = settings.given();
+    if (!given.ok())
+        return fail(given.error());
+    const auto configuration = loadConfiguration(std::move(given).value());
+    if (!configuration.ok())
+        return fail(configuration.error());
+    auto request = requestOf(*configuration, sources);
+    if (!request.ok())
+        return fail(request.error());
+    const bool statistics = options.request.statistics;
+    options.request = std::move(request).value();
+    options.request.statistics = statistics;
+    options.request.lods = lods;
+    options.caches = cachesOf(*configuration);
+    return makePlanFile(options);
+}
+
 } // namespace
+
+Work withPlan(PlanOptions& options, const Work& work)
+{
+    return [&options, work]
+    {
+        auto caches = configuredCaches(options.caches);
+        if (!caches.ok())
+            return fail(caches.error());
+        options.caches = std::move(caches).value();
+        return work();
+    };
+}
 
 void addPlanFile(CLI::App& verb, PlanOptions& options)
 {
@@ -65,13 +99,14 @@ void addPlan(CLI::App& app, Work& run)
     CLI::App* verb = app.add_subcommand("plan", "Write down a cook, so that several machines can share it");
     struct Options : MakePlanOptions
     {
-        std::shared_ptr<SettingsOptions> settings = std::make_shared<SettingsOptions>();
+        SettingOptions settings;
+        std::vector<std::string> sources;
+        std::vector<std::string> lods;
         std::string shards = "auto";
         std::string emitted;
     };
     auto options = std::make_shared<Options>();
-    verb->add_option("SOURCE", options->request.sources,
-                     "glTF, GLB, OBJ, PLY, STL, OFF, Draco or image files")
+    verb->add_option("SOURCE", options->sources, "files, folders and patterns, as hearth cook takes them")
         ->required();
     verb->add_option("-o,--output", options->output, "plan to write")->required();
     verb->add_option("--shards", options->shards,
@@ -82,21 +117,23 @@ void addPlan(CLI::App& app, Work& run)
                    "have cookers say what became of their input, for hearth merge --report");
     verb->add_option("--emit", options->emitted, "commands: print a command line for each shard")
         ->check(CLI::IsMember({"commands"}));
-    addSettings(verb, options->settings);
-    addCaches(*verb, options->caches);
+    verb->add_option("--lod", options->lods,
+                     "N=FILE: level of detail N of the source's only mesh, made by hand")
+        ->allow_extra_args(false);
+    options->settings.addTo(*verb, {"profile", "cache"});
     verb->add_flag("-q,--quiet", options->quiet, "print errors only");
     verb->footer("Examples:\n"
                  "  hearth plan *.glb -o village.plan.json --shards 7\n"
                  "  hearth plan *.glb -o village.plan.json --emit commands | parallel\n"
                  "Then hearth run for each shard, or hearth farm for all, and hearth merge.");
     verb->callback(
-        [options, verb, &run]
+        [options, &run]
         {
-            options->request.options = chosenSettings(*verb);
             if (options->shards != "auto")
                 options->shard_count = std::stoul(options->shards);
             options->emits_commands = !options->emitted.empty();
-            run = [options] { return makePlanFile(*options, readRequest); };
+            run = [options]
+            { return planConfigured(*options, options->settings, options->sources, options->lods); };
         });
 }
 
@@ -123,7 +160,7 @@ void addRun(CLI::App& app, Work& run)
         {
             options->memory_bytes = memoryOf(options->effort);
             options->verbosity = verbosityOf(options->effort.quiet, options->effort.verbose);
-            run = [options] { return runShard(*options, readRequest); };
+            run = withPlan(*options, [options] { return runShard(*options); });
         });
 }
 
@@ -153,7 +190,7 @@ void addMerge(CLI::App& app, Work& run)
             options->memory_bytes = memoryOf(options->effort);
             options->verbosity = verbosityOf(options->effort.quiet, options->effort.verbose);
             options->cooks_missing = options->missing == "cook";
-            run = [options] { return merge(*options, readRequest); };
+            run = withPlan(*options, [options] { return merge(*options); });
         });
 }
 

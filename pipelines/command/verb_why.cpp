@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "pipelines/command/common_options.h"
 #include "pipelines/command/verb_tools.h"
 #include "pipelines/command/verbs.h"
 #include "pipelines/command/why.h"
@@ -20,8 +21,15 @@ void addWhy(CLI::App& app, Work& run)
     verb->add_option("FILE", options->file, "pack that was cooked here, or a source of one")->required();
     addCaches(*verb, options->caches);
     verb->footer("Example: hearth why village.hearth");
-    verb->callback([options, &run]
-                   { run = [options] { return printResult(why(options->file, options->caches)); }; });
+    verb->callback(
+        [options, &run]
+        {
+            run = [options]
+            {
+                const auto caches = configuredCaches(options->caches);
+                return caches.ok() ? printResult(why(options->file, *caches)) : fail(caches.error());
+            };
+        });
 }
 
 } // namespace hearth::command

@@ -26,7 +26,12 @@ void addPlan(CLI::App& app, Work& run);
 void addRun(CLI::App& app, Work& run);
 void addMerge(CLI::App& app, Work& run);
 void addFarm(CLI::App& app, Work& run);
+void addConfig(CLI::App& app, Work& run);
+void addCompletion(CLI::App& app, Work& run);
+void addDoctor(CLI::App& app, Work& run);
 void addExplain(CLI::App& app, Work& run);
+void addMan(CLI::App& app, Work& run);
+void addSchema(CLI::App& app, Work& run);
 void addVersion(CLI::App& app, Work& run);
 
 } // namespace hearth::command

@@ -54,14 +54,13 @@ Status checkFound(const graph::Action& action, const graph::Record& found, graph
 
 } // namespace
 
-Result<Plan> makePlan(const Request& request, const ReadRequest& read, const std::string& folder,
-                      std::optional<size_t> shard_count, const std::string& programs,
-                      graph::ActionCache& actions, graph::FileHashes& hashes)
+Result<Plan> makePlan(const Request& request, const std::string& folder, std::optional<size_t> shard_count,
+                      const std::string& programs, graph::ActionCache& actions, graph::FileHashes& hashes)
 {
     Plan plan;
     plan.request = request;
     plan.folder = folder;
-    HEARTH_ASSIGN_OR_RETURN(plan.settings, read(request));
+    HEARTH_ASSIGN_OR_RETURN(plan.settings, settingsOf(request));
     HEARTH_ASSIGN_OR_RETURN(plan.graph, graph::makeCookGraph(plan.settings));
     for (size_t i = 0; i < plan.graph.actions.size(); ++i)
     {

@@ -3,12 +3,12 @@
 #pragma once
 
 #include "formats/result.h"
+#include "pipelines/farm/request.h"
 #include "pipelines/farm/shards.h"
 #include "pipelines/graph/action_cache.h"
 #include "pipelines/graph/cook_graph.h"
 
 #include <cstddef>
-#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -17,20 +17,6 @@
 
 namespace hearth::farm
 {
-
-/// What a plan calls the pack, whose name only the merge is told.
-inline constexpr const char* kPackName = "pack.hearth";
-
-/// What is cooked, as the command line of `hearth cook` says it.
-struct Request
-{
-    std::vector<std::string> sources;
-    std::vector<std::string> options; ///< "--visibility", "--visibility-quality", "high", ...
-    bool statistics = false;          ///< cookers say what became of their input, for a report
-};
-
-/// What a request asks for; an error where a command line would be refused.
-using ReadRequest = std::function<Result<graph::CookSettings>(const Request& request)>;
 
 struct Plan
 {
@@ -51,9 +37,8 @@ struct Plan
 /// shard_count  nothing: as shardCountFor says
 /// errors       what the request asks for is wrong; input_missing, for the first input that cannot be read; plan_build, where
 ///              a cooker is missing
-Result<Plan> makePlan(const Request& request, const ReadRequest& read, const std::string& folder,
-                      std::optional<size_t> shard_count, const std::string& programs,
-                      graph::ActionCache& actions, graph::FileHashes& hashes);
+Result<Plan> makePlan(const Request& request, const std::string& folder, std::optional<size_t> shard_count,
+                      const std::string& programs, graph::ActionCache& actions, graph::FileHashes& hashes);
 
 /// Whether what is here is what was planned, as far as these sources need it: cookers, processor, contents of files.
 /// errors  plan_build, plan_processor, plan_stale, input_missing
@@ -68,6 +53,6 @@ std::string planText(const Plan& plan);
 /// make of the request, word by word. So whoever wrote the plan, no program runs but Hearth's cookers, with such command
 /// lines as `hearth cook` gives them; they write where their executor says.
 /// errors  json_syntax, plan_syntax; they name `file`
-Result<Plan> parsePlan(std::string_view text, const std::string& file, const ReadRequest& read);
+Result<Plan> parsePlan(std::string_view text, const std::string& file);
 
 } // namespace hearth::farm

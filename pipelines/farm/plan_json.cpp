@@ -37,7 +37,9 @@ void readMembers(const Json& json, Plan& plan)
 {
     const Json& cook = json.at("cook");
     cook.at("sources").get_to(plan.request.sources);
-    cook.at("options").get_to(plan.request.options);
+    cook.at("lods").get_to(plan.request.lods);
+    cook.at("settings").get_to(plan.request.settings_of_source);
+    cook.at("pack").get_to(plan.request.settings_of_pack);
     cook.at("statistics").get_to(plan.request.statistics);
     json.at("folder").get_to(plan.folder);
     plan.processor = json.value("processor", "");
@@ -141,7 +143,9 @@ std::string planText(const Plan& plan)
 {
     Json json = Json::parse(graph::planJson(plan.graph));
     json["cook"] = {{"sources", plan.request.sources},
-                    {"options", plan.request.options},
+                    {"lods", plan.request.lods},
+                    {"settings", plan.request.settings_of_source},
+                    {"pack", plan.request.settings_of_pack},
                     {"statistics", plan.request.statistics}};
     json["folder"] = plan.folder;
     if (!plan.processor.empty())
@@ -153,7 +157,7 @@ std::string planText(const Plan& plan)
     return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-Result<Plan> parsePlan(std::string_view text, const std::string& file, const ReadRequest& read)
+Result<Plan> parsePlan(std::string_view text, const std::string& file)
 {
     const auto wrong = [&](const std::string& where, const std::string& what) {
         return Error{Issue::plan_syntax, file, where, what};
@@ -176,7 +180,7 @@ Result<Plan> parsePlan(std::string_view text, const std::string& file, const Rea
     {
         return wrong("", "a member is missing, or of another type");
     }
-    const Result<graph::CookSettings> settings = read(plan.request);
+    const Result<graph::CookSettings> settings = settingsOf(plan.request);
     if (!settings.ok())
         return wrong("/cook", settings.error().detail);
     plan.settings = *settings;

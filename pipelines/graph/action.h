@@ -29,7 +29,7 @@ struct Word
 /// A file that an action reads: what an action before it makes, or a file of the user.
 struct Input
 {
-    std::string role;          ///< what it is to the cooker: "source", "profile", "lod 1", "part of clusters"
+    std::string role;          ///< what it is to the cooker: "source", "lod 1", "part of clusters"
     size_t action = kNoAction; ///< whose first output it is
     std::string path;          ///< as the user typed it, where no action makes it
 };

@@ -11,7 +11,8 @@ namespace hearth::graph
 namespace
 {
 
-/// "--quality" -> "high"; "" where an option has no value, or a file for one.
+/// "--quality" -> "high"; "" where an option has no value, or a file for one. "--set", "clusters.influences=4" is
+/// "clusters.influences" -> "4".
 using Options = std::map<std::string, std::string>;
 
 constexpr std::string_view kText = "text ";
@@ -27,9 +28,13 @@ Options optionsOf(const Record& record)
         const bool is_text = value.starts_with(kText);
         const std::string word = is_text ? value.substr(kText.size()) : "";
         if (is_text && word.starts_with("-"))
-            options[option = word];
+            option = word;
+        else if (is_text && option == "--set" && word.find('=') != std::string::npos)
+            options[word.substr(0, word.find('='))] = word.substr(word.find('=') + 1);
         else if (is_text && !option.empty())
             options[option] = word;
+        if (is_text && word.starts_with("-") && word != "--set")
+            options[word];
     }
     return options;
 }

@@ -4,6 +4,7 @@
 #include "cook/tools/lod_files.h"
 #include "pipelines/graph/estimate.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 
 namespace hearth::graph
@@ -74,6 +75,8 @@ std::vector<size_t> addSource(Graph& graph, size_t index, std::span<const tools:
                               const CookSettings& settings)
 {
     const std::string& source = settings.sources[index];
+    const SourceSettings told =
+        settings.settings_of_source.empty() ? SourceSettings() : settings.settings_of_source[index];
     /// Runs hearth-`kind` over the parts of actions before.
     const auto add = [&](const std::string& kind, const std::vector<size_t>& inputs)
     {
@@ -96,23 +99,20 @@ std::vector<size_t> addSource(Graph& graph, size_t index, std::span<const tools:
         addInput(actions[import_action], {fmt::format("lod {}", lod.level), kNoAction, lod.path},
                  fmt::format("{}=", lod.level));
     }
+    addFlags(actions[import_action], told.import);
     const size_t textures = add("textures", {import_action});
+    addFlags(actions[textures], told.textures);
     const size_t clusters = add("clusters", {import_action});
-    if (!settings.profile.empty())
-        for (const size_t action : {import_action, clusters})
-        {
-            addFlags(actions[action], {"--profile"});
-            addInput(actions[action], {"profile", kNoAction, settings.profile});
-        }
+    addFlags(actions[clusters], told.clusters);
     if (settings.statistics)
         addOutput(actions[clusters], "--stats", kClustersStatistics);
     const size_t skinning = add("skinning", {import_action, clusters});
-    if (!settings.visibility)
+    if (!told.visibility)
         return {import_action, clusters, textures, skinning};
     addFlags(actions[clusters], {"--visibility"});
     const size_t visibility = add("visibility", {import_action, clusters});
     actions[visibility].depends_on_processor = true;
-    addFlags(actions[visibility], visibilityFlags(*settings.visibility));
+    addFlags(actions[visibility], visibilityFlags(*told.visibility));
     if (settings.statistics)
     {
         addOutput(actions[visibility], "--stats", kVisibilityStatistics);
@@ -161,7 +161,8 @@ void addLink(Graph& graph, const std::vector<size_t>& inputs, const CookSettings
     Action link = actionOf("link", settings.sources.size(), settings.output);
     for (const size_t input : inputs)
         addInput(link, partOfSource(graph, input));
-    if (settings.visibility)
+    const auto sees = [](const SourceSettings& told) { return told.visibility.has_value(); };
+    if (std::any_of(settings.settings_of_source.begin(), settings.settings_of_source.end(), sees))
     {
         const size_t specular = addSpecular(graph, settings);
         addFlags(link, {"--specular"});
@@ -181,6 +182,8 @@ void addLink(Graph& graph, const std::vector<size_t>& inputs, const CookSettings
 
 Result<Graph> makeCookGraph(const CookSettings& settings)
 {
+    HEARTH_ASSERT(settings.settings_of_source.empty() ||
+                  settings.settings_of_source.size() == settings.sources.size());
     HEARTH_ASSIGN_OR_RETURN(const std::vector<tools::LodFile> lods, tools::parseLodFiles(settings.lods));
     Graph graph;
     graph.source_count = settings.sources.size();

@@ -32,16 +32,26 @@ struct BrickOptions
         bounces; ///< of the light that faces start with; none: they start with what they emit
 };
 
+/// What the cookers of one source are told. Words of their command lines: all of it is in their keys by value, and an action
+/// stays data that runs on any machine.
+struct SourceSettings
+{
+    std::vector<std::string> import;             ///< as "--set", "animation.error=0.001"
+    std::vector<std::string> textures;           ///< as "--max-size", "1024"
+    std::vector<std::string> clusters;           ///< as "--set", "clusters.influences=4"
+    std::optional<VisibilityOptions> visibility; ///< none: vertices do not say what they see
+};
+
 /// What a cook makes of what: all that its graph is made from.
 struct CookSettings
 {
     std::vector<std::string> sources;
     std::string output;
-    std::vector<std::string> lods;               ///< "N=FILE": levels of detail of the only source
-    std::string profile;                         ///< TOML file that the cookers read; empty: none
-    std::optional<VisibilityOptions> visibility; ///< none: vertices do not say what they see
-    std::optional<BrickOptions> bricks;          ///< none: the pack has no grid of bricks
-    bool statistics = false;                     ///< cookers say what became of their input
+    std::vector<std::string> lods; ///< "N=FILE": levels of detail of the only source
+    std::vector<SourceSettings>
+        settings_of_source;             ///< [sources.size()], or empty: their cookers are told nothing
+    std::optional<BrickOptions> bricks; ///< none: the pack has no grid of bricks
+    bool statistics = false;            ///< cookers say what became of their input
 };
 
 // Names of outputs beside the parts, where statistics are asked for.

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/clips/clip_settings.h"
 #include "cook/tools/batch.h"
+#include "cook/tools/lines.h"
 #include "cook/tools/lod_files.h"
 #include "cook/tools/private_folder.h"
 #include "cook/tools/read_list.h"
@@ -25,6 +26,7 @@ struct Arguments
     std::string output;
     std::vector<std::string> lods;
     std::string profile;
+    std::vector<std::string> settings;
     std::string depfile;
     double crease_angle_deg = 60;
 };
@@ -58,9 +60,9 @@ Status readAll(const Arguments& arguments, std::span<const tools::LodFile> lods,
 
 Result<clips::StatedError> statedError(const Arguments& arguments)
 {
-    if (arguments.profile.empty())
-        return clips::StatedError{0, clips::kDefaultShareOfSize};
-    return clips::readStatedError(arguments.profile);
+    if (!arguments.profile.empty())
+        return clips::readStatedError(arguments.profile);
+    return clips::parseStatedError(tools::joinedLines(arguments.settings), "--set");
 }
 
 Status run(const Arguments& arguments)
@@ -94,14 +96,18 @@ int program(int argc, char** argv)
                    "degrees: sharper edges of a mesh without normals stay hard; 180: none does")
         ->capture_default_str()
         ->check(CLI::Range(0.0, 180.0));
-    app.add_option("--profile", arguments.profile, "TOML file: the error that clips may have");
+    auto* profile =
+        app.add_option("--profile", arguments.profile, "TOML file: the error that clips may have");
+    app.add_option("--set", arguments.settings, "KEY=VALUE: a line of a profile, as animation.error=0.001")
+        ->allow_extra_args(false)
+        ->excludes(profile);
     app.add_option("--depfile", arguments.depfile,
                    "write which files were read, and which were looked for in vain, as sha256sum would");
     app.footer("Examples:\n"
                "  hearth-import scene.glb -o scene.import.part\n"
                "  hearth-import rock.glb --lod 1=rock_mid.glb --lod 2=rock_low.glb -o rock.import.part\n"
                "Exit codes: 0 done, 2 usage, 65 malformed input, 66 input missing, 70 internal, 73 cannot "
-               "write, 74 I/O");
+               "write, 74 I/O, 78 wrong settings");
     try
     {
         app.parse(argc, argv);

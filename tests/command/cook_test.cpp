@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <thread>
 
 namespace hearth::test
@@ -23,7 +24,7 @@ constexpr const char* kImport = R"(#!/bin/sh
 case "$1" in
   *malformed*) echo "$1|/meshes/0: error: is bad [E1101] hint: mend it" >&2; exit 65 ;;
   *missing*) echo "$1: error: cannot open [E1001] hint: look" >&2; exit 66 ;;
-  *told*) echo "$5|line 2, there: error: is bad [E1501] hint: mend it" >&2; exit 65 ;;
+  *told*) echo "$*" >> asked ;;
   *silent*) exit 65 ;;
   *strange*) echo "terminate called" >&2; exit 1 ;;
   *crash*) echo "contract broken" >&2; kill -SEGV $$ ;;
@@ -41,7 +42,7 @@ cp "PARTS.textures.part" "$3"
 )";
 
 constexpr const char* kClusters = R"(#!/bin/sh
-if [ "$4" = "--profile" ]; then echo "$5|line 1, here: error: is bad [E1501] hint: mend it" >&2; exit 65; fi
+if [ "$4" = "--set" ]; then echo "$*" >> asked; fi
 if [ -e ./clusters-lie ]; then exit 0; fi
 if [ "$4" = "--stats" ]; then echo '{"meshes": [{"name": "strip"}], "totals": {"triangles": 8}}' > "$5"; fi
 cp "PARTS.clusters.part" "$3"
@@ -144,12 +145,59 @@ TEST_F(Cook, colourIsThereOnDemandOnly)
     EXPECT_FALSE(colored({"CLICOLOR_FORCE=1", "NO_COLOR=1"}));
 }
 
-TEST_F(Cook, givesItsProfileToTheImportAndTheClusters)
+TEST_F(Cook, tellsCookersWhatItsProfileSaysByValue)
 {
-    expectFailure(cook({"told.gltf", "-o", "a.hearth", "--profile", "house.toml"}), 65,
-                  "house.toml|line 2, there: error: is bad");
-    expectFailure(cook({"a.gltf", "-o", "a.hearth", "--profile", "house.toml"}), 65,
-                  "house.toml|line 1, here: error: is bad");
+    programs.write("house.toml", "[animation]\nerror = 0.001\n[clusters]\ninfluences = 4\n");
+    const ProgramEnd end = cook({"told.gltf", "-o", "a.hearth", "--profile", programs / "house.toml"});
+    ASSERT_EQ(end.exit_code, 0) << end.err;
+    const std::string asked = folder.read("asked");
+    EXPECT_EQ(countOf(asked, "--set animation.error=0.001"), 1u) << asked;
+    EXPECT_EQ(countOf(asked, "--set clusters.influences=4"), 1u) << asked;
+    EXPECT_EQ(countOf(asked, "house.toml"), 0u) << asked;
+}
+
+TEST_F(Cook, aRuleThatChangesTouchesItsSourcesAlone)
+{
+    std::filesystem::create_directory(folder / "props");
+    for (const char* source : {"props/a.gltf", "b.gltf"})
+        folder.write(source, source);
+    // the script that stands for it lists nothing, so that what it makes is not kept
+    const auto withoutImports = [](const std::string& text)
+    {
+        std::istringstream lines(text);
+        std::string others;
+        for (std::string line; std::getline(lines, line);)
+            others += line.starts_with("import ") ? "" : line + "\n";
+        return others;
+    };
+    const auto cookWith = [&](const char* size)
+    {
+        folder.write("hearth.toml", std::string("[[rule]]\nmatch = 'props/*'\ntextures.max_size = ") + size);
+        const ProgramEnd end = cook({"props/a.gltf", "b.gltf", "-o", "a.hearth", "--explain", "-q"});
+        EXPECT_EQ(end.exit_code, 0) << end.err;
+        return withoutImports(end.err);
+    };
+    cookWith("64");
+    EXPECT_EQ(cookWith("0x40"), "") << "the same value, written in another way";
+    EXPECT_EQ(cookWith("32"), "textures   props/a.gltf: parameter --max-size: 64 -> 32\n");
+    std::filesystem::rename(folder / "hearth.toml", folder / "other.toml");
+    const ProgramEnd moved =
+        cook({"props/a.gltf", "b.gltf", "-o", "a.hearth", "--explain", "-q", "--config", "other.toml"});
+    EXPECT_EQ(withoutImports(moved.err), "") << "the file's path is in no key";
+}
+
+TEST_F(Cook, refusesAProfileThatIsWrong)
+{
+    programs.write("house.toml", "[animation]\nerror = -1\n");
+    expectFailure(cook({"a.gltf", "-o", "a.hearth", "--profile", programs / "house.toml"}), 78,
+                  "house.toml|line 2, column 9, animation.error: error: must be a number from 0 to 1000");
+    expectFailure(cook({"a.gltf", "-o", "a.hearth", "--profile", "mobil-low"}), 78,
+                  "did you mean 'mobile-low'?");
+    expectFailure(cook({"a.gltf", "-o", "a.hearth", "--set", "clusters.influences=5"}), 2, "must be 4 or 8");
+    expectFailure(cook({"a.gltf", "-o", "a.hearth"}, {"TMPDIR=", "HEARTH_JOBS=0"}), 78,
+                  "HEARTH_JOBS: error:");
+    expectFailure(cook({"a.gltf", "-o", "a.hearth", "--visibility-quality", "high"}), 2,
+                  "--visibility-quality: error: needs --visibility, or visibility.enabled in the profile");
 }
 
 TEST_F(Cook, severalSourcesMakeOnePack)

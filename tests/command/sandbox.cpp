@@ -83,8 +83,9 @@ pid_t Sandbox::start(const std::vector<std::string>& command, const std::vector<
     HEARTH_ASSERT(process >= 0);
     if (process != 0)
         return process;
-    // never the cache of whoever runs the tests
+    // never the cache of whoever runs the tests, nor his settings
     ::setenv("HEARTH_CACHE", cacheSpec().c_str(), 1);
+    ::setenv("XDG_CONFIG_HOME", (output_path_ + "/config").c_str(), 1);
     for (const std::string& variable : environment)
         ::putenv(const_cast<char*>(variable.c_str()));
     const int flags = O_WRONLY | O_CREAT | O_TRUNC;

@@ -140,15 +140,34 @@ TEST_F(ClustersProgram, followsAProfile)
 
     sandbox_.write("bad.toml", "[clusters]\nlevels = [{ keep = 2 }]\n");
     const test::ProgramEnd bad = run({"rock.obj", "-o", "bad.part", "--profile", "bad.toml"});
-    EXPECT_EQ(bad.exit_code, 65);
+    EXPECT_EQ(bad.exit_code, 78);
     EXPECT_NE(bad.err.find("bad.toml|line 2, clusters.levels[0].keep: error:"), std::string::npos) << bad.err;
     EXPECT_FALSE(sandbox_.has("bad.part"));
 
     // what is for the import goes there
     sandbox_.write("clips.toml", "[animation]\nerror = -1\n");
     const test::ProgramEnd clips = run({"rock.obj", "-o", "bad.part", "--profile", "clips.toml"});
-    EXPECT_EQ(clips.exit_code, 65);
+    EXPECT_EQ(clips.exit_code, 78);
     EXPECT_NE(clips.err.find("clips.toml|line 2, animation.error: error:"), std::string::npos) << clips.err;
+}
+
+TEST_F(ClustersProgram, isToldWhatAProfileWouldSay)
+{
+    sandbox_.write("house.toml", "[clusters]\nlevels = [{ keep = 0.3 }]\nnormal_bits = 16\n");
+    ASSERT_EQ(run({"rock.obj", "-o", "file.part", "--profile", "house.toml"}).exit_code, 0);
+    ASSERT_EQ(run({"rock.obj", "-o", "words.part", "--set", "clusters.levels=[{keep=0.3}]", "--set",
+                   "clusters.normal_bits=16"})
+                  .exit_code,
+              0);
+    EXPECT_EQ(sandbox_.read("file.part"), sandbox_.read("words.part"));
+
+    const test::ProgramEnd bad = run({"rock.obj", "-o", "bad.part", "--set", "clusters.normal_bits=9"});
+    EXPECT_EQ(bad.exit_code, 78);
+    EXPECT_NE(bad.err.find("--set|line 1, clusters.normal_bits: error: must be 8 or 16"), std::string::npos)
+        << bad.err;
+    const test::ProgramEnd clips = run({"rock.obj", "-o", "bad.part", "--set", "animation.error=-1"});
+    EXPECT_EQ(clips.exit_code, 78);
+    EXPECT_NE(clips.err.find("--set|line 1, animation.error: error:"), std::string::npos) << clips.err;
 }
 
 TEST_F(ClustersProgram, codesNormalsAsAProfileSays)

@@ -22,8 +22,11 @@ CookSettings allSettings()
     settings.sources = {"props/a.obj"};
     settings.output = "out/a.hearth";
     settings.lods = {"2=b.obj", "1=low/a=b.obj"};
-    settings.profile = "house.toml";
-    settings.visibility = VisibilityOptions{"draft", "asset", 2.5, 1, {"Run@0.5,1", "Walk"}, true};
+    settings.settings_of_source = {
+        {{"--set", "animation.error=0.5"},
+         {"--max-size", "64"},
+         {"--set", "clusters.influences=4"},
+         VisibilityOptions{"draft", "asset", 2.5, 1, {"Run@0.5,1", "Walk"}, true}}};
     settings.bricks = BrickOptions{0.25, uint64_t{1} << 20, 2};
     settings.statistics = true;
     return settings;
@@ -54,10 +57,11 @@ TEST(CookGraph, runsEveryCookerWithWhatItIsTold)
     const std::vector<Words> commands = commandsOf(makeCookGraph(allSettings()).value());
     ASSERT_EQ(commands.size(), 8u);
     EXPECT_EQ(commands[0], (Words{"bin/hearth-import", "props/a.obj", "-o", "{import.part}", "--lod",
-                                  "1=low/a=b.obj", "--lod", "2=b.obj", "--profile", "house.toml"}));
-    EXPECT_EQ(commands[1], (Words{"bin/hearth-textures", "{import.part}", "-o", "{textures.part}"}));
-    EXPECT_EQ(commands[2], (Words{"bin/hearth-clusters", "{import.part}", "-o", "{clusters.part}",
-                                  "--profile", "house.toml", "--stats", "{clusters.json}", "--visibility"}));
+                                  "1=low/a=b.obj", "--lod", "2=b.obj", "--set", "animation.error=0.5"}));
+    EXPECT_EQ(commands[1],
+              (Words{"bin/hearth-textures", "{import.part}", "-o", "{textures.part}", "--max-size", "64"}));
+    EXPECT_EQ(commands[2], (Words{"bin/hearth-clusters", "{import.part}", "-o", "{clusters.part}", "--set",
+                                  "clusters.influences=4", "--stats", "{clusters.json}", "--visibility"}));
     EXPECT_EQ(commands[3],
               (Words{"bin/hearth-skinning", "{import.part}", "{clusters.part}", "-o", "{skinning.part}"}));
     EXPECT_EQ(commands[4], (Words{"bin/hearth-visibility",
@@ -181,8 +185,8 @@ TEST(Causes, tellParametersApart)
     for (const Action& action : before.actions)
         journal.actions.push_back(
             {Ending::cooked, {}, recordOf(action, "v", std::vector<std::string>(action.inputs.size(), "h"))});
-    settings.visibility->quality = "high";
-    settings.visibility->distance = 0;
+    settings.settings_of_source[0].visibility->quality = "high";
+    settings.settings_of_source[0].visibility->distance = 0;
     const Graph now = makeCookGraph(settings).value();
     const Action& visibility = now.actions[4];
     ASSERT_EQ(visibility.cooker, "visibility");

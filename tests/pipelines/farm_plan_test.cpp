@@ -53,23 +53,6 @@ double bestOf(const std::vector<double>& seconds, size_t count)
     }
 }
 
-/// As the command line is read, of what these tests give.
-Result<graph::CookSettings> readRequest(const Request& request)
-{
-    graph::CookSettings settings;
-    settings.sources = request.sources;
-    settings.output = kPackName;
-    settings.statistics = request.statistics;
-    for (size_t i = 0; i < request.options.size(); ++i)
-        if (request.options[i] == "--visibility")
-            settings.visibility.emplace();
-        else if (request.options[i] == "--profile" && i + 1 < request.options.size())
-            settings.profile = request.options[++i];
-        else
-            return Error{Issue::usage, "hearth", "", "unknown option " + request.options[i]};
-    return settings;
-}
-
 /// A folder with sources and cookers, and a plan for them.
 class PlanFile : public ::testing::Test
 {
@@ -87,13 +70,16 @@ protected:
     {
         graph::FileHashes hashes(folder.path());
         graph::ActionCache actions(cache, hashes, folder.path());
-        return makePlan(request, readRequest, folder.path(), 2, folder.path(), actions, hashes);
+        return makePlan(request, folder.path(), 2, folder.path(), actions, hashes);
     }
 
     Request request()
     {
+        const Assignments settings{"clusters.influences=4", "visibility.enabled=true"};
         return {{folder / "a.obj", folder / "b.obj", folder / "c.obj"},
-                {"--visibility", "--profile", folder / "house.toml"},
+                {},
+                {settings, settings, settings},
+                {"bricks.bake=2"},
                 true};
     }
 
@@ -197,7 +183,7 @@ TEST_F(PlanFile, comesBack)
     ASSERT_TRUE(plan.ok()) << formatMessage(plan.error());
     const std::string text = planText(*plan);
     EXPECT_EQ(planText(*make(request())), text) << "the same plan";
-    const Result<Plan> again = parsePlan(text, "plan.json", readRequest);
+    const Result<Plan> again = parsePlan(text, "plan.json");
     ASSERT_TRUE(again.ok()) << formatMessage(again.error());
     EXPECT_EQ(planText(*again), text);
     EXPECT_EQ(again->hash_of_file.size(), 4u) << "three sources and a profile";
@@ -217,7 +203,7 @@ TEST_F(PlanFile, isRefusedWhereItIsNotWhatACookWouldBe)
     };
     const auto placeOf = [](const std::string& plan)
     {
-        const Result<Plan> parsed = parsePlan(plan, "plan.json", readRequest);
+        const Result<Plan> parsed = parsePlan(plan, "plan.json");
         if (parsed.ok())
             return std::string("taken");
         EXPECT_EQ(exitCode(parsed.error()), 65);
@@ -290,10 +276,8 @@ TEST_F(PlanFile, isRefusedWhereItIsNotWhatACookWouldBe)
     for (const Row& row : rows)
         EXPECT_EQ(placeOf(changed(row.change)), row.where) << "row " << &row - rows.data();
     EXPECT_EQ(placeOf("[]"), "");
-    EXPECT_EQ(parsePlan(text.substr(0, text.size() / 2), "plan.json", readRequest).error().issue,
-              Issue::json_syntax);
-    EXPECT_EQ(parsePlan(std::string(100000, '['), "plan.json", readRequest).error().issue,
-              Issue::json_syntax);
+    EXPECT_EQ(parsePlan(text.substr(0, text.size() / 2), "plan.json").error().issue, Issue::json_syntax);
+    EXPECT_EQ(parsePlan(std::string(100000, '['), "plan.json").error().issue, Issue::json_syntax);
 }
 
 TEST_F(PlanFile, isNotCookedFromSomethingElse)

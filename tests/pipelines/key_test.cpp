@@ -37,7 +37,7 @@ protected:
 
     static void fill(const Sandbox& sandbox)
     {
-        for (const char* name : {"a.obj", "low.obj", "house.toml", "wood.png"})
+        for (const char* name : {"a.obj", "low.obj", "wood.png"})
             sandbox.write(name, name);
         for (const char* cooker :
              {"import", "textures", "clusters", "skinning", "visibility", "specular", "bricks", "link"})
@@ -50,8 +50,10 @@ protected:
         settings.sources = {sandbox / "a.obj"};
         settings.output = sandbox / "a.hearth";
         settings.lods = {"1=" + sandbox / "low.obj"};
-        settings.profile = sandbox / "house.toml";
-        settings.visibility = VisibilityOptions{"default", "scene", 2, 1, {"Run@0.5"}, false};
+        settings.settings_of_source = {{{"--set", "animation.error=1"},
+                                        {"--max-size", "64"},
+                                        {"--set", "clusters.influences=4"},
+                                        VisibilityOptions{"default", "scene", 2, 1, {"Run@0.5"}, false}}};
         settings.bricks = BrickOptions{0.5, uint64_t{1} << 20, 2};
         return settings;
     }
@@ -113,11 +115,12 @@ TEST_F(Keys, everyParameterChangesThem)
 {
     const CookSettings settings = settingsIn(folder);
     // a parameter more breaks these lines: it needs a row below
-    const auto& [sources, output, lods, profile, visibility, bricks, statistics] = settings;
+    const auto& [sources, output, lods, of_source, bricks, statistics] = settings;
+    const auto& [import, textures, clusters, visibility] = of_source[0];
     const auto& [quality, occluders, distance, power, poses, refine] = *visibility;
     const auto& [voxel_size, memory_bytes, bounces] = *bricks;
-    static_cast<void>(std::tie(sources, output, lods, profile, statistics, quality, occluders, distance,
-                               power, poses, refine, voxel_size, memory_bytes, bounces));
+    static_cast<void>(std::tie(sources, output, lods, import, textures, clusters, statistics, quality,
+                               occluders, distance, power, poses, refine, voxel_size, memory_bytes, bounces));
 
     struct Row
     {
@@ -128,25 +131,62 @@ TEST_F(Keys, everyParameterChangesThem)
     const std::string low = folder / "low.obj";
     const std::vector<Row> rows{
         {"another source", [&](CookSettings& s) { s.sources = {low}; }, kOfSource},
-        {"a source more", [&](CookSettings& s) { s.sources.push_back(low); }, kOfSource},
+        {"a source more",
+         [&](CookSettings& s)
+         {
+             s.sources.push_back(low);
+             s.settings_of_source.push_back(s.settings_of_source[0]);
+         },
+         kOfSource},
         {"no lod", [](CookSettings& s) { s.lods.clear(); }, kOfSource},
         {"another level", [&](CookSettings& s) { s.lods = {"2=" + low}; }, kOfSource},
         {"another lod", [&](CookSettings& s) { s.lods = {"1=" + s.sources[0]}; }, kOfSource},
-        {"no profile", [](CookSettings& s) { s.profile.clear(); }, kOfSource},
+        {"nothing told", [](CookSettings& s) { s.settings_of_source[0].import.clear(); }, kOfSource},
+        {"error of clips",
+         [](CookSettings& s) {
+             s.settings_of_source[0].import = {"--set", "animation.error=2"};
+         },
+         kOfSource},
+        {"size of textures",
+         [](CookSettings& s) {
+             s.settings_of_source[0].textures = {"--max-size", "32"};
+         },
+         {"textures", "bricks", "link"}},
+        {"influences",
+         [](CookSettings& s) {
+             s.settings_of_source[0].clusters = {"--set", "clusters.influences=8"};
+         },
+         {"clusters", "skinning", "visibility", "bricks", "link"}},
         {"statistics",
          [](CookSettings& s) { s.statistics = true; },
          {"clusters", "skinning", "visibility", "bricks", "link"}},
         {"no visibility",
-         [](CookSettings& s) { s.visibility.reset(); },
+         [](CookSettings& s) { s.settings_of_source[0].visibility.reset(); },
          {"clusters", "skinning", "visibility", "specular", "bricks", "link"}},
-        {"quality", [](CookSettings& s) { s.visibility->quality = "draft"; }, {"visibility", "link"}},
-        {"occluders", [](CookSettings& s) { s.visibility->occluders = "asset"; }, {"visibility", "link"}},
-        {"distance", [](CookSettings& s) { s.visibility->distance = 3; }, {"visibility", "link"}},
-        {"no distance", [](CookSettings& s) { s.visibility->distance = 0; }, {"visibility", "link"}},
-        {"power", [](CookSettings& s) { s.visibility->power = 2; }, {"visibility", "link"}},
-        {"no poses", [](CookSettings& s) { s.visibility->poses.clear(); }, {"visibility", "link"}},
-        {"another pose", [](CookSettings& s) { s.visibility->poses = {"Run@1"}; }, {"visibility", "link"}},
-        {"refined cones", [](CookSettings& s) { s.visibility->refine = true; }, {"visibility", "link"}},
+        {"quality",
+         [](CookSettings& s) { s.settings_of_source[0].visibility->quality = "draft"; },
+         {"visibility", "link"}},
+        {"occluders",
+         [](CookSettings& s) { s.settings_of_source[0].visibility->occluders = "asset"; },
+         {"visibility", "link"}},
+        {"distance",
+         [](CookSettings& s) { s.settings_of_source[0].visibility->distance = 3; },
+         {"visibility", "link"}},
+        {"no distance",
+         [](CookSettings& s) { s.settings_of_source[0].visibility->distance = 0; },
+         {"visibility", "link"}},
+        {"power",
+         [](CookSettings& s) { s.settings_of_source[0].visibility->power = 2; },
+         {"visibility", "link"}},
+        {"no poses",
+         [](CookSettings& s) { s.settings_of_source[0].visibility->poses.clear(); },
+         {"visibility", "link"}},
+        {"another pose",
+         [](CookSettings& s) { s.settings_of_source[0].visibility->poses = {"Run@1"}; },
+         {"visibility", "link"}},
+        {"refined cones",
+         [](CookSettings& s) { s.settings_of_source[0].visibility->refine = true; },
+         {"visibility", "link"}},
         {"no bricks", [](CookSettings& s) { s.bricks.reset(); }, {"bricks", "link"}},
         {"voxel size", [](CookSettings& s) { s.bricks->voxel_size = 0.25; }, {"bricks", "link"}},
         {"no voxel size", [](CookSettings& s) { s.bricks->voxel_size.reset(); }, {"bricks", "link"}},
@@ -168,7 +208,7 @@ TEST_F(Keys, everyParameterChangesThem)
 TEST_F(Keys, everyFileChangesThem)
 {
     const CookSettings settings = settingsIn(folder);
-    for (const char* name : {"a.obj", "low.obj", "house.toml", "wood.png", "stone.png", "hearth-import"})
+    for (const char* name : {"a.obj", "low.obj", "wood.png", "stone.png", "hearth-import"})
     {
         const auto before = keys(settings);
         folder.write(name, std::string("other ") + name);
@@ -230,7 +270,7 @@ TEST_F(Keys, hideNoPaths)
 TEST_F(Keys, whatCannotBeReadHasNone)
 {
     CookSettings settings = settingsIn(folder);
-    settings.profile = folder / "missing.toml";
+    settings.lods = {"1=" + folder / "missing.obj"};
     EXPECT_EQ(keys(settings)["import"], "none");
     settings = settingsIn(folder);
     fs::remove(folder / "hearth-link");

@@ -6,6 +6,7 @@
 #include "tests/formats/temporary_folder.h"
 #include "tests/textures/texture_test_images.h"
 
+#include <array>
 #include <gtest/gtest.h>
 
 namespace hearth::textures
@@ -54,6 +55,39 @@ TEST(CookTextures, writesEveryImageWithItsMips)
         EXPECT_TRUE(std::equal(expected.begin(), expected.end(), data->bytes().begin(), data->bytes().end()));
     }
     EXPECT_EQ((*records)[0].name.offset, 3u);
+}
+
+TEST(CookTextures, leavesOutMipsThatAreTooLarge)
+{
+    const TemporaryFolder folder;
+    const std::vector<ImageRecord> images = {recordOf(12, 7), recordOf(5, 16), recordOf(1, 1)};
+    const std::vector<std::vector<std::byte>> texels = {randomBytes(12 * 7 * 4, 1),
+                                                        randomBytes(5 * 16 * 4, 2), randomBytes(4, 3)};
+    writeImport(folder.file("in.part"), images, texels);
+    // how many of the finest mips go: of 12 x 7, 5 x 16, 1 x 1
+    const std::vector<std::pair<uint32_t, std::array<uint32_t, 3>>> rows = {
+        {16, {0, 0, 0}}, {12, {0, 1, 0}}, {11, {1, 1, 0}}, {6, {1, 2, 0}}, {1, {3, 4, 0}}};
+    for (const auto& [max_size, left_out] : rows)
+    {
+        ASSERT_TRUE(cookTextures(folder.file("in.part"), folder.file("out.part"), max_size).ok());
+        const auto part = ContainerReader::open(folder.file("out.part"));
+        ASSERT_TRUE(part.ok());
+        const auto records = part->records<ImageRecord>(kChunkImages);
+        ASSERT_TRUE(records.ok());
+        for (uint32_t i = 0; i < 3; ++i)
+        {
+            const ImageRecord& kept = (*records)[i];
+            EXPECT_EQ(kept.width, std::max(1u, images[i].width >> left_out[i])) << max_size << ' ' << i;
+            EXPECT_EQ(kept.height, std::max(1u, images[i].height >> left_out[i])) << max_size << ' ' << i;
+            EXPECT_EQ(kept.mip_count, fullMipCount(images[i].width, images[i].height) - left_out[i]);
+            const std::vector<std::byte> chain = buildMipChain(images[i], texels[i]);
+            const auto data = part->read(kChunkImageData, i);
+            ASSERT_TRUE(data.ok());
+            ASSERT_LE(data->bytes().size(), chain.size());
+            EXPECT_EQ(data->bytes().size(), mipOffset(kept, kept.mip_count));
+            EXPECT_TRUE(std::equal(data->bytes().rbegin(), data->bytes().rend(), chain.rbegin()));
+        }
+    }
 }
 
 TEST(CookTextures, partWithoutImagesGivesAnEmptyTable)

@@ -332,8 +332,22 @@ Status drawPack(const RenderOptions& options, const formats::PackView& pack, Vul
     return run.writeStats();
 }
 
+Status nameDevice(const RenderOptions& options)
+{
+    HEARTH_ASSIGN_OR_RETURN(
+        const std::unique_ptr<VulkanHost> host,
+        VulkanHost::create({.device_name = options.device, .validate = options.validate}));
+    // what a device lacks, the renderer says
+    HEARTH_ASSIGN_OR_RETURN(const std::unique_ptr<gpu::Renderer> renderer,
+                            gpu::Renderer::create(host->description()));
+    std::printf("%s%s\n", host->deviceName().c_str(), host->software() ? " (software)" : "");
+    return success();
+}
+
 Status render(const RenderOptions& options)
 {
+    if (options.names_device)
+        return nameDevice(options);
     HEARTH_ASSIGN_OR_RETURN(const pack::Pack pack, pack::Pack::open(options.pack));
     HEARTH_ASSIGN_OR_RETURN(
         const std::unique_ptr<VulkanHost> host,

@@ -78,6 +78,7 @@ std::string renderHelp()
            "      --hzb START         the depths that occlusion culling starts a frame with: previous "
            "(default), none,\n"
            "                          or noise:SEED; the picture stays the same\n"
+           "      --name-device       print which device would draw, and draw nothing; needs no pack\n"
            "\n"
            "With --budget a picture waits for all that it wants, those of a camera path do not.\n"
            "Example: hearth-render rock.hearth -o rock.png --size 1920x1080 --samples 4\n"
@@ -101,8 +102,9 @@ Result<RenderOptions> parseRenderOptions(std::span<const char* const> arguments)
     command_line.addValue("--gi-frames", [&](std::string_view text) { return parseGiFrames(text, options); });
     command_line.addText("--dump-visibility", options.visibility);
     command_line.addValue("--hzb", [&](std::string_view text) { return parsePyramid(text, options); });
+    command_line.addSwitch("--name-device", options.names_device);
     HEARTH_TRY(command_line.parse(arguments, options.pack));
-    if (options.help)
+    if (options.help || options.names_device)
         return options;
     if (options.pack.empty())
         return usageError("no pack is named");

@@ -28,6 +28,7 @@ struct RenderOptions : DrawOptions
     uint32_t noise_seed = 0;
     std::string stats;
     std::string visibility;
+    bool names_device = false; ///< and does nothing else
 };
 
 /// The text of --help.

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "pipelines/command/common_options.h"
+
+#include "pipelines/cache/folder_level.h"
+
+#include <CLI/CLI.hpp>
+#include <sstream>
+#include <unistd.h>
+
+namespace hearth::command
+{
+
+namespace
+{
+
+struct CommonOptions
+{
+    std::string directory;
+    std::string config_file;
+};
+
+/// One process has one command line.
+CommonOptions& common()
+{
+    static CommonOptions options;
+    return options;
+}
+
+} // namespace
+
+void addCommonOptions(CLI::App& app)
+{
+    app.add_option("-C,--directory", common().directory, "work as if started in this folder")
+        ->type_name("DIR");
+    app.add_option("--config", common().config_file,
+                   "file of settings, instead of hearth.toml here or above; off: none")
+        ->type_name("FILE");
+}
+
+Status applyCommonOptions()
+{
+    const std::string& directory = common().directory;
+    if (!directory.empty() && ::chdir(directory.c_str()) != 0)
+        return Error{Issue::input_missing, directory, "", "is no folder that can be entered"};
+    return success();
+}
+
+Result<profiles::Configuration> loadConfiguration(profiles::Given given)
+{
+    given.config_file = common().config_file;
+    return profiles::Configuration::load(std::move(given));
+}
+
+std::vector<std::string> cachesOf(const profiles::Configuration& configuration)
+{
+    const profiles::Value* caches = configuration.command("cache");
+    // what the environment says is read where caches are opened: it may be "off"
+    return caches == nullptr || caches->origin == "HEARTH_CACHE" ? std::vector<std::string>()
+                                                                 : profiles::textsOf(*caches);
+}
+
+Result<std::vector<std::string>> configuredCaches(const std::vector<std::string>& caches)
+{
+    if (!caches.empty())
+        return caches;
+    HEARTH_ASSIGN_OR_RETURN(const profiles::Configuration configuration, loadConfiguration({}));
+    return cachesOf(configuration);
+}
+
+Result<std::vector<std::string>> withArgumentFiles(const std::vector<std::string>& words)
+{
+    std::vector<std::string> all;
+    for (const std::string& word : words)
+    {
+        if (word.size() < 2 || word.front() != '@')
+        {
+            all.push_back(word);
+            continue;
+        }
+        const std::optional<std::string> text = cache::readText(word.substr(1));
+        if (!text)
+            return Error{Issue::input_missing, word.substr(1), "", "the list of arguments cannot be read"};
+        std::istringstream lines(*text);
+        for (std::string line; std::getline(lines, line);)
+            if (!line.empty() && line.front() != '#')
+                all.push_back(line);
+    }
+    return all;
+}
+
+} // namespace hearth::command

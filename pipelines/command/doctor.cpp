@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "pipelines/command/doctor.h"
+
+#include "cook/tools/child_processes.h"
+#include "cook/tools/private_folder.h"
+#include "pipelines/cache/folder_level.h"
+#include "pipelines/cache/open_cache.h"
+#include "pipelines/cache/upkeep.h"
+#include "pipelines/command/terminal.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+#include <thread>
+#include <unistd.h>
+
+namespace hearth::command
+{
+
+namespace
+{
+
+namespace fs = std::filesystem;
+using State = Check::State;
+
+// A cook of the demo scene writes a tenth of it; less than this is gone soon.
+constexpr uint64_t kLittleSpace = uint64_t{1} << 30;
+// What one large mesh takes to cook.
+constexpr uint64_t kLittleMemory = uint64_t{2} << 30;
+// Before the version, in every program of Hearth (cmake/program_version.cpp.in).
+constexpr std::string_view kVersionMark = "hearth program version ";
+
+/// The version that a program was built as; empty: it is none of Hearth's.
+std::string versionOf(const std::string& program)
+{
+    const std::string bytes = cache::readText(program).value_or("");
+    // this program has the mark itself, as the text of this search
+    for (size_t at = bytes.find(kVersionMark); at != std::string::npos; at = bytes.find(kVersionMark, at + 1))
+    {
+        const size_t start = at + kVersionMark.size();
+        if (start < bytes.size() && bytes[start] >= '0' && bytes[start] <= '9')
+            return bytes.substr(start, bytes.find('\0', start) - start);
+    }
+    return "";
+}
+
+Check checkPrograms(const std::string& folder)
+{
+    std::vector<std::string> missing;
+    std::vector<std::string> others;
+    for (const char* name :
+         {"import", "textures", "clusters", "skinning", "visibility", "specular", "bricks", "link", "render"})
+    {
+        const std::string program = folder + "/hearth-" + name;
+        const std::string version = versionOf(program);
+        if (::access(program.c_str(), X_OK) != 0)
+            missing.push_back(std::string("hearth-") + name);
+        else if (version != HEARTH_VERSION)
+            others.push_back(fmt::format("hearth-{} {}", name, version.empty() ? "of no version" : version));
+    }
+    if (!missing.empty())
+        return {"programs", State::wrong, fmt::format("{} lacks {}", folder, fmt::join(missing, ", ")),
+                "install Hearth whole: its programs lie in one folder"};
+    if (!others.empty())
+        return {"programs", State::wrong,
+                fmt::format("this is hearth " HEARTH_VERSION ", beside it lie {}", fmt::join(others, ", ")),
+                "install Hearth anew: all of its programs come from one build"};
+    return {"programs", State::ok, fmt::format("all of " HEARTH_VERSION ", in {}", folder), ""};
+}
+
+/// The nearest folder that is there.
+std::string existingFolder(std::string folder)
+{
+    std::error_code error;
+    while (!folder.empty() && !fs::is_directory(folder, error))
+    {
+        const std::string parent = fs::path(folder).parent_path().string();
+        folder = parent == folder ? "" : parent;
+    }
+    return folder.empty() ? "." : folder;
+}
+
+Check checkSpace(const std::string& what, const std::string& folder)
+{
+    std::error_code error;
+    const fs::space_info space = fs::space(existingFolder(folder), error);
+    const std::string text =
+        fmt::format("{} free for {} in {}", readableSize(error ? 0 : space.available), what, folder);
+    if (error || space.available < kLittleSpace)
+        return {"space", State::wrong, text, "make room, or choose another disk: TMPDIR, --cache"};
+    return {"space", State::ok, text, ""};
+}
+
+/// By trying: rights alone do not say it.
+bool canWriteInto(const std::string& folder)
+{
+    std::string path = existingFolder(folder) + "/.hearth-doctor-XXXXXX";
+    const int file = ::mkstemp(path.data());
+    if (file < 0)
+        return false;
+    ::close(file);
+    return ::unlink(path.c_str()) == 0;
+}
+
+Check checkCache(const cache::FolderSpec& spec)
+{
+    const cache::Occupancy occupancy = cache::occupancyOf(spec.folder);
+    const std::string text =
+        fmt::format("{}: {} of {} in {} entries{}", spec.folder, readableSize(occupancy.bytes),
+                    readableSize(spec.limit_bytes), occupancy.entries, spec.writable ? "" : ", read only");
+    std::error_code error;
+    if (!spec.writable)
+        return fs::is_directory(spec.folder, error)
+                   ? Check{"cache", State::ok, text, ""}
+                   : Check{"cache", State::wrong, spec.folder + " is not there",
+                           "mount it, or take it out of --cache and hearth.toml"};
+    if (!canWriteInto(spec.folder))
+        return {"cache", State::wrong, spec.folder + " cannot be written",
+                "give yourself rights to it, or choose another: --cache dir:FOLDER"};
+    return {"cache", State::ok, text, ""};
+}
+
+std::vector<Check> checkCaches(const std::vector<std::string>& caches)
+{
+    const auto specs = cache::cacheSpecs(caches);
+    if (!specs.ok())
+        return {{"cache", State::wrong, formatMessage(specs.error()),
+                 "correct --cache, HEARTH_CACHE or hearth.toml"}};
+    if (specs->empty())
+        return {{"cache", State::warning, "no cache is used: every cook runs every cooker",
+                 "unset HEARTH_CACHE and HEARTH_CACHE_MODE"}};
+    std::vector<Check> checks;
+    for (const cache::FolderSpec& spec : *specs)
+    {
+        checks.push_back(checkCache(spec));
+        if (spec.writable)
+            checks.push_back(checkSpace("the cache", spec.folder));
+    }
+    return checks;
+}
+
+std::string shellQuoted(std::string text)
+{
+    for (size_t at = 0; (at = text.find('\'', at)) != std::string::npos; at += 4)
+        text.replace(at, 1, "'\\''");
+    return "'" + text + "'";
+}
+
+/// Whether a command ends well; `line` becomes the last one that it prints.
+bool runs(const std::string& command, std::string& line)
+{
+    std::FILE* pipe = ::popen((command + " 2>&1").c_str(), "r");
+    if (pipe == nullptr)
+        return false;
+    char buffer[1024];
+    while (std::fgets(buffer, sizeof buffer, pipe) != nullptr)
+        line = buffer;
+    while (line.ends_with('\n'))
+        line.pop_back();
+    return ::pclose(pipe) == 0;
+}
+
+Check checkDevice(const std::string& folder)
+{
+    const std::string program = folder + "/hearth-render";
+    if (::access(program.c_str(), X_OK) != 0)
+        return {"device", State::wrong, "hearth-render, which would say what draws, is not there",
+                "install Hearth whole: its programs lie in one folder"};
+    std::string line;
+    if (runs(shellQuoted(program) + " --name-device", line))
+        return {"device", State::ok, "draws with " + line, ""};
+    return {"device", State::wrong, line, "install a Vulkan driver: on Debian mesa-vulkan-drivers"};
+}
+
+Check checkThreads()
+{
+    const unsigned threads = std::thread::hardware_concurrency();
+    return {"threads", State::ok, fmt::format("{} threads", threads), ""};
+}
+
+Check checkMemory()
+{
+    const auto page = static_cast<uint64_t>(::sysconf(_SC_PAGESIZE));
+    const uint64_t all = static_cast<uint64_t>(::sysconf(_SC_PHYS_PAGES)) * page;
+    const uint64_t free = static_cast<uint64_t>(::sysconf(_SC_AVPHYS_PAGES)) * page;
+    const std::string text =
+        fmt::format("{} of memory, {} of it free at once", readableSize(all), readableSize(free));
+    if (all < kLittleMemory)
+        return {"memory", State::warning, text, "cook large meshes on another machine, or with --jobs 1"};
+    return {"memory", State::ok, text, ""};
+}
+
+const char* stateName(State state)
+{
+    return state == State::ok ? "ok" : state == State::warning ? "warning" : "wrong";
+}
+
+} // namespace
+
+std::vector<Check> examine(const std::vector<std::string>& caches)
+{
+    const std::string folder = tools::programFolder();
+    std::vector<Check> checks{checkPrograms(folder)};
+    for (Check& check : checkCaches(caches))
+        checks.push_back(std::move(check));
+    checks.push_back(checkSpace("temporary files", tools::temporaryOr(fs::temp_directory_path().string())));
+    checks.push_back(checkDevice(folder));
+    checks.push_back(checkThreads());
+    checks.push_back(checkMemory());
+    return checks;
+}
+
+bool isWell(const std::vector<Check>& checks)
+{
+    return std::none_of(checks.begin(), checks.end(),
+                        [](const Check& check) { return check.state == State::wrong; });
+}
+
+std::string checksText(const std::vector<Check>& checks)
+{
+    std::string text;
+    for (const Check& check : checks)
+    {
+        text += fmt::format("{:<9}{:<9}{}\n", stateName(check.state), check.name, check.text);
+        if (!check.remedy.empty())
+            text += fmt::format("{:<18}what to do: {}\n", "", check.remedy);
+    }
+    return text;
+}
+
+std::string checksJson(const std::vector<Check>& checks)
+{
+    using Json = nlohmann::ordered_json;
+    Json json{{"schema", "hearth.doctor/1"}, {"ok", isWell(checks)}, {"checks", Json::array()}};
+    for (const Check& check : checks)
+    {
+        json["checks"].push_back(
+            {{"name", check.name}, {"state", stateName(check.state)}, {"text", check.text}});
+        if (!check.remedy.empty())
+            json["checks"].back()["remedy"] = check.remedy;
+    }
+    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+} // namespace hearth::command

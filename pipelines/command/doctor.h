@@ -1,0 +1,34 @@
+// hearth doctor: whether this machine has what Hearth needs.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace hearth::command
+{
+
+struct Check
+{
+    enum class State : uint8_t
+    {
+        ok,
+        warning, ///< Hearth works, but less well
+        wrong,
+    };
+    std::string name; ///< "programs", "cache", "device", ...
+    State state = State::ok;
+    std::string text;
+    std::string remedy; ///< what to do; empty where all is well
+};
+
+/// caches  of --cache and of the configuration
+std::vector<Check> examine(const std::vector<std::string>& caches);
+
+bool isWell(const std::vector<Check>& checks);
+std::string checksText(const std::vector<Check>& checks);
+/// Schema hearth.doctor/1.
+std::string checksJson(const std::vector<Check>& checks);
+
+} // namespace hearth::command

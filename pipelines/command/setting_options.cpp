@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "pipelines/command/setting_options.h"
+
+#include "pipelines/command/common_options.h"
+#include "pipelines/command/source_list.h"
+#include "pipelines/profiles/told.h"
+
+#include <CLI/CLI.hpp>
+#include <charconv>
+
+namespace hearth::command
+{
+
+namespace
+{
+
+using profiles::Given;
+using profiles::Kind;
+using profiles::Setting;
+using profiles::Value;
+
+std::string describe(const Setting& setting)
+{
+    std::string text(setting.what);
+    if (setting.kind != Kind::flag && setting.kind != Kind::texts && !setting.otherwise.empty())
+        text += "; by default " + std::string(setting.otherwise);
+    return text;
+}
+
+std::string fault(const Setting& setting, const std::string& text)
+{
+    const auto value = profiles::valueOf(setting, {text}, "");
+    return value.ok() ? "" : "'" + text + "' " + value.error().detail;
+}
+
+/// "--jobs" of "-j,--jobs".
+std::string longName(std::string_view option)
+{
+    return std::string(option.substr(option.find("--")));
+}
+
+uint64_t numberOf(const Value& value)
+{
+    uint64_t number = 0;
+    std::from_chars(value.text.data(), value.text.data() + value.text.size(), number);
+    return number;
+}
+
+/// An option that changes nothing is a mistake: its visibility or bricks are not baked.
+Status checkInUse(const profiles::Values& values, bool has_visibility, bool has_bricks)
+{
+    for (const auto& [key, value] : values)
+    {
+        const std::string_view group = profiles::groupOf(key);
+        const bool is_idle = (group == "visibility" && !has_visibility) || (group == "bricks" && !has_bricks);
+        if (is_idle && value.text != "false" && value.origin.starts_with("--"))
+            return Error{Issue::usage, value.origin, "",
+                         "needs --" + std::string(group) + ", or " + std::string(group) +
+                             ".enabled in the profile"};
+    }
+    return success();
+}
+
+farm::Assignments assignmentsOf(const profiles::Values& values, profiles::Scope scope)
+{
+    farm::Assignments assignments;
+    for (const auto& [key, value] : values)
+        if (profiles::findSetting(profiles::profileSettings(), key)->scope == scope)
+            assignments.push_back(key + "=" + value.text);
+    return assignments;
+}
+
+} // namespace
+
+SettingOptions::Entry& SettingOptions::add(CLI::App& verb, const Setting& setting)
+{
+    Entry& entry = entries_[setting.key];
+    entry.setting = &setting;
+    const std::string names(setting.option);
+    CLI::Option* option = nullptr;
+    if (setting.kind == Kind::flag)
+        option = verb.add_flag(names, entry.flag, describe(setting));
+    else if (setting.kind == Kind::texts)
+        option = verb.add_option(names, entry.words, describe(setting))->allow_extra_args(false);
+    else
+        option = verb.add_option(names, entry.word, describe(setting))
+                     ->check(CLI::Validator(
+                         [&setting](const std::string& text) { return fault(setting, text); }, ""));
+    if (setting.kind == Kind::choice)
+        option->type_name(CLI::detail::join(setting.choices, "|"));
+    else if (setting.kind != Kind::flag)
+        option->type_name(std::string(setting.value_name));
+    entry.option = option;
+    return entry;
+}
+
+void SettingOptions::addTo(CLI::App& verb, const std::vector<std::string>& command_keys)
+{
+    for (const std::string& key : command_keys)
+        add(verb, *profiles::findSetting(profiles::commandSettings(), key));
+    for (const Setting& setting : profiles::profileSettings())
+        if (!setting.option.empty())
+            add(verb, setting);
+    verb.add_option("--set", assignments_,
+                    "any setting of a profile, as clusters.influences=4; see hearth config")
+        ->allow_extra_args(false)
+        ->type_name("KEY=VALUE");
+}
+
+Result<Value> SettingOptions::valueOf(const Entry& entry)
+{
+    const std::string origin = longName(entry.setting->option);
+    if (entry.setting->kind == Kind::flag)
+        return Value{"true", origin};
+    return profiles::valueOf(
+        *entry.setting, entry.setting->kind == Kind::texts ? entry.words : std::vector{entry.word}, origin);
+}
+
+Result<Given> SettingOptions::given() const
+{
+    Given given;
+    for (const std::string& assignment : assignments_)
+    {
+        auto parsed = profiles::parseAssignment(assignment);
+        if (!parsed.ok())
+            return Error{Issue::usage, parsed.error().file, parsed.error().where, parsed.error().detail};
+        given.settings[parsed->first] = std::move(parsed->second);
+    }
+    for (const auto& [key, entry] : entries_)
+    {
+        if (entry.option->count() == 0)
+            continue;
+        auto value = valueOf(entry);
+        if (!value.ok())
+            return Error{Issue::usage, value.error().file, value.error().where, value.error().detail};
+        (entry.setting->scope == profiles::Scope::command ? given.command : given.settings)[key] =
+            std::move(value).value();
+    }
+    return given;
+}
+
+Status configure(const profiles::Configuration& configuration, CookOptions& options)
+{
+    HEARTH_ASSIGN_OR_RETURN(options.sources, sourcesOf(options.sources));
+    bool has_visibility = false;
+    for (const std::string& source : options.sources)
+    {
+        auto told = profiles::toldOfSource(configuration.ofSource(source));
+        if (!told.ok() && told.error().file.starts_with("--"))
+            return Error{Issue::usage, told.error().file, "", told.error().detail};
+        if (!told.ok())
+            return told.error();
+        has_visibility |= told->visibility.has_value();
+        options.settings_of_source.push_back(std::move(told).value());
+    }
+    const profiles::Values of_pack = configuration.ofPack();
+    options.bricks = profiles::toldOfBricks(of_pack);
+    HEARTH_TRY(checkInUse(of_pack, has_visibility, options.bricks.has_value()));
+    if (const Value* jobs = configuration.command("jobs"))
+        options.jobs = static_cast<unsigned>(numberOf(*jobs));
+    if (const Value* memory = configuration.command("memory"))
+        options.memory_bytes = numberOf(*memory);
+    options.caches = cachesOf(configuration);
+    return success();
+}
+
+Result<farm::Request> requestOf(const profiles::Configuration& configuration,
+                                const std::vector<std::string>& sources)
+{
+    // what is wrong is told with the place where it was written
+    CookOptions cook;
+    cook.sources = sources;
+    HEARTH_TRY(configure(configuration, cook));
+    farm::Request request;
+    request.sources = cook.sources;
+    for (const std::string& source : request.sources)
+        request.settings_of_source.push_back(
+            assignmentsOf(configuration.ofSource(source), profiles::Scope::source));
+    request.settings_of_pack = assignmentsOf(configuration.ofPack(), profiles::Scope::pack);
+    return request;
+}
+
+} // namespace hearth::command

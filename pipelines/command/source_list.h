@@ -1,0 +1,20 @@
+// What people type as sources: files, folders, patterns.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "formats/result.h"
+
+#include <string>
+#include <vector>
+
+namespace hearth::command
+{
+
+/// The files that words stand for, in their order. A folder stands for all models in it and below, sorted by path: glTF, GLB,
+/// OBJ, PLY, STL, OFF and Draco files; images are what models refer to, and lie there too. A pattern ("props/**/*.glb"; it must
+/// be quoted, or the shell takes it) stands for the files that match, whatever their kind. Hidden files and folders are left out.
+/// Another word stands for itself, whether such a file is there or not. What a folder or pattern has is there once, however often it is found.
+/// errors: no_source where a folder or pattern has none, input_missing where a folder cannot be read.
+Result<std::vector<std::string>> sourcesOf(const std::vector<std::string>& words);
+
+} // namespace hearth::command

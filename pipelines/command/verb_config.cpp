@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "pipelines/command/common_options.h"
+#include "pipelines/command/list_settings.h"
+#include "pipelines/command/setting_options.h"
+#include "pipelines/command/verb_tools.h"
+#include "pipelines/command/verbs.h"
+
+#include <CLI/CLI.hpp>
+
+namespace hearth::command
+{
+
+void addConfig(CLI::App& app, Work& run)
+{
+    CLI::App* verb = app.add_subcommand("config", "Say which settings hold, and where they come from");
+    struct Options
+    {
+        std::string source;
+        SettingOptions settings;
+        bool shows_origin = false;
+        std::string format = "text";
+    };
+    auto options = std::make_shared<Options>();
+    verb->add_option("SOURCE", options->source,
+                     "what holds for this source: rules may match it; by default what holds for all");
+    verb->add_flag("--show-origin", options->shows_origin, "say where each was set");
+    addFormat(*verb, options->format);
+    options->settings.addTo(*verb, {"profile", "jobs", "memory", "cache"});
+    verb->footer("Examples:\n"
+                 "  hearth config --show-origin\n"
+                 "  hearth config props/barrel.glb --profile mobile-low --show-origin");
+    verb->callback(
+        [options, &run]
+        {
+            run = [options]
+            {
+                auto given = options->settings.given();
+                if (!given.ok())
+                    return fail(given.error());
+                const auto configuration = loadConfiguration(std::move(given).value());
+                if (!configuration.ok())
+                    return fail(configuration.error());
+                return printResult(options->format == "json" ? settingsJson(*configuration, options->source)
+                                                             : settingsText(*configuration, options->source,
+                                                                            options->shows_origin));
+            };
+        });
+}
+
+} // namespace hearth::command

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "pipelines/farm/request.h"
+
+#include "pipelines/profiles/config_file.h"
+#include "pipelines/profiles/told.h"
+
+namespace hearth::farm
+{
+
+namespace
+{
+
+Result<profiles::Values> valuesOf(const Assignments& assignments)
+{
+    profiles::Values values;
+    for (const std::string& assignment : assignments)
+    {
+        HEARTH_ASSIGN_OR_RETURN(auto parsed, profiles::parseAssignment(assignment));
+        if (!values.insert(std::move(parsed)).second)
+            return Error{Issue::usage, assignment, "", "is set twice"};
+    }
+    return values;
+}
+
+} // namespace
+
+Result<graph::CookSettings> settingsOf(const Request& request)
+{
+    if (request.sources.empty())
+        return Error{Issue::usage, "hearth", "", "there are no sources"};
+    if (request.settings_of_source.size() != request.sources.size())
+        return Error{Issue::usage, "hearth", "", "each source needs its settings"};
+    graph::CookSettings settings;
+    settings.sources = request.sources;
+    settings.lods = request.lods;
+    settings.output = kPackName;
+    settings.statistics = request.statistics;
+    for (const Assignments& assignments : request.settings_of_source)
+    {
+        HEARTH_ASSIGN_OR_RETURN(const profiles::Values values, valuesOf(assignments));
+        HEARTH_ASSIGN_OR_RETURN(graph::SourceSettings told, profiles::toldOfSource(values));
+        settings.settings_of_source.push_back(std::move(told));
+    }
+    HEARTH_ASSIGN_OR_RETURN(const profiles::Values of_pack, valuesOf(request.settings_of_pack));
+    settings.bricks = profiles::toldOfBricks(of_pack);
+    return settings;
+}
+
+} // namespace hearth::farm

@@ -1,0 +1,275 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "pipelines/profiles/configuration.h"
+
+#include "cook/clusters/profile.h"
+#include "cook/tools/suggest.h"
+#include "pipelines/cache/folder_level.h"
+#include "pipelines/profiles/built_in.h"
+#include "pipelines/profiles/glob.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fmt/format.h>
+
+namespace hearth::profiles
+{
+
+namespace
+{
+
+namespace fs = std::filesystem;
+
+constexpr const char* kProjectFile = "hearth.toml";
+constexpr const char* kOff = "off";
+
+Result<std::string> textOfFile(const std::string& path, const char* what)
+{
+    std::error_code error;
+    const std::optional<std::string> text =
+        fs::is_directory(path, error) ? std::nullopt : cache::readText(path);
+    if (!text)
+        return Error{Issue::input_missing, path, "", fmt::format("{} cannot be read", what)};
+    return *text;
+}
+
+/// "hearth.toml", "../../hearth.toml"; empty where there is none.
+std::string nearestProjectFile()
+{
+    std::error_code error;
+    const fs::path here = fs::current_path(error);
+    if (error)
+        return "";
+    std::string path = kProjectFile;
+    for (fs::path folder = here;; folder = folder.parent_path())
+    {
+        if (fs::is_regular_file(folder / kProjectFile, error))
+            return path;
+        if (folder == folder.parent_path())
+            return "";
+        path = "../" + path;
+    }
+}
+
+std::string userFile(const Environment& environment)
+{
+    if (const auto folder = environment("XDG_CONFIG_HOME"))
+        return *folder + "/hearth/config.toml";
+    const auto home = environment("HOME");
+    return home ? *home + "/.config/hearth/config.toml" : "";
+}
+
+std::string folderOfFile(const std::string& path)
+{
+    std::error_code error;
+    const fs::path whole = fs::absolute(path, error).lexically_normal();
+    return whole.parent_path().string() + (whole.parent_path() == whole.root_path() ? "" : "/");
+}
+
+void put(const Values& from, Values& into)
+{
+    for (const auto& [key, value] : from)
+        into[key] = value;
+}
+
+bool isFileName(const std::string& profile)
+{
+    return profile.ends_with(".toml") || profile.find('/') != std::string::npos;
+}
+
+std::vector<std::string> split(const std::string& text, char separator)
+{
+    std::vector<std::string> parts;
+    for (size_t at = 0; at <= text.size();)
+    {
+        const size_t end = std::min(text.find(separator, at), text.size());
+        parts.push_back(text.substr(at, end - at));
+        at = end + 1;
+    }
+    return parts;
+}
+
+} // namespace
+
+std::optional<std::string> processEnvironment(const char* name)
+{
+    const char* value = std::getenv(name);
+    return value == nullptr || *value == '\0' ? std::nullopt : std::optional<std::string>(value);
+}
+
+Status Configuration::readFiles(const Environment& environment)
+{
+    std::string path = given_.config_file;
+    if (path.empty())
+        path = environment("HEARTH_CONFIG").value_or("");
+    if (path == kOff)
+        return success();
+    if (path.empty())
+        path = nearestProjectFile();
+    if (!path.empty())
+    {
+        HEARTH_ASSIGN_OR_RETURN(const std::string text, textOfFile(path, "the project's file of settings"));
+        HEARTH_ASSIGN_OR_RETURN(ConfigFile file, parseConfig(text, path, true));
+        project_folder_ = folderOfFile(path);
+        project_file_ = files_.size();
+        files_.push_back(std::move(file));
+    }
+    path = userFile(environment);
+    std::error_code error;
+    if (path.empty() || !fs::exists(path, error))
+        return success();
+    HEARTH_ASSIGN_OR_RETURN(const std::string text, textOfFile(path, "the user's file of settings"));
+    HEARTH_ASSIGN_OR_RETURN(ConfigFile file, parseConfig(text, path, false));
+    files_.push_back(std::move(file));
+    return success();
+}
+
+Status Configuration::readEnvironment(const Environment& environment)
+{
+    for (const Setting& setting : commandSettings())
+    {
+        const std::string name(setting.variable);
+        const std::optional<std::string> text = environment(name.c_str());
+        if (!text)
+            continue;
+        const std::vector<std::string> words =
+            setting.kind == Kind::texts ? split(*text, ';') : std::vector<std::string>{*text};
+        HEARTH_ASSIGN_OR_RETURN(environment_[setting.key], valueOf(setting, words, name));
+    }
+    return success();
+}
+
+const Value* Configuration::command(std::string_view key) const
+{
+    const auto in = [&](const Values& values)
+    {
+        const auto found = values.find(key);
+        return found == values.end() ? nullptr : &found->second;
+    };
+    if (const Value* value = in(given_.command))
+        return value;
+    if (const Value* value = in(environment_))
+        return value;
+    for (const ConfigFile& file : files_)
+        if (const Value* value = in(file.defaults))
+            return value;
+    return nullptr;
+}
+
+const ConfigFile& Configuration::fileAt(size_t level) const
+{
+    return level < files_.size() ? files_[level] : builtIn();
+}
+
+/// Of the nearest file that has a profile of that name.
+std::optional<size_t> Configuration::levelOf(const std::string& name, size_t from) const
+{
+    for (size_t level = from; level <= files_.size(); ++level)
+        for (const Profile& profile : fileAt(level).profiles)
+            if (profile.name == name)
+                return level;
+    return std::nullopt;
+}
+
+/// Append the profile to the chain, and before it what it inherits.
+Status Configuration::addProfile(const Profile& profile, size_t level, const std::string& file,
+                                 std::vector<const Profile*>& chain)
+{
+    chain.push_back(&profile);
+    if (profile.inherits.empty())
+        return success();
+    // a profile that inherits from its own name is a change to the one behind it
+    const std::optional<size_t> found =
+        levelOf(profile.inherits, profile.inherits == profile.name ? level + 1 : 0);
+    if (!found)
+    {
+        std::vector<std::string> known;
+        for (size_t i = 0; i <= files_.size(); ++i)
+            for (const Profile& other : fileAt(i).profiles)
+                known.push_back(other.name);
+        const std::string nearest = tools::nearestMatch(profile.inherits, known);
+        return Error{Issue::profile_unknown, file, profile.place,
+                     fmt::format("there is no profile '{}'{}", profile.inherits,
+                                 nearest.empty() ? "" : ": did you mean '" + nearest + "'?")};
+    }
+    for (const Profile& other : fileAt(*found).profiles)
+    {
+        if (other.name != profile.inherits)
+            continue;
+        if (std::find(chain.begin(), chain.end(), &other) != chain.end())
+            return Error{Issue::profile_circle, file, profile.place, ""};
+        return addProfile(other, *found, fileAt(*found).path, chain);
+    }
+    return success();
+}
+
+Status Configuration::chooseProfile()
+{
+    const Value* chosen = command("profile");
+    if (chosen == nullptr)
+        return success();
+    profile_name_ = textsOf(*chosen).front();
+    // stands for the profile, so that its name is looked up as an inherited one is
+    Profile wanted;
+    wanted.inherits = profile_name_;
+    std::string file = chosen->origin;
+    if (isFileName(profile_name_))
+    {
+        // what a file names lies beside it
+        std::string path = profile_name_;
+        for (const ConfigFile& config : files_)
+            if (chosen->origin.starts_with(config.path + ":") && !fs::path(path).is_absolute())
+                path = (fs::path(config.path).parent_path() / path).string();
+        HEARTH_ASSIGN_OR_RETURN(const std::string text, textOfFile(path, "the profile"));
+        HEARTH_ASSIGN_OR_RETURN(wanted, parseProfileFile(text, path));
+        file = path;
+    }
+    own_file_ = std::move(wanted);
+    std::vector<const Profile*> chain;
+    HEARTH_TRY(addProfile(*own_file_, 0, file, chain));
+    for (auto profile = chain.rbegin(); profile != chain.rend(); ++profile)
+        put((*profile)->values, of_profile_);
+    return success();
+}
+
+Result<Configuration> Configuration::load(Given given, const Environment& environment)
+{
+    Configuration configuration;
+    configuration.given_ = std::move(given);
+    HEARTH_TRY(configuration.readFiles(environment));
+    HEARTH_TRY(configuration.readEnvironment(environment));
+    HEARTH_TRY(configuration.chooseProfile());
+    return configuration;
+}
+
+/// Empty where the source lies outside of the project.
+std::string Configuration::pathInProject(const std::string& source) const
+{
+    std::error_code error;
+    const std::string path = fs::absolute(source, error).lexically_normal().string();
+    return path.starts_with(project_folder_) ? path.substr(project_folder_.size()) : "";
+}
+
+Values Configuration::ofSource(const std::string& source) const
+{
+    Values values = of_profile_;
+    if (project_file_)
+    {
+        const std::string path = pathInProject(source);
+        for (const Rule& rule : files_[*project_file_].rules)
+            if (!path.empty() && matchesPath(rule.match, path) &&
+                (rule.in_profile.empty() || clusters::matchesPattern(rule.in_profile, profile_name_)))
+                put(rule.values, values);
+    }
+    put(given_.settings, values);
+    return values;
+}
+
+Values Configuration::ofPack() const
+{
+    Values values = of_profile_;
+    put(given_.settings, values);
+    return values;
+}
+
+} // namespace hearth::profiles

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "pipelines/profiles/glob.h"
+
+#include "cook/clusters/profile.h"
+
+#include <vector>
+
+namespace hearth::profiles
+{
+
+namespace
+{
+
+std::vector<std::string_view> namesOf(std::string_view path)
+{
+    std::vector<std::string_view> names;
+    for (size_t at = 0; at <= path.size();)
+    {
+        const size_t end = std::min(path.find('/', at), path.size());
+        names.push_back(path.substr(at, end - at));
+        at = end + 1;
+    }
+    return names;
+}
+
+} // namespace
+
+bool matchesPath(std::string_view pattern, std::string_view path)
+{
+    const std::vector<std::string_view> wanted = namesOf(pattern);
+    const std::vector<std::string_view> names = namesOf(path);
+    // after a mismatch, the last ** takes one folder more: earlier ones need not be tried again
+    size_t w = 0;
+    size_t n = 0;
+    size_t any = std::string_view::npos;
+    size_t any_end = 0;
+    while (n < names.size())
+    {
+        if (w < wanted.size() && wanted[w] == "**")
+        {
+            any = w++;
+            any_end = n;
+        }
+        else if (w < wanted.size() && clusters::matchesPattern(wanted[w], names[n]))
+        {
+            ++w;
+            ++n;
+        }
+        else if (any != std::string_view::npos)
+        {
+            w = any + 1;
+            n = ++any_end;
+        }
+        else
+            return false;
+    }
+    while (w < wanted.size() && wanted[w] == "**")
+        ++w;
+    return w == wanted.size();
+}
+
+bool isPattern(std::string_view text)
+{
+    return text.find_first_of("*?") != std::string_view::npos;
+}
+
+} // namespace hearth::profiles

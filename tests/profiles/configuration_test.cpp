@@ -1,0 +1,217 @@
+// What holds: where settings come from, and which of two wins.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "pipelines/profiles/configuration.h"
+#include "pipelines/profiles/told.h"
+#include "tests/command/sandbox.h"
+
+#include <filesystem>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+namespace hearth::profiles
+{
+
+namespace
+{
+
+namespace fs = std::filesystem;
+
+class Configurations : public ::testing::Test
+{
+protected:
+    Configurations() : before_(fs::current_path())
+    {
+        fs::create_directories(folder / "home/.config/hearth");
+        fs::create_directories(folder / "house/props/small");
+        enter("house");
+    }
+    ~Configurations() override { fs::current_path(before_); }
+
+    void enter(const std::string& name) { fs::current_path(folder / name); }
+
+    Result<Configuration> load(Given given = {})
+    {
+        return Configuration::load(std::move(given),
+                                   [&](const char* name) -> std::optional<std::string>
+                                   {
+                                       const auto found = environment.find(name);
+                                       return found == environment.end() ? std::nullopt
+                                                                         : std::optional(found->second);
+                                   });
+    }
+
+    /// "512 from hearth.toml:3", of a source; of a command's setting where `source` is empty.
+    std::string what(const std::string& key, const std::string& source, Given given = {})
+    {
+        const auto configuration = load(std::move(given));
+        if (!configuration.ok())
+            return formatMessage(configuration.error());
+        const Value* command = configuration->command(key);
+        const Values values = configuration->ofSource(source);
+        const auto found = values.find(key);
+        const Value* value = source.empty() ? command : found == values.end() ? nullptr : &found->second;
+        return value == nullptr ? "none" : value->text + " from " + value->origin;
+    }
+
+    static Given withFlag(const char* key, const char* text)
+    {
+        Given given;
+        (findSetting(commandSettings(), key) != nullptr ? given.command : given.settings)[key] = {text,
+                                                                                                  "--flag"};
+        return given;
+    }
+
+    test::Sandbox folder;
+    std::map<std::string, std::string> environment{{"HOME", folder / "home"}};
+
+private:
+    fs::path before_;
+};
+
+} // namespace
+
+TEST_F(Configurations, flagsWinOverEnvironmentProjectAndUser)
+{
+    EXPECT_EQ(what("jobs", ""), "none");
+    folder.write("home/.config/hearth/config.toml", "[defaults]\njobs = 1\n");
+    EXPECT_EQ(what("jobs", ""), "1 from " + folder / "home/.config/hearth/config.toml:2");
+    folder.write("house/hearth.toml", "[defaults]\njobs = 2\n");
+    EXPECT_EQ(what("jobs", ""), "2 from hearth.toml:2");
+    environment["HEARTH_JOBS"] = "3";
+    EXPECT_EQ(what("jobs", ""), "3 from HEARTH_JOBS");
+    EXPECT_EQ(what("jobs", "", withFlag("jobs", "4")), "4 from --flag");
+    environment["HEARTH_JOBS"] = "many";
+    EXPECT_NE(what("jobs", "").find("HEARTH_JOBS: error: 'many' must be a whole number from 1 to 1024"),
+              std::string::npos)
+        << what("jobs", "");
+}
+
+TEST_F(Configurations, theProjectsFileIsFoundUpwards)
+{
+    folder.write("house/hearth.toml", "[defaults]\njobs = 2\n");
+    enter("house/props/small");
+    EXPECT_EQ(what("jobs", ""), "2 from ../../hearth.toml:2");
+    folder.write("other.toml", "[defaults]\njobs = 5\n");
+    environment["HEARTH_CONFIG"] = folder / "other.toml";
+    EXPECT_EQ(what("jobs", ""), "5 from " + folder / "other.toml:2");
+    Given given;
+    given.config_file = "../../hearth.toml";
+    EXPECT_EQ(what("jobs", "", given), "2 from ../../hearth.toml:2");
+    given.config_file = "off";
+    EXPECT_EQ(what("jobs", "", given), "none");
+    environment["HEARTH_CONFIG"] = "off";
+    EXPECT_EQ(what("jobs", ""), "none");
+    environment["HEARTH_CONFIG"] = "missing.toml";
+    EXPECT_EQ(load().error().issue, Issue::input_missing);
+}
+
+TEST_F(Configurations, profilesInherit)
+{
+    folder.write("house/hearth.toml",
+                 "[defaults]\nprofile = 'phone'\n"
+                 "[profile.phone]\ninherits = 'mobile-low'\nanimation.error = 0.5\n"
+                 "[profile.mobile-low]\ninherits = 'mobile-low'\ntextures.max_size = 256\n");
+    EXPECT_EQ(what("animation.error", "a.glb"), "0.5 from hearth.toml:5 (profile phone)");
+    EXPECT_EQ(what("textures.max_size", "a.glb"), "256 from hearth.toml:8 (profile mobile-low)");
+    EXPECT_EQ(what("clusters.influences", "a.glb").substr(0, 15), "4 from built in");
+    EXPECT_EQ(what("clusters.normal_bits", "a.glb").substr(0, 15), "8 from built in") << "of mobile-high";
+    environment["HEARTH_PROFILE"] = "desktop";
+    EXPECT_EQ(what("animation.error", "a.glb"), "none");
+    EXPECT_EQ(what("textures.max_size", "a.glb").substr(0, 18), "4096 from built in");
+}
+
+TEST_F(Configurations, profilesThatAreWrongAreNamed)
+{
+    EXPECT_NE(what("jobs", "", withFlag("profile", "\"mobil-low\""))
+                  .find("there is no profile 'mobil-low': did you mean 'mobile-low'?"),
+              std::string::npos);
+    folder.write("house/hearth.toml",
+                 "[profile.a]\ninherits = 'b'\n[profile.b]\ninherits = 'c'\n[profile.c]\ninherits = 'a'\n");
+    const auto circle = load(withFlag("profile", "\"a\""));
+    ASSERT_FALSE(circle.ok());
+    EXPECT_EQ(circle.error().issue, Issue::profile_circle);
+    EXPECT_EQ(circle.error().where, "line 6, column 12, profile.c.inherits");
+    EXPECT_EQ(exitCode(circle.error()), 78);
+    folder.write("house/hearth.toml", "[profile.a]\ninherits = 'desk'\n");
+    EXPECT_EQ(load(withFlag("profile", "\"a\"")).error().issue, Issue::profile_unknown);
+    folder.write("house/hearth.toml", "[profile.a]\ninherits = 'a'\n");
+    EXPECT_EQ(load(withFlag("profile", "\"a\"")).error().issue, Issue::profile_unknown);
+}
+
+TEST_F(Configurations, aProfileMayBeAFile)
+{
+    folder.write("house/props/own.toml", "inherits = 'mobile-low'\n[clusters]\ninfluences = 8\n");
+    EXPECT_EQ(what("clusters.influences", "a.glb", withFlag("profile", "\"props/own.toml\"")),
+              "8 from props/own.toml:3");
+    EXPECT_EQ(what("textures.max_size", "a.glb", withFlag("profile", "\"props/own.toml\"")).substr(0, 13),
+              "1024 from bui");
+    EXPECT_EQ(load(withFlag("profile", "\"none.toml\"")).error().issue, Issue::input_missing);
+    // what a file names lies beside it
+    folder.write("house/hearth.toml", "[defaults]\nprofile = 'props/own.toml'\n");
+    enter("house/props/small");
+    EXPECT_EQ(what("clusters.influences", "a.glb"), "8 from ../../props/own.toml:3");
+}
+
+TEST_F(Configurations, rulesMatchPathsInTheProject)
+{
+    folder.write("house/hearth.toml",
+                 "[[rule]]\nmatch = 'props/**/*.glb'\ntextures.max_size = 512\n"
+                 "[[rule]]\nmatch = 'props/small/*'\ntextures.max_size = 64\n"
+                 "[[rule]]\nmatch = '**'\nin_profile = 'mobile-*'\nanimation.error = 1\n");
+    EXPECT_EQ(what("textures.max_size", "props/a.glb"), "512 from hearth.toml:3 (rule props/**/*.glb)");
+    EXPECT_EQ(what("textures.max_size", "props/small/a.glb"), "64 from hearth.toml:6 (rule props/small/*)");
+    EXPECT_EQ(what("textures.max_size", "a.glb"), "none");
+    EXPECT_EQ(what("textures.max_size", "props/a.glb", withFlag("textures.max_size", "32")),
+              "32 from --flag");
+    EXPECT_EQ(what("textures.max_size", "../other/props/a.glb"), "none");
+    enter("house/props");
+    EXPECT_EQ(what("textures.max_size", "./a.glb"), "512 from ../hearth.toml:3 (rule props/**/*.glb)");
+    EXPECT_EQ(what("textures.max_size", folder / "house/props/a.glb").substr(0, 4), "512 ");
+    EXPECT_EQ(what("animation.error", "a.glb"), "none");
+    EXPECT_EQ(what("animation.error", "a.glb", withFlag("profile", "\"mobile-high\"")).substr(0, 2), "1 ");
+    EXPECT_EQ(what("animation.error", "a.glb", withFlag("profile", "\"desktop\"")), "none");
+}
+
+TEST(ToldOfSource, givesEachCookerItsOwnByValue)
+{
+    const auto profile = parseProfileFile("import.crease_angle = 30\nanimation.error = 0.25\n"
+                                          "clusters.influences = 4\nclusters.levels = [{ keep = 0.6 }]\n"
+                                          "textures.max_size = 64\nvisibility.enabled = true\n"
+                                          "visibility.quality = 'draft'\nvisibility.distance = 2\n"
+                                          "visibility.power = 1\nvisibility.poses = ['Run']\n"
+                                          "visibility.refine = true\nvisibility.occluders = 'asset'\n"
+                                          "bricks.enabled = true\nbricks.voxel_size = 0.5\n"
+                                          "bricks.memory = '1M'\nbricks.bake = 3\n",
+                                          "house.toml");
+    ASSERT_TRUE(profile.ok()) << formatMessage(profile.error());
+    using Words = std::vector<std::string>;
+    const graph::SourceSettings told = toldOfSource(profile->values).value();
+    EXPECT_EQ(told.import, (Words{"--crease-angle", "30", "--set", "animation.error=0.25"}));
+    EXPECT_EQ(told.textures, (Words{"--max-size", "64"}));
+    EXPECT_EQ(told.clusters,
+              (Words{"--set", "clusters.influences=4", "--set", "clusters.levels=[{keep=0.6}]"}));
+    ASSERT_TRUE(told.visibility.has_value());
+    EXPECT_EQ(told.visibility->quality, "draft");
+    EXPECT_EQ(told.visibility->occluders, "asset");
+    EXPECT_EQ(told.visibility->distance, 2);
+    EXPECT_EQ(told.visibility->power, 1);
+    EXPECT_EQ(told.visibility->poses, Words{"Run"});
+    EXPECT_TRUE(told.visibility->refine);
+    const auto bricks = toldOfBricks(profile->values);
+    ASSERT_TRUE(bricks.has_value());
+    EXPECT_EQ(bricks->voxel_size, 0.5);
+    EXPECT_EQ(bricks->memory_bytes, uint64_t{1} << 20);
+    EXPECT_EQ(bricks->bounces, 3u);
+}
+
+TEST(ToldOfSource, saysNothingOfWhatNobodyHasSet)
+{
+    const graph::SourceSettings told = toldOfSource({}).value();
+    EXPECT_TRUE(told.import.empty() && told.textures.empty() && told.clusters.empty());
+    EXPECT_FALSE(told.visibility.has_value());
+    EXPECT_FALSE(toldOfBricks({}).has_value());
+    const auto power = parseProfileFile("visibility.enabled = true\nvisibility.power = 1\n", "house.toml");
+    EXPECT_EQ(toldOfSource(power->values).error().issue, Issue::profile_value);
+}
+
+} // namespace hearth::profiles
