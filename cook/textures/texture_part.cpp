@@ -39,14 +39,44 @@ Result<std::vector<std::byte>> readTexels(const ContainerReader& part, const Ima
                                   data.bytes().begin() + static_cast<std::ptrdiff_t>(finest));
 }
 
+ImageStatistics statisticsOf(const std::string_view strings, const ImageRecord& image,
+                             std::span<const std::byte> chain)
+{
+    ImageStatistics statistics;
+    if (insideTable({image.name.offset, image.name.length}, strings.size()))
+        statistics.name = strings.substr(image.name.offset, image.name.length);
+    statistics.image = image;
+    statistics.bytes = chain.size();
+    // the finest mip is the imported image, texel by texel: see buildMipChain
+    statistics.error = 0;
+    if (texelBytes(image.format) == 4 && image.mip_count > 1)
+        statistics.half_error = halfError(image, chain);
+    return statistics;
+}
+
+/// How much of the part that was written is each image's.
+Status addStoredBytes(const std::string& path, std::span<ImageStatistics> statistics)
+{
+    HEARTH_ASSIGN_OR_RETURN(const ContainerReader part, ContainerReader::open(path, Check::structure));
+    for (uint32_t i = 0; i < statistics.size(); ++i)
+        if (const ChunkEntry* entry = part.find(kChunkImageData, i); entry != nullptr)
+            statistics[i].stored_bytes = entry->stored_size;
+    return success();
+}
+
 } // namespace
 
-Status cookTextures(const std::string& import_path, const std::string& output_path)
+Status cookTextures(const std::string& import_path, const std::string& output_path,
+                    std::vector<ImageStatistics>* statistics)
 {
     HEARTH_ASSIGN_OR_RETURN(const ContainerReader part, ContainerReader::open(import_path, Check::structure));
     HEARTH_ASSIGN_OR_RETURN(const Records<ImageRecord> sources, part.records<ImageRecord>(kChunkImages));
     HEARTH_ASSIGN_OR_RETURN(ContainerWriter writer,
                             ContainerWriter::create(output_path, ContainerKind::part));
+
+    HEARTH_ASSIGN_OR_RETURN(const ChunkData strings, part.read(kChunkStrings));
+    const std::string_view names(reinterpret_cast<const char*>(strings.bytes().data()),
+                                 strings.bytes().size());
 
     std::vector<ImageRecord> images(sources.begin(), sources.end());
     for (uint32_t i = 0; i < images.size(); ++i)
@@ -55,9 +85,12 @@ Status cookTextures(const std::string& import_path, const std::string& output_pa
         images[i].mip_count = fullMipCount(images[i].width, images[i].height);
         const std::vector<std::byte> chain = buildMipChain(images[i], std::move(texels));
         HEARTH_TRY(writer.addChunk({.type = kChunkImageData, .index = i}, chain, 1, Codec::zstd));
+        if (statistics != nullptr)
+            statistics->push_back(statisticsOf(names, images[i], chain));
     }
     HEARTH_TRY(writer.addRecords<ImageRecord>(kChunkImages, images));
-    return writer.finish();
+    HEARTH_TRY(writer.finish());
+    return statistics == nullptr ? success() : addStoredBytes(output_path, *statistics);
 }
 
 } // namespace hearth::textures

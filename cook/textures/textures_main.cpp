@@ -1,6 +1,7 @@
 // hearth-textures: gives the images of an import part their mips.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/textures/texture_part.h"
+#include "cook/tools/whole_file.h"
 #include "formats/program.h"
 
 #include <CLI/CLI.hpp>
@@ -20,7 +21,18 @@ struct Arguments
     std::string input;
     std::string output;
     size_t jobs = 0;
+    std::string statistics;
 };
+
+Status cook(const Arguments& arguments)
+{
+    if (arguments.statistics.empty())
+        return textures::cookTextures(arguments.input, arguments.output);
+    std::vector<textures::ImageStatistics> images;
+    HEARTH_TRY(textures::cookTextures(arguments.input, arguments.output, &images));
+    const std::string source = arguments.input.substr(arguments.input.rfind('/') + 1); // npos + 1 is 0
+    return tools::writeText(arguments.statistics, textures::statisticsJson(source, images));
+}
 
 int run(const Arguments& arguments)
 {
@@ -28,7 +40,7 @@ int run(const Arguments& arguments)
     if (arguments.jobs > 0)
         limit = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism,
                                                       arguments.jobs);
-    const Status written = textures::cookTextures(arguments.input, arguments.output);
+    const Status written = cook(arguments);
     if (written)
         return 0;
     std::fprintf(stderr, "%s\n", formatMessage(written.error()).c_str());
@@ -42,6 +54,8 @@ int program(int argc, char** argv)
     app.add_option("part", arguments.input, "import part")->required();
     app.add_option("-o,--output", arguments.output, "textures part to write")->required();
     app.add_option("-j,--jobs", arguments.jobs, "threads to use; the result does not depend on it");
+    app.add_option("--stats", arguments.statistics,
+                   "write what became of each image as JSON, its error measured; - is standard output");
     app.footer(
         "Example: hearth-textures scene.import.part -o scene.textures.part\n"
         "Exit codes: 0 done, 2 usage, 65 malformed input, 66 input missing, 70 internal, 73 cannot write, "

@@ -56,6 +56,28 @@ TEST(CookTextures, writesEveryImageWithItsMips)
     EXPECT_EQ((*records)[0].name.offset, 3u);
 }
 
+TEST(CookTextures, saysWhatBecameOfEachImage)
+{
+    const TemporaryFolder folder;
+    std::vector<ImageRecord> images = {recordOf(12, 7), recordOf(4, 4, TexelFormat::rgba16_float)};
+    images[0].name = {3, 400}; // of the strings that are not there
+    const std::vector<std::vector<std::byte>> texels = {randomBytes(12 * 7 * 4, 1),
+                                                        std::vector<std::byte>(4 * 4 * 8)};
+    writeImport(folder.file("in.part"), images, texels);
+    std::vector<ImageStatistics> statistics;
+    ASSERT_TRUE(cookTextures(folder.file("in.part"), folder.file("out.part"), &statistics).ok());
+    const auto part = ContainerReader::open(folder.file("out.part"));
+    ASSERT_EQ(statistics.size(), 2u);
+    for (uint32_t i = 0; i < 2; ++i)
+    {
+        EXPECT_EQ(statistics[i].name, "");
+        EXPECT_EQ(statistics[i].stored_bytes, part->find(kChunkImageData, i)->stored_size);
+        EXPECT_EQ(statistics[i].bytes, part->find(kChunkImageData, i)->size);
+    }
+    EXPECT_GT(statistics[0].half_error, 0.1);
+    EXPECT_FALSE(statistics[1].half_error);
+}
+
 TEST(CookTextures, partWithoutImagesGivesAnEmptyTable)
 {
     const TemporaryFolder folder;
