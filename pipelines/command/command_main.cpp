@@ -36,6 +36,7 @@ int program(int argc, char** argv)
     addExtract(app, run);
     addWhy(app, run);
     addCache(app, run);
+    addReport(app, run);
     addExplain(app, run);
     addVersion(app, run);
 

@@ -21,6 +21,7 @@ void addVerify(CLI::App& app, Work& run);
 void addExtract(CLI::App& app, Work& run);
 void addWhy(CLI::App& app, Work& run);
 void addCache(CLI::App& app, Work& run);
+void addReport(CLI::App& app, Work& run);
 void addExplain(CLI::App& app, Work& run);
 void addVersion(CLI::App& app, Work& run);
 

@@ -25,7 +25,6 @@ CookSettings allSettings()
     settings.profile = "house.toml";
     settings.visibility = VisibilityOptions{"draft", "asset", 2.5, 1, {"Run@0.5,1", "Walk"}, true};
     settings.bricks = BrickOptions{0.25, uint64_t{1} << 20, 2};
-    settings.statistics = true;
     return settings;
 }
 
@@ -53,11 +52,14 @@ TEST(CookGraph, runsEveryCookerWithWhatItIsTold)
 {
     const std::vector<Words> commands = commandsOf(makeCookGraph(allSettings()).value());
     ASSERT_EQ(commands.size(), 8u);
-    EXPECT_EQ(commands[0], (Words{"bin/hearth-import", "props/a.obj", "-o", "{import.part}", "--lod",
-                                  "1=low/a=b.obj", "--lod", "2=b.obj", "--profile", "house.toml"}));
-    EXPECT_EQ(commands[1], (Words{"bin/hearth-textures", "{import.part}", "-o", "{textures.part}"}));
-    EXPECT_EQ(commands[2], (Words{"bin/hearth-clusters", "{import.part}", "-o", "{clusters.part}",
-                                  "--profile", "house.toml", "--stats", "{clusters.json}", "--visibility"}));
+    EXPECT_EQ(commands[0],
+              (Words{"bin/hearth-import", "props/a.obj", "-o", "{import.part}", "--lod", "1=low/a=b.obj",
+                     "--lod", "2=b.obj", "--profile", "house.toml", "--stats", "{import.json}"}));
+    EXPECT_EQ(commands[1], (Words{"bin/hearth-textures", "{import.part}", "-o", "{textures.part}", "--stats",
+                                  "{textures.json}"}));
+    EXPECT_EQ(commands[2],
+              (Words{"bin/hearth-clusters", "{import.part}", "-o", "{clusters.part}", "--profile",
+                     "house.toml", "--stats", "{clusters.json}", "--no-manual-lods", "--visibility"}));
     EXPECT_EQ(commands[3],
               (Words{"bin/hearth-skinning", "{import.part}", "{clusters.part}", "-o", "{skinning.part}"}));
     EXPECT_EQ(commands[4], (Words{"bin/hearth-visibility",
@@ -80,6 +82,7 @@ TEST(CookGraph, runsEveryCookerWithWhatItIsTold)
                                   "--refine-cones",
                                   "--stats",
                                   "{visibility.json}",
+                                  "--no-noise-estimate",
                                   "--picture",
                                   "{visibility.png}"}));
     EXPECT_EQ(commands[5], (Words{"bin/hearth-specular", "-o", "{specular.part}"}));

@@ -113,11 +113,11 @@ TEST_F(Keys, everyParameterChangesThem)
 {
     const CookSettings settings = settingsIn(folder);
     // a parameter more breaks these lines: it needs a row below
-    const auto& [sources, output, lods, profile, visibility, bricks, statistics] = settings;
+    const auto& [sources, output, lods, profile, visibility, bricks] = settings;
     const auto& [quality, occluders, distance, power, poses, refine] = *visibility;
     const auto& [voxel_size, memory_bytes, bounces] = *bricks;
-    static_cast<void>(std::tie(sources, output, lods, profile, statistics, quality, occluders, distance,
-                               power, poses, refine, voxel_size, memory_bytes, bounces));
+    static_cast<void>(std::tie(sources, output, lods, profile, quality, occluders, distance, power, poses,
+                               refine, voxel_size, memory_bytes, bounces));
 
     struct Row
     {
@@ -133,9 +133,6 @@ TEST_F(Keys, everyParameterChangesThem)
         {"another level", [&](CookSettings& s) { s.lods = {"2=" + low}; }, kOfSource},
         {"another lod", [&](CookSettings& s) { s.lods = {"1=" + s.sources[0]}; }, kOfSource},
         {"no profile", [](CookSettings& s) { s.profile.clear(); }, kOfSource},
-        {"statistics",
-         [](CookSettings& s) { s.statistics = true; },
-         {"clusters", "skinning", "visibility", "bricks", "link"}},
         {"no visibility",
          [](CookSettings& s) { s.visibility.reset(); },
          {"clusters", "skinning", "visibility", "specular", "bricks", "link"}},
@@ -286,7 +283,8 @@ TEST_F(Keys, aResultIsFoundByTheStateOfWhatItRead)
         reads.addFile(folder / "wood.png");
         reads.addFile(folder / "stone.png");
         const auto record = actions.recordAfter(import, *actions.recordOf(import, parts), reads);
-        actions.keep(import, *record, {{{hash, 3}}, {import.subject + "|x: warning: y [W1]"}, 1, 1, 1});
+        actions.keep(import, *record,
+                     {{{hash, 3}, {"statistics", 3}}, {import.subject + "|x: warning: y [W1]"}, 1, 1, 1});
     };
     EXPECT_EQ(found(), "nothing");
     keep("first");
