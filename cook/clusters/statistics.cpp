@@ -124,19 +124,24 @@ Json manualLodsJson(const ManualLodStatistics& manual)
 Json totalsJson(std::span<const MeshStatistics> meshes)
 {
     uint64_t triangles = 0;
+    bool has_manual_lods = false;
     ManualLodStatistics total;
     for (const MeshStatistics& mesh : meshes)
     {
         triangles += mesh.source_triangles;
         if (!mesh.manual_lods)
             continue;
+        has_manual_lods = true;
         total.chain.bytes += mesh.manual_lods->chain.bytes;
         total.chain.bytes_zstd += mesh.manual_lods->chain.bytes_zstd;
         total.hierarchy_bytes += mesh.manual_lods->hierarchy_bytes;
     }
-    Json manual_lods = manualLodsJson(total);
-    manual_lods.erase("lods");
-    return {{"triangles", triangles}, {"manual_lods", manual_lods}};
+    Json totals{{"triangles", triangles}};
+    if (has_manual_lods)
+        totals["manual_lods"] = manualLodsJson(total);
+    if (has_manual_lods)
+        totals["manual_lods"].erase("lods");
+    return totals;
 }
 
 Json meshJson(const MeshStatistics& mesh)

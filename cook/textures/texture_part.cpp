@@ -38,28 +38,68 @@ Result<std::vector<std::byte>> readTexels(const ContainerReader& part, const Ima
                                   data.bytes().begin() + static_cast<std::ptrdiff_t>(finest));
 }
 
-/// Leave out the finest mips of the chain, until no side is longer than `max_size`; returns the bytes of those.
-uint64_t leaveOutLargeMips(ImageRecord& image, uint32_t max_size)
+/// The finest mips that go, until no side is longer than `max_size`.
+uint32_t mipsTooLarge(const ImageRecord& image, uint32_t max_size)
 {
-    uint32_t left_out = 0;
-    while (std::max(image.width, image.height) >> left_out > max_size)
-        ++left_out;
-    const uint64_t bytes = mipOffset(image, left_out);
-    const MipExtent extent = mipExtent(image, left_out);
+    uint32_t count = 0;
+    while (max_size > 0 && std::max(image.width, image.height) >> count > max_size)
+        ++count;
+    return count;
+}
+
+/// The image without its `count` finest mips.
+ImageRecord withoutMips(ImageRecord image, uint32_t count)
+{
+    const MipExtent extent = mipExtent(image, count);
     image.width = extent.width;
     image.height = extent.height;
-    image.mip_count -= left_out;
-    return bytes;
+    image.mip_count -= count;
+    return image;
+}
+
+/// image, chain  with all mips
+ImageStatistics statisticsOf(const std::string_view strings, const ImageRecord& image,
+                             std::span<const std::byte> chain, uint32_t left_out)
+{
+    ImageStatistics statistics;
+    if (insideTable({image.name.offset, image.name.length}, strings.size()))
+        statistics.name = strings.substr(image.name.offset, image.name.length);
+    statistics.image = withoutMips(image, left_out);
+    statistics.bytes = chain.size() - mipOffset(image, left_out);
+    // the finest mip is the imported image, texel by texel: see buildMipChain
+    if (left_out == 0)
+        statistics.error = 0;
+    if (texelBytes(image.format) != 4)
+        return statistics;
+    statistics.error = mipError(image, chain, left_out);
+    if (left_out + 1 < image.mip_count)
+        statistics.half_error = mipError(image, chain, left_out + 1);
+    return statistics;
+}
+
+/// How much of the part that was written is each image's.
+Status addStoredBytes(const std::string& path, std::span<ImageStatistics> statistics)
+{
+    HEARTH_ASSIGN_OR_RETURN(const ContainerReader part, ContainerReader::open(path, Check::structure));
+    for (uint32_t i = 0; i < statistics.size(); ++i)
+        if (const ChunkEntry* entry = part.find(kChunkImageData, i); entry != nullptr)
+            statistics[i].stored_bytes = entry->stored_size;
+    return success();
 }
 
 } // namespace
 
-Status cookTextures(const std::string& import_path, const std::string& output_path, uint32_t max_size)
+Status cookTextures(const std::string& import_path, const std::string& output_path, uint32_t max_size,
+                    std::vector<ImageStatistics>* statistics)
 {
     HEARTH_ASSIGN_OR_RETURN(const ContainerReader part, ContainerReader::open(import_path, Check::structure));
     HEARTH_ASSIGN_OR_RETURN(const Records<ImageRecord> sources, part.records<ImageRecord>(kChunkImages));
     HEARTH_ASSIGN_OR_RETURN(ContainerWriter writer,
                             ContainerWriter::create(output_path, ContainerKind::part));
+
+    HEARTH_ASSIGN_OR_RETURN(const ChunkData strings, part.read(kChunkStrings));
+    const std::string_view names(reinterpret_cast<const char*>(strings.bytes().data()),
+                                 strings.bytes().size());
 
     std::vector<ImageRecord> images(sources.begin(), sources.end());
     for (uint32_t i = 0; i < images.size(); ++i)
@@ -67,12 +107,16 @@ Status cookTextures(const std::string& import_path, const std::string& output_pa
         HEARTH_ASSIGN_OR_RETURN(std::vector<std::byte> texels, readTexels(part, images[i], i));
         images[i].mip_count = fullMipCount(images[i].width, images[i].height);
         const std::vector<std::byte> chain = buildMipChain(images[i], std::move(texels));
-        const uint64_t left_out = max_size == 0 ? 0 : leaveOutLargeMips(images[i], max_size);
-        HEARTH_TRY(writer.addChunk({.type = kChunkImageData, .index = i}, std::span(chain).subspan(left_out),
-                                   1, Codec::zstd));
+        const uint32_t left_out = mipsTooLarge(images[i], max_size);
+        HEARTH_TRY(writer.addChunk({.type = kChunkImageData, .index = i},
+                                   std::span(chain).subspan(mipOffset(images[i], left_out)), 1, Codec::zstd));
+        if (statistics != nullptr)
+            statistics->push_back(statisticsOf(names, images[i], chain, left_out));
+        images[i] = withoutMips(images[i], left_out);
     }
     HEARTH_TRY(writer.addRecords<ImageRecord>(kChunkImages, images));
-    return writer.finish();
+    HEARTH_TRY(writer.finish());
+    return statistics == nullptr ? success() : addStoredBytes(output_path, *statistics);
 }
 
 } // namespace hearth::textures

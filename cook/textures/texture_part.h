@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
+#include "cook/textures/texture_statistics.h"
 #include "formats/result.h"
 
 #include <cstdint>
@@ -16,9 +17,11 @@ inline constexpr uint32_t kLargestSize = 16384;
 /// Read the images of the import part at `import_path` and write them with mips to `output_path`: IMGR, whose names
 /// refer to the import part's string table, and an IMGD for each image. One image is in memory at a time.
 ///
-/// max_size   texels: mips with a longer side are left out, so that the image is smaller; 0: none is. What is kept is what
-///            the whole chain would have there
+/// max_size    texels: mips with a longer side are left out, so that the image is smaller; 0: none is. What is kept is what
+///             the whole chain would have there
+/// statistics  null: none; else filled with one for each image
 /// errors: those of ContainerReader, meaning_value and chunk_size (damaged image records), cannot_write.
-Status cookTextures(const std::string& import_path, const std::string& output_path, uint32_t max_size = 0);
+Status cookTextures(const std::string& import_path, const std::string& output_path, uint32_t max_size = 0,
+                    std::vector<ImageStatistics>* statistics = nullptr);
 
 } // namespace hearth::textures

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/textures/texture_part.h"
 #include "cook/tools/batch.h"
+#include "cook/tools/whole_file.h"
 
 #include <CLI/CLI.hpp>
 
@@ -21,7 +22,18 @@ struct Arguments
     std::string output;
     size_t jobs = 0;
     uint32_t max_size = 0;
+    std::string statistics;
 };
+
+Status cook(const Arguments& arguments)
+{
+    if (arguments.statistics.empty())
+        return textures::cookTextures(arguments.input, arguments.output, arguments.max_size);
+    std::vector<textures::ImageStatistics> images;
+    HEARTH_TRY(textures::cookTextures(arguments.input, arguments.output, arguments.max_size, &images));
+    const std::string source = arguments.input.substr(arguments.input.rfind('/') + 1); // npos + 1 is 0
+    return tools::writeText(arguments.statistics, textures::statisticsJson(source, images));
+}
 
 int run(const Arguments& arguments)
 {
@@ -29,7 +41,7 @@ int run(const Arguments& arguments)
     if (arguments.jobs > 0)
         limit = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism,
                                                       arguments.jobs);
-    const Status written = textures::cookTextures(arguments.input, arguments.output, arguments.max_size);
+    const Status written = cook(arguments);
     if (written)
         return 0;
     std::fprintf(stderr, "%s\n", formatMessage(written.error()).c_str());
@@ -46,6 +58,8 @@ int program(int argc, char** argv)
     app.add_option("--max-size", arguments.max_size,
                    "texels: the longer side of what is kept; finer mips are left out")
         ->check(CLI::Range(1u, textures::kLargestSize).description(""));
+    app.add_option("--stats", arguments.statistics,
+                   "write what became of each image as JSON, its error measured; - is standard output");
     app.footer(
         "Example: hearth-textures scene.import.part -o scene.textures.part\n"
         "Exit codes: 0 done, 2 usage, 65 malformed input, 66 input missing, 70 internal, 73 cannot write, "

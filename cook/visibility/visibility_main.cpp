@@ -49,6 +49,7 @@ struct Arguments
     std::string clusters_part;
     std::string output;
     std::string statistics;
+    bool statistics_without_noise = false;
     std::string picture;
     std::string quality = "default";
     std::string occluders = "scene";
@@ -73,7 +74,7 @@ struct Arguments
         for (const std::string& text : poses)
             settings.poses.push_back(visibility::parseClipTimes(text).value_or(visibility::ClipTimes{}));
         settings.refine_cones = refine_cones;
-        settings.estimate_error = !statistics.empty();
+        settings.estimate_error = !statistics.empty() && !statistics_without_noise;
         return settings;
     }
 };
@@ -213,8 +214,12 @@ int program(int argc, char** argv)
     app.add_flag("--refine-cones", arguments.refine_cones,
                  "fit cones to nine harmonics instead of four moments; --stats says what that gained");
     app.add_option("-j,--jobs", arguments.jobs, "threads to use; the result does not depend on it");
-    app.add_option("--stats", arguments.statistics,
-                   "write what became of each mesh as JSON, its noise estimated; - is standard output");
+    auto* statistics =
+        app.add_option("--stats", arguments.statistics,
+                       "write what became of each mesh as JSON, its noise estimated; - is standard output");
+    app.add_flag("--no-noise-estimate", arguments.statistics_without_noise,
+                 "leave the noise out of --stats, which takes two fits more")
+        ->needs(statistics);
     app.add_option("--picture", arguments.picture,
                    "draw the scene's ambient occlusion into a PNG file of 640 x 480");
     app.footer(

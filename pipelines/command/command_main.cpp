@@ -52,6 +52,7 @@ int program(int argc, char** argv)
     addConfig(app, run);
     addDoctor(app, run);
     addSchema(app, run);
+    addReport(app, run);
     addExplain(app, run);
     addMan(app, run);
     addCompletion(app, run);

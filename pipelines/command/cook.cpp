@@ -5,14 +5,15 @@
 #include "cook/tools/sha256.h"
 #include "cook/tools/whole_file.h"
 #include "formats/flush.h"
-#include "formats/pack_view.h"
 #include "pipelines/command/cook_memory.h"
+#include "pipelines/command/cook_report.h"
 #include "pipelines/command/cook_tools.h"
 #include "pipelines/command/depfile.h"
 #include "pipelines/command/dry_run.h"
 #include "pipelines/command/event_log.h"
 #include "pipelines/graph/causes.h"
 #include "pipelines/graph/executor.h"
+#include "pipelines/report/write_report.h"
 
 #include <algorithm>
 #include <cerrno>
@@ -35,6 +36,9 @@ namespace
 
 constexpr int kSomeFailed = 1;
 
+/// How the cook ended; what the report knows of it besides is in the recorder.
+using CookOutcome = report::CookReport;
+
 // ---- messages
 
 std::string joined(const std::vector<std::string>& words, const char* between)
@@ -46,12 +50,14 @@ std::string joined(const std::vector<std::string>& words, const char* between)
 }
 
 /// log  null: none
-graph::ExecutorEvents eventsFor(const CookOptions& options, EventLog* log)
+graph::ExecutorEvents eventsFor(const CookOptions& options, EventLog* log, CookRecorder& recorder)
 {
     graph::ExecutorEvents events;
-    events.starting = [&options, log](const graph::Action& action, const graph::ActionOutcome& outcome,
-                                      const std::vector<std::string>& command)
+    events.starting = [&options, log, &recorder](const graph::Action& action,
+                                                 const graph::ActionOutcome& outcome,
+                                                 const std::vector<std::string>& command)
     {
+        recorder.starting(action);
         if (log != nullptr)
             log->start(action, outcome);
         if (options.explain)
@@ -59,17 +65,20 @@ graph::ExecutorEvents eventsFor(const CookOptions& options, EventLog* log)
         if (options.verbosity == Verbosity::all)
             print(faint(joined(command, " ")));
     };
-    events.ended = [&options, log](const graph::Action& action, const graph::ActionOutcome& outcome,
-                                   const std::vector<std::string>& messages)
+    events.ended = [&options, log, &recorder](const graph::Action& action,
+                                              const graph::ActionOutcome& outcome,
+                                              const std::vector<std::string>& messages)
     {
+        recorder.ended(action, outcome);
         if (log != nullptr)
             log->end(action, outcome);
         passOn(messages, options.verbosity);
         if (outcome.ending == Ending::cooked && options.verbosity != Verbosity::quiet)
             printStage(action, outcome);
     };
-    events.failed = [log](const Failure& failure)
+    events.failed = [log, &recorder](const Failure& failure)
     {
+        recorder.failed(failure);
         if (log != nullptr)
             log->error(failure.error);
         if (!failure.is_told)
@@ -115,59 +124,6 @@ Status checkOutput(const CookOptions& options)
     return success();
 }
 
-/// META of the pack at `path`, for the report.
-std::string metaOf(const std::string& path)
-{
-    const auto reader = formats::ContainerReader::open(path, formats::Check::structure);
-    if (!reader.ok())
-        return "";
-    const auto meta = reader->read(formats::kChunkMeta);
-    if (!meta.ok())
-        return "";
-    return {reinterpret_cast<const char*>(meta->bytes().data()), meta->bytes().size()};
-}
-
-Status writeReport(const CookOptions& options, const CookOutcome& outcome)
-{
-    const std::string meta = outcome.exit_code == 0 ? metaOf(options.output) : "";
-    return writeText(options.report_file, reportJson(options, outcome, meta));
-}
-
-/// What a cooker has written beside its part; empty where it has not been asked to.
-std::string textOfOutput(const graph::Graph& graph, graph::Executor& executor, size_t action,
-                         const std::string& name)
-{
-    const std::vector<std::string>& outputs = graph.actions[action].outputs;
-    const auto output = std::find(outputs.begin(), outputs.end(), name);
-    if (output == outputs.end() || !executor.materialize(action))
-        return "";
-    const auto index = static_cast<size_t>(output - outputs.begin());
-    return cache::readText(executor.outcomes()[action].paths[index]).value_or("");
-}
-
-/// What the report says of the actions that ended well.
-void fillStages(const graph::Graph& graph, graph::Executor& executor, CookOutcome& outcome)
-{
-    outcome.cluster_statistics.resize(graph.source_count);
-    outcome.visibility.resize(graph.source_count);
-    for (size_t i = 0; i < graph.actions.size(); ++i)
-    {
-        const graph::Action& action = graph.actions[i];
-        const graph::ActionOutcome& end = executor.outcomes()[i];
-        outcome.stages.push_back({action.cooker, action.source, end.result.seconds, end.result.cpu_seconds,
-                                  end.result.peak_rss_bytes, end.result.outputs.front().bytes,
-                                  end.ending == Ending::kept});
-        const auto textOf = [&](const char* name) { return textOfOutput(graph, executor, i, name); };
-        if (action.cooker == "clusters")
-            outcome.cluster_statistics[action.source] = textOf(graph::kClustersStatistics);
-        if (action.cooker == "visibility")
-            outcome.visibility[action.source] = {textOf(graph::kVisibilityStatistics),
-                                                 textOf(graph::kVisibilityPicture)};
-        if (action.cooker == "bricks")
-            outcome.brick_statistics = textOf(graph::kBrickStatistics);
-    }
-}
-
 /// last  of the cook before, whose records stand for those that this one did not get to
 graph::Journal journalOf(const graph::Graph& graph, const graph::Executor& executor,
                          const CookOptions& options, const std::string& output_cause,
@@ -191,12 +147,11 @@ graph::Journal journalOf(const graph::Graph& graph, const graph::Executor& execu
 
 // ---- the cook
 
-void fail(const Error& error, size_t source, CookOutcome& outcome)
+void fail(const Error& error, CookOutcome& outcome)
 {
     print(formatMessage(error));
     outcome.exit_code = exitCode(error);
     outcome.error = formatMessage(error);
-    outcome.failed_sources = {source};
 }
 
 /// What failed, as the outcome: one exit code where all have the same.
@@ -205,11 +160,8 @@ void takeFailures(const std::vector<Failure>& failures, CookOutcome& outcome)
     outcome.error = failures.front().error;
     outcome.exit_code = failures.front().exit_code;
     for (const Failure& failure : failures)
-    {
-        outcome.failed_sources.push_back(failure.source);
         if (failure.exit_code != outcome.exit_code)
             outcome.exit_code = kSomeFailed;
-    }
 }
 
 /// Why the pack is put in its place, where no action ran for it.
@@ -261,14 +213,15 @@ bool placePack(const graph::Executor& executor, const std::optional<std::string>
         (flush(executor.packPath()) && ::rename(executor.packPath().c_str(), options.output.c_str()) == 0))
         return true;
     fail({Issue::cannot_write, options.output, "", std::string("cannot write: ") + std::strerror(errno)},
-         options.sources.size(), outcome);
+         outcome);
     return false;
 }
 
 /// Cook, with what is known of cooks before (null: nothing).
 void cookGraph(const graph::Graph& graph, CookMemory* memory, const CookOptions& options, EventLog* log,
-               CookOutcome& outcome)
+               CookRecorder& recorder)
 {
+    CookOutcome& outcome = recorder.report();
     cache::Cache* cache = memory == nullptr ? nullptr : &memory->cache();
     graph::ActionCache* actions = memory == nullptr ? nullptr : &memory->actions();
     const std::optional<std::string> hash_there =
@@ -279,14 +232,13 @@ void cookGraph(const graph::Graph& graph, CookMemory* memory, const CookOptions&
     graph::Executor executor(graph, resolver, cache, actions,
                              {limitsOf(options.jobs, options.memory_bytes), !options.fail_fast,
                               !options.depfile.empty(), programFolder(), options.output},
-                             eventsFor(options, log));
+                             eventsFor(options, log, recorder));
     const bool interrupted = !executor.run(hash_there);
     std::string output_cause;
     if (interrupted)
     {
         outcome.exit_code = kInterrupted;
         outcome.error = "interrupted";
-        outcome.failed_sources = {options.sources.size()};
     }
     else if (!executor.failures().empty())
     {
@@ -297,11 +249,11 @@ void cookGraph(const graph::Graph& graph, CookMemory* memory, const CookOptions&
     else if (writeDepfile(graph, executor, options, outcome) &&
              placePack(executor, hash_there, options, outcome))
     {
-        if (!options.report_file.empty())
-            fillStages(graph, executor, outcome);
         if (!outcome.is_up_to_date && executor.outcomes().back().ending == Ending::kept)
             output_cause = outputCause(hash_there);
     }
+    if (!options.report_files.empty())
+        recorder.takeOutcomes(executor);
     if (memory == nullptr)
         return;
     const auto has_run = [](const graph::ActionOutcome& end) { return end.ending != Ending::kept; };
@@ -313,18 +265,22 @@ void cookGraph(const graph::Graph& graph, CookMemory* memory, const CookOptions&
         print(fmt::format("{:<11}{}: {}", "pack", options.output, output_cause));
 }
 
-void cookInto(const CookOptions& options, EventLog* log, CookOutcome& outcome)
+/// graph  is filled, and outlives the recorder
+void cookInto(const CookOptions& options, EventLog* log, std::optional<graph::Graph>& graph,
+              CookRecorder& recorder)
 {
-    const auto failed = [&](const Error& error) { fail(error, options.sources.size(), outcome); };
+    const auto failed = [&](const Error& error) { fail(error, recorder.report()); };
     if (const Status status = checkOutput(options); !status.ok())
         return failed(status.error());
-    const Result<graph::Graph> graph = graph::makeCookGraph(options);
-    if (!graph.ok())
-        return failed(graph.error());
+    Result<graph::Graph> made = graph::makeCookGraph(options);
+    if (!made.ok())
+        return failed(made.error());
+    graph = std::move(made).value();
+    recorder.begin(*graph);
     if (log != nullptr)
         log->cook(*graph);
     if (options.no_cache)
-        return cookGraph(*graph, nullptr, options, log, outcome);
+        return cookGraph(*graph, nullptr, options, log, recorder);
     const auto warn = [&](const Error& warning)
     {
         if (options.verbosity != Verbosity::quiet)
@@ -335,20 +291,39 @@ void cookInto(const CookOptions& options, EventLog* log, CookOutcome& outcome)
         return failed(memory.error());
     if (!options.force)
         (*memory)->expect(*graph);
-    cookGraph(*graph, (*memory)->cache().isEmpty() ? nullptr : memory->get(), options, log, outcome);
+    cookGraph(*graph, (*memory)->cache().isEmpty() ? nullptr : memory->get(), options, log, recorder);
     (*memory)->finish();
+}
+
+/// The exit code, where reports can be written.
+int writeReports(const CookOptions& options, CookOutcome& outcome)
+{
+    if (outcome.exit_code == 0)
+        outcome.bytes_of_chunks = bytesOfChunks(options.output);
+    const std::string json = report::reportJson(outcome);
+    for (const std::string& file : options.report_files)
+        if (const Status status =
+                report::writeReport(json, file, outcome.exit_code == 0 ? options.output : "");
+            !status.ok())
+        {
+            print(formatMessage(status.error()));
+            return outcome.exit_code != 0 ? outcome.exit_code : exitCode(status.error());
+        }
+    return outcome.exit_code;
 }
 
 } // namespace
 
-int cook(const CookOptions& chosen)
+int cook(const CookOptions& options)
 {
-    CookOptions options = chosen;
-    options.statistics = options.statistics || !options.report_file.empty();
     if (options.dry_run)
         return dryRun(options);
-    const auto start = std::chrono::steady_clock::now();
-    CookOutcome outcome;
+    std::optional<graph::Graph> graph;
+    CookRecorder recorder;
+    CookOutcome& outcome = recorder.report();
+    outcome.sources = options.sources;
+    outcome.output = options.output;
+    outcome.started = utcNow();
     std::optional<EventLog> log;
     if (!options.events_file.empty())
     {
@@ -360,21 +335,15 @@ int cook(const CookOptions& chosen)
         }
         log.emplace(std::move(created).value());
     }
-    cookInto(options, log ? &*log : nullptr, outcome);
-    outcome.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    cookInto(options, log ? &*log : nullptr, graph, recorder);
+    outcome.seconds = recorder.seconds();
     if (log)
         log->done(outcome.exit_code, outcome.seconds);
     if (outcome.exit_code == 0 && options.verbosity != Verbosity::quiet)
         print(fmt::format("{:<10}{:>8.2f} s {:>12}  {}", outcome.is_up_to_date ? "up to date" : "cooked",
                           outcome.seconds, readableSize(outcome.output_bytes), options.output));
-
-    if (!options.report_file.empty() && outcome.exit_code != kInterrupted)
-        if (const Status status = writeReport(options, outcome); !status.ok())
-        {
-            print(formatMessage(status.error()));
-            return outcome.exit_code != 0 ? outcome.exit_code : exitCode(status.error());
-        }
-    return outcome.exit_code;
+    return options.report_files.empty() || outcome.exit_code == kInterrupted ? outcome.exit_code
+                                                                             : writeReports(options, outcome);
 }
 
 } // namespace hearth::command

@@ -30,51 +30,15 @@ struct CookOptions : graph::CookSettings
     bool dry_run = false;                ///< only say what would run
     std::string dry_run_format = "text"; ///< or "json": the plan
     Verbosity verbosity = Verbosity::normal;
-    std::string report_file; ///< empty: none
-    std::string depfile;     ///< what was read, as depfileOf writes it; empty: none
+    std::string depfile; ///< what was read, as depfileOf writes it; empty: none
+    /// Written whatever the end: .html is the page, .xml JUnit's, .csv a table, all else JSON.
+    std::vector<std::string> report_files;
     std::string events_file; ///< empty: none
-};
-
-/// One cooker's run.
-struct StageRecord
-{
-    std::string
-        stage; ///< "import", "clusters", "textures", "skinning", "visibility", "specular", "bricks", "link"
-    size_t source = 0; ///< index of the source; their number for what is not of one source
-    double seconds = 0;
-    double cpu_seconds = 0;
-    uint64_t peak_rss_bytes = 0;
-    uint64_t output_bytes = 0;
-    bool cached = false; ///< the result was kept from an earlier run, whose times these are
-};
-
-/// What hearth-visibility says of a source; for the report.
-struct VisibilityReport
-{
-    std::string statistics; ///< JSON
-    std::string picture;    ///< PNG
-};
-
-struct CookOutcome
-{
-    int exit_code = 0;
-    std::string error;                           ///< the first error line, empty on success
-    std::vector<size_t> failed_sources;          ///< their number for what is not of one
-    bool is_up_to_date = false;                  ///< the pack was there already, byte for byte
-    std::vector<StageRecord> stages;             ///< in the order of the graph; none on failure
-    std::vector<std::string> cluster_statistics; ///< of each source, JSON of hearth-clusters; for the report
-    std::vector<VisibilityReport> visibility;    ///< of each source, where visibility was baked
-    std::string brick_statistics;                ///< JSON of hearth-bricks; for the report
-    double seconds = 0;
-    uint64_t output_bytes = 0;
 };
 
 /// Cook all sources into one pack, their scenes side by side: run what the cache has no result of. The output appears whole
 /// or not at all; on failure or interruption an output that was there before is as it was, and nothing else is left behind.
 /// returns    the exit code; every problem has been told on stderr
 int cook(const CookOptions& options);
-
-/// Schema "hearth.report/1". `meta` is the pack's META, empty on failure.
-std::string reportJson(const CookOptions& options, const CookOutcome& outcome, std::string_view meta);
 
 } // namespace hearth::command

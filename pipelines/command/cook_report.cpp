@@ -1,142 +1,101 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "pipelines/command/cook.h"
+#include "pipelines/command/cook_report.h"
+
+#include "formats/bricks.h"
+#include "formats/container_reader.h"
+#include "pipelines/graph/cook_graph.h"
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
+#include <array>
+#include <ctime>
 
 namespace hearth::command
 {
 
-using Json = nlohmann::ordered_json;
+using graph::Ending;
 
-namespace
+size_t CookRecorder::indexOf(const graph::Action& action) const
 {
-
-Json stageJson(const StageRecord& stage)
-{
-    Json json{{"stage", stage.stage},
-              {"seconds", stage.seconds},
-              {"cpu_seconds", stage.cpu_seconds},
-              {"peak_rss_bytes", stage.peak_rss_bytes},
-              {"bytes", stage.output_bytes}};
-    if (stage.cached)
-        json["cached"] = true;
-    return json;
+    return static_cast<size_t>(&action - report_.graph->actions.data());
 }
 
-/// What hearth-clusters wrote of a source, without what the report says anyway.
-Json clustersJson(const std::string& statistics)
+double CookRecorder::seconds() const
 {
-    const Json json = Json::parse(statistics, nullptr, false);
-    if (!json.is_object())
-        return nullptr;
-    return {{"meshes", json.value("meshes", Json::array())},
-            {"totals", json.value("totals", Json::object())}};
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
 }
 
-std::string base64(std::string_view bytes)
+void CookRecorder::begin(const graph::Graph& graph)
 {
-    constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::string text;
-    for (size_t i = 0; i < bytes.size(); i += 3)
+    report_.graph = &graph;
+}
+
+void CookRecorder::starting(const graph::Action& action)
+{
+    const auto lane = std::find(lane_is_busy_.begin(), lane_is_busy_.end(), false);
+    const auto index = static_cast<size_t>(lane - lane_is_busy_.begin());
+    if (lane == lane_is_busy_.end())
+        lane_is_busy_.push_back(true);
+    lane_is_busy_[index] = true;
+    report_.times[indexOf(action)] = {seconds(), static_cast<unsigned>(index)};
+}
+
+void CookRecorder::ended(const graph::Action& action, const graph::ActionOutcome& outcome)
+{
+    const size_t index = indexOf(action);
+    if (const auto time = report_.times.find(index); time != report_.times.end())
+        lane_is_busy_[time->second.lane] = false;
+    last_failed_ = outcome.ending == Ending::failed ? index : graph::kNoAction;
+}
+
+void CookRecorder::failed(const graph::Failure& failure)
+{
+    if (last_failed_ != graph::kNoAction)
+        report_.errors[last_failed_] = failure.error;
+    last_failed_ = graph::kNoAction;
+}
+
+void CookRecorder::takeOutcomes(graph::Executor& executor)
+{
+    report_.outcomes = executor.outcomes();
+    for (size_t i = 0; i < report_.outcomes.size(); ++i)
     {
-        uint32_t bits = 0;
-        for (size_t k = 0; k < 3; ++k)
-            bits = bits << 8 | (i + k < bytes.size() ? static_cast<uint8_t>(bytes[i + k]) : 0u);
-        for (size_t k = 0; k < 4; ++k)
-            text += i + k <= bytes.size() ? kDigits[bits >> (18 - 6 * k) & 63u] : '=';
+        const std::vector<std::string>& outputs = report_.graph->actions[i].outputs;
+        const Ending ending = report_.outcomes[i].ending;
+        for (size_t output = 1; output < outputs.size(); ++output)
+        {
+            if (ending != Ending::cooked && ending != Ending::kept)
+                continue;
+            std::optional<std::string> text = executor.readOutput(i, output);
+            const bool is_picture = outputs[output] == graph::kVisibilityPicture;
+            if (text)
+                (is_picture ? report_.pictures : report_.statistics)[i] = std::move(*text);
+        }
     }
-    return text;
 }
 
-/// What hearth-visibility wrote of a source, and its picture, which a browser shows as it stands there.
-Json visibilityJson(const VisibilityReport& visibility)
+std::map<std::string, uint64_t> bytesOfChunks(const std::string& pack)
 {
-    Json json = Json::parse(visibility.statistics, nullptr, false);
-    if (!json.is_object())
-        return nullptr;
-    json.erase("source");
-    if (!visibility.picture.empty())
-        json["picture"] = "data:image/png;base64," + base64(visibility.picture);
-    return json;
-}
-
-Json assetJson(const CookOptions& options, const CookOutcome& outcome, size_t source)
-{
-    const bool failed =
-        outcome.exit_code != 0 &&
-        std::any_of(outcome.failed_sources.begin(), outcome.failed_sources.end(),
-                    [&](size_t index) { return index == source || index == options.sources.size(); });
-    const char* state = outcome.exit_code == 0 ? "cooked" : failed ? "failed" : "not cooked";
-    Json asset{{"source", options.sources[source]}, {"state", state}, {"stages", Json::array()}};
-    for (const StageRecord& stage : outcome.stages)
-        if (stage.source == source)
-            asset["stages"].push_back(stageJson(stage));
-    if (source < outcome.cluster_statistics.size())
-        asset["clusters"] = clustersJson(outcome.cluster_statistics[source]);
-    if (source < outcome.visibility.size() && !outcome.visibility[source].statistics.empty())
-        asset["visibility"] = visibilityJson(outcome.visibility[source]);
-    return asset;
-}
-
-/// A list of the pack's META, or an empty one.
-Json listOf(const Json& meta, const char* key)
-{
-    return meta.is_object() && meta.contains(key) ? meta[key] : Json::array();
-}
-
-Json totalsJson(const CookOptions& options, const CookOutcome& outcome, const Json& sources)
-{
-    uint64_t bytes_in = 0;
-    for (const Json& source : sources)
-        if (source.is_object() && source.contains("bytes") && source["bytes"].is_number_unsigned())
-            bytes_in += source["bytes"].get<uint64_t>();
-    double cpu_seconds = 0;
-    uint64_t peak_rss_bytes = 0;
-    const auto cached = std::count_if(outcome.stages.begin(), outcome.stages.end(),
-                                      [](const StageRecord& stage) { return stage.cached; });
-    for (const StageRecord& stage : outcome.stages)
+    std::map<std::string, uint64_t> bytes;
+    const auto reader = formats::ContainerReader::open(pack, formats::Check::structure);
+    if (!reader.ok())
+        return bytes;
+    for (const formats::ChunkEntry& entry : reader->chunks())
     {
-        if (stage.cached)
-            continue;
-        cpu_seconds += stage.cpu_seconds;
-        peak_rss_bytes = std::max(peak_rss_bytes, stage.peak_rss_bytes);
+        // "chunk MESH 3"
+        const std::string type = formats::chunkName(entry.type, entry.index).substr(6, 4);
+        bytes[formats::isBrickChunk(entry.type) ? "bricks" : type] += entry.stored_size;
     }
-    return {{"assets", options.sources.size()},
-            {"wall_s", outcome.seconds},
-            {"cpu_s", cpu_seconds},
-            {"peak_rss", peak_rss_bytes},
-            {"bytes_in", bytes_in},
-            {"bytes_out", outcome.output_bytes},
-            {"cached", cached}};
+    return bytes;
 }
 
-} // namespace
-
-std::string reportJson(const CookOptions& options, const CookOutcome& outcome, std::string_view meta_text)
+std::string utcNow()
 {
-    const Json meta = Json::parse(meta_text, nullptr, false);
-    const Json sources = listOf(meta, "sources");
-    Json report{{"schema", "hearth.report/1"},
-                {"tool", {{"name", "hearth"}, {"version", HEARTH_VERSION}}},
-                {"status", outcome.exit_code == 0 ? "ok" : "failed"},
-                {"exit", outcome.exit_code},
-                {"output", options.output},
-                {"totals", totalsJson(options, outcome, sources)},
-                {"assets", Json::array()}};
-    for (size_t i = 0; i < options.sources.size(); ++i)
-        report["assets"].push_back(assetJson(options, outcome, i));
-    for (const StageRecord& stage : outcome.stages)
-        if (stage.source == options.sources.size())
-            report[stage.stage] = stageJson(stage);
-    if (const Json grid = Json::parse(outcome.brick_statistics, nullptr, false); grid.is_object())
-        report["bricks"]["grid"] = grid;
-    report["sources"] = sources;
-    report["messages"] = listOf(meta, "messages");
-    report["dropped"] = listOf(meta, "dropped");
-    if (!outcome.error.empty())
-        report["error"] = outcome.error;
-    return report.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+    const std::time_t now = std::time(nullptr);
+    std::tm parts{};
+    ::gmtime_r(&now, &parts);
+    std::array<char, 32> text{};
+    const size_t size = std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%SZ", &parts);
+    return {text.data(), size};
 }
 
 } // namespace hearth::command

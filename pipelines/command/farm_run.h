@@ -36,8 +36,8 @@ struct RunOptions : PlanOptions
 struct MergeOptions : PlanOptions
 {
     std::string output;
-    bool cooks_missing = true; ///< else what is missing is listed
-    std::string report_file;
+    bool cooks_missing = true;             ///< else what is missing is listed
+    std::vector<std::string> report_files; ///< as CookOptions::report_files
     unsigned jobs = 0;
     uint64_t memory_bytes = 0;
     Verbosity verbosity = Verbosity::normal;

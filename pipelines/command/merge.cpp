@@ -95,15 +95,13 @@ int cookPack(const OpenedPlan& opened, const MergeOptions& options)
     cooked.memory_bytes = options.memory_bytes;
     cooked.caches = opened.caches;
     cooked.verbosity = options.verbosity;
-    cooked.report_file = options.report_file;
+    cooked.report_files = options.report_files;
     return cook(cooked);
 }
 
 Result<int> mergePlan(const MergeOptions& options)
 {
     HEARTH_ASSIGN_OR_RETURN(const OpenedPlan opened, openPlan(options));
-    if (!options.report_file.empty() && !opened.plan.request.statistics)
-        return Error{Issue::usage, "--report", "", "needs a plan that was made with --statistics"};
     HEARTH_ASSIGN_OR_RETURN(const auto memory,
                             CookMemory::open(opened.caches, opened.file, opened.plan.folder,
                                              [](const Error& warning) { print(formatMessage(warning)); }));
@@ -123,8 +121,9 @@ int merge(const MergeOptions& chosen)
 {
     MergeOptions options = chosen;
     options.output = graph::absolutePath(options.output);
-    if (!options.report_file.empty() && options.report_file != "-")
-        options.report_file = graph::absolutePath(options.report_file);
+    for (std::string& file : options.report_files)
+        if (file != "-")
+            file = graph::absolutePath(file);
     const Result<int> merged = mergePlan(options);
     if (merged.ok())
         return *merged;

@@ -45,7 +45,11 @@ void addCook(CLI::App& app, Work& run)
                      "N=FILE: level of detail N of the source's only mesh, made by hand")
         ->allow_extra_args(false);
     options->settings.addTo(*verb, {"profile", "jobs", "memory", "cache"});
-    verb->add_option("--report", options->report_file, "write a report as JSON");
+    verb->add_option(
+            "--report", options->report_files,
+            "write what became of it: FILE.html is a page with pictures, .xml JUnit's, .csv a table, "
+            "all else JSON; may be repeated")
+        ->allow_extra_args(false);
     verb->add_option("--events", options->events_file,
                      "write what happens while it happens, a JSON object a line");
     verb->add_flag("--fail-fast", options->fail_fast, "end at the first failure, not after all sources");

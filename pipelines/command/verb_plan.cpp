@@ -64,9 +64,7 @@ int planConfigured(MakePlanOptions options, const SettingOptions& settings,
     auto request = requestOf(*configuration, sources);
     if (!request.ok())
         return fail(request.error());
-    const bool statistics = options.request.statistics;
     options.request = std::move(request).value();
-    options.request.statistics = statistics;
     options.request.lods = lods;
     options.caches = cachesOf(*configuration);
     return makePlanFile(options);
@@ -113,8 +111,6 @@ void addPlan(CLI::App& app, Work& run)
                      "how many machines may share it; auto: as many as have a minute to do each")
         ->check(CLI::Validator(shardsFault, ""))
         ->capture_default_str();
-    verb->add_flag("--statistics", options->request.statistics,
-                   "have cookers say what became of their input, for hearth merge --report");
     verb->add_option("--emit", options->emitted, "commands: print a command line for each shard")
         ->check(CLI::IsMember({"commands"}));
     verb->add_option("--lod", options->lods,
@@ -180,7 +176,9 @@ void addMerge(CLI::App& app, Work& run)
                      "code 1")
         ->check(CLI::IsMember({"cook", "list"}))
         ->capture_default_str();
-    verb->add_option("--report", options->report_file, "write a report as JSON");
+    verb->add_option("--report", options->report_files,
+                     "write what became of it, as hearth cook does; may be repeated")
+        ->allow_extra_args(false);
     addEffort(*verb, options->jobs, options->effort);
     verb->footer("Example: hearth merge village.plan.json -o village.hearth\n"
                  "Every result is read and hashed, whatever became of the processes that made it.");

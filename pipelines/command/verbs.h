@@ -29,6 +29,7 @@ void addFarm(CLI::App& app, Work& run);
 void addConfig(CLI::App& app, Work& run);
 void addCompletion(CLI::App& app, Work& run);
 void addDoctor(CLI::App& app, Work& run);
+void addReport(CLI::App& app, Work& run);
 void addExplain(CLI::App& app, Work& run);
 void addMan(CLI::App& app, Work& run);
 void addSchema(CLI::App& app, Work& run);

@@ -40,7 +40,6 @@ void readMembers(const Json& json, Plan& plan)
     cook.at("lods").get_to(plan.request.lods);
     cook.at("settings").get_to(plan.request.settings_of_source);
     cook.at("pack").get_to(plan.request.settings_of_pack);
-    cook.at("statistics").get_to(plan.request.statistics);
     json.at("folder").get_to(plan.folder);
     plan.processor = json.value("processor", "");
     json.at("cookers").get_to(plan.version_of_cooker);
@@ -145,8 +144,7 @@ std::string planText(const Plan& plan)
     json["cook"] = {{"sources", plan.request.sources},
                     {"lods", plan.request.lods},
                     {"settings", plan.request.settings_of_source},
-                    {"pack", plan.request.settings_of_pack},
-                    {"statistics", plan.request.statistics}};
+                    {"pack", plan.request.settings_of_pack}};
     json["folder"] = plan.folder;
     if (!plan.processor.empty())
         json["processor"] = plan.processor;

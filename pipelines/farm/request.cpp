@@ -2,6 +2,7 @@
 #include "pipelines/farm/request.h"
 
 #include "pipelines/profiles/config_file.h"
+#include "pipelines/profiles/setting.h"
 #include "pipelines/profiles/told.h"
 
 namespace hearth::farm
@@ -10,12 +11,23 @@ namespace hearth::farm
 namespace
 {
 
+/// Texts that a cooker is told as words of their own.
+std::vector<std::string> wordsOf(const std::pair<std::string, profiles::Value>& setting)
+{
+    const profiles::Kind kind = profiles::findSetting(profiles::profileSettings(), setting.first)->kind;
+    const bool has_texts = kind == profiles::Kind::text || kind == profiles::Kind::texts;
+    return has_texts ? profiles::textsOf(setting.second) : std::vector<std::string>();
+}
+
 Result<profiles::Values> valuesOf(const Assignments& assignments)
 {
     profiles::Values values;
     for (const std::string& assignment : assignments)
     {
         HEARTH_ASSIGN_OR_RETURN(auto parsed, profiles::parseAssignment(assignment));
+        for (const std::string& word : wordsOf(parsed))
+            if (word.starts_with('-'))
+                return Error{Issue::usage, assignment, "", "looks like an option"};
         if (!values.insert(std::move(parsed)).second)
             return Error{Issue::usage, assignment, "", "is set twice"};
     }
@@ -34,7 +46,6 @@ Result<graph::CookSettings> settingsOf(const Request& request)
     settings.sources = request.sources;
     settings.lods = request.lods;
     settings.output = kPackName;
-    settings.statistics = request.statistics;
     for (const Assignments& assignments : request.settings_of_source)
     {
         HEARTH_ASSIGN_OR_RETURN(const profiles::Values values, valuesOf(assignments));

@@ -23,7 +23,6 @@ struct Request
     std::vector<std::string> lods;               ///< "N=FILE": levels of detail of the only source
     std::vector<Assignments> settings_of_source; ///< [sources.size()]
     Assignments settings_of_pack;
-    bool statistics = false; ///< cookers say what became of their input, for a report
 };
 
 /// What the cookers are told: as `hearth cook` tells them, so that whoever wrote a request, no cooker is told anything else.

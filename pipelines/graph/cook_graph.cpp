@@ -104,8 +104,11 @@ std::vector<size_t> addSource(Graph& graph, size_t index, std::span<const tools:
     addFlags(actions[textures], told.textures);
     const size_t clusters = add("clusters", {import_action});
     addFlags(actions[clusters], told.clusters);
-    if (settings.statistics)
-        addOutput(actions[clusters], "--stats", kClustersStatistics);
+    addOutput(actions[import_action], "--stats", kImportStatistics);
+    addOutput(actions[textures], "--stats", kTexturesStatistics);
+    addOutput(actions[clusters], "--stats", kClustersStatistics);
+    // what levels by hand would take, and below the noise of rays, take as long as a third of the work itself
+    addFlags(actions[clusters], {"--no-manual-lods"});
     const size_t skinning = add("skinning", {import_action, clusters});
     if (!told.visibility)
         return {import_action, clusters, textures, skinning};
@@ -113,11 +116,9 @@ std::vector<size_t> addSource(Graph& graph, size_t index, std::span<const tools:
     const size_t visibility = add("visibility", {import_action, clusters});
     actions[visibility].depends_on_processor = true;
     addFlags(actions[visibility], visibilityFlags(*told.visibility));
-    if (settings.statistics)
-    {
-        addOutput(actions[visibility], "--stats", kVisibilityStatistics);
-        addOutput(actions[visibility], "--picture", kVisibilityPicture);
-    }
+    addOutput(actions[visibility], "--stats", kVisibilityStatistics);
+    addFlags(actions[visibility], {"--no-noise-estimate"});
+    addOutput(actions[visibility], "--picture", kVisibilityPicture);
     return {import_action, visibility, textures, skinning};
 }
 
@@ -149,8 +150,7 @@ size_t addBricks(Graph& graph, const CookSettings& settings)
         bricks.depends_on_processor = true;
         addFlags(bricks, {"--bake", fmt::format("{}", *settings.bricks->bounces)});
     }
-    if (settings.statistics)
-        addOutput(bricks, "--stats", kBrickStatistics);
+    addOutput(bricks, "--stats", kBrickStatistics);
     graph.actions.push_back(std::move(bricks));
     return graph.actions.size() - 1;
 }

@@ -51,10 +51,12 @@ struct CookSettings
     std::vector<SourceSettings>
         settings_of_source;             ///< [sources.size()], or empty: their cookers are told nothing
     std::optional<BrickOptions> bricks; ///< none: the pack has no grid of bricks
-    bool statistics = false;            ///< cookers say what became of their input
 };
 
-// Names of outputs beside the parts, where statistics are asked for.
+// Names of outputs beside the parts: what cookers say of their input. They are small and always made, so that a report can be
+// made of any cook without running anything again.
+inline constexpr const char* kImportStatistics = "import.json";
+inline constexpr const char* kTexturesStatistics = "textures.json";
 inline constexpr const char* kClustersStatistics = "clusters.json";
 inline constexpr const char* kVisibilityStatistics = "visibility.json";
 inline constexpr const char* kVisibilityPicture = "visibility.png";

@@ -159,6 +159,19 @@ std::vector<std::string> Executor::filesFound(size_t index) const
     return paths;
 }
 
+std::optional<std::string> Executor::readOutput(size_t action, size_t output)
+{
+    const ActionOutcome& outcome = outcomes_[action];
+    if (!outcome.paths.empty())
+        return cache::readText(outcome.paths[output]);
+    if (cache_ == nullptr || makeFolders())
+        return std::nullopt;
+    const std::string path = pathOf(action, output);
+    if (!sizeOf(path) && !cache_->fetch(outcome.result.outputs[output].hash, path, cache::Use::read_only))
+        return std::nullopt;
+    return cache::readText(path);
+}
+
 /// Have the files that the action reads; what the cache has lost is made again first.
 bool Executor::haveInputs(size_t action)
 {

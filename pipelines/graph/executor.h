@@ -75,6 +75,9 @@ public:
     /// Have the outputs of an action that was taken from the cache as files; false where the cache has lost them.
     bool materialize(size_t action);
 
+    /// One output of an action that ended well, of which nothing else is fetched; nullopt where the cache has lost it.
+    std::optional<std::string> readOutput(size_t action, size_t output);
+
 private:
     enum class State
     {

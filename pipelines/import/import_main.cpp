@@ -28,6 +28,7 @@ struct Arguments
     std::string profile;
     std::vector<std::string> settings;
     std::string depfile;
+    std::string statistics;
     double crease_angle_deg = 60;
 };
 
@@ -79,6 +80,8 @@ Status run(const Arguments& arguments)
     HEARTH_TRY(read);
     import::compressClips(part, stated_error);
     HEARTH_TRY(part.finish());
+    if (!arguments.statistics.empty())
+        HEARTH_TRY(tools::writeText(arguments.statistics, part.report() + "\n"));
     return arguments.depfile.empty() ? success() : tools::writeText(arguments.depfile, reads.text());
 }
 
@@ -103,6 +106,10 @@ int program(int argc, char** argv)
         ->excludes(profile);
     app.add_option("--depfile", arguments.depfile,
                    "write which files were read, and which were looked for in vain, as sha256sum would");
+    app.add_option(
+        "--stats", arguments.statistics,
+        "write what was read, what was left out and what was counted, as the part's META has it; - "
+        "is standard output");
     app.footer("Examples:\n"
                "  hearth-import scene.glb -o scene.import.part\n"
                "  hearth-import rock.glb --lod 1=rock_mid.glb --lod 2=rock_low.glb -o rock.import.part\n"

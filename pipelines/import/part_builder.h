@@ -104,11 +104,11 @@ public:
     /// Messages beyond the first hundred, which are only counted.
     uint64_t warningsLeftOut() const { return warnings_left_out_; }
 
-private:
-    PartBuilder(formats::ContainerWriter writer, std::string source_name);
-
     /// The text of chunk META, schema hearth.import/1.
     std::string report() const;
+
+private:
+    PartBuilder(formats::ContainerWriter writer, std::string source_name);
 
     struct SourceFile
     {

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/viewer/camera_fit.h"
 
-#include "runtime/gpu/scene_boxes.h"
-
 #include <algorithm>
 #include <cmath>
 
@@ -27,37 +25,22 @@ size_t countClusters(const formats::PackView& pack)
     return count;
 }
 
-/// Calls `visit` with world-space points around all that is drawn: the corners of the finest clusters' boxes, which lie
-/// closer to round things than the corners of whole ones.
+/// Calls `visit` with the corners of boxes in world space.
 template <typename Visitor>
-void forEachCorner(const formats::PackView& pack, const pack::PosePlayer& player, const Visitor& visit)
+void forEachCorner(std::span<const gpu::PlacedBox> boxes, const Visitor& visit)
 {
-    const bool by_clusters = countClusters(pack) <= kMostClusterBoxes;
-    for (const auto& [box, world_from_box] :
-         by_clusters ? gpu::clusterBoxes(pack, player) : gpu::instanceBoxes(pack, player))
+    for (const auto& [box, world_from_box] : boxes)
         for (int corner = 0; corner < 8; ++corner)
             visit(transformPoint(world_from_box,
                                  {(corner & 1) ? box.max.x : box.min.x, (corner & 2) ? box.max.y : box.min.y,
                                   (corner & 4) ? box.max.z : box.min.z}));
 }
 
-} // namespace
-
-float nearPlane(float distance)
-{
-    return std::max(distance * 1e-3f, 1e-12f);
-}
-
-shared::Camera fitCamera(const formats::PackView& pack, float aspect)
-{
-    return fitCamera(pack, pack::PosePlayer(pack), aspect);
-}
-
-shared::Camera fitCamera(const formats::PackView& pack, const pack::PosePlayer& player, float aspect)
+/// bounds  of what is in the boxes
+shared::Camera frameBoxes(std::span<const gpu::PlacedBox> boxes, const Box3& bounds, float aspect)
 {
     shared::Camera camera;
     camera.y_fov_rad = kFieldOfView;
-    const Box3 bounds = gpu::sceneBounds(pack, player);
     if (bounds.empty())
     {
         camera.position = kFrom * 3.0f;
@@ -75,7 +58,7 @@ shared::Camera fitCamera(const formats::PackView& pack, const pack::PosePlayer& 
     // bind at once. Each side plane of the frustum gives one bound; p . side <= eye . side for all points.
     const Float3 center = bounds.center();
     float left = 0, rightmost = 0, bottom = 0, top = 0;
-    forEachCorner(pack, player,
+    forEachCorner(boxes,
                   [&](Float3 corner)
                   {
                       const Float3 p = corner - center;
@@ -92,6 +75,33 @@ shared::Camera fitCamera(const formats::PackView& pack, const pack::PosePlayer& 
     camera.position = camera.target + back * size;
     camera.z_near = nearPlane(size);
     return camera;
+}
+
+} // namespace
+
+float nearPlane(float distance)
+{
+    return std::max(distance * 1e-3f, 1e-12f);
+}
+
+shared::Camera fitCamera(const formats::PackView& pack, float aspect)
+{
+    return fitCamera(pack, pack::PosePlayer(pack), aspect);
+}
+
+shared::Camera fitCamera(const formats::PackView& pack, const pack::PosePlayer& player, float aspect)
+{
+    // the corners of the finest clusters' boxes lie closer to round things than those of whole instances
+    const bool by_clusters = countClusters(pack) <= kMostClusterBoxes;
+    return frameBoxes(by_clusters ? gpu::clusterBoxes(pack, player) : gpu::instanceBoxes(pack, player),
+                      gpu::sceneBounds(pack, player), aspect);
+}
+
+shared::Camera fitCamera(std::span<const gpu::PlacedBox> boxes, float aspect)
+{
+    Box3 bounds;
+    forEachCorner(boxes, [&](Float3 corner) { bounds.add(corner); });
+    return frameBoxes(boxes, bounds, aspect);
 }
 
 shared::Camera sceneCamera(const formats::PackView& pack, uint32_t index)

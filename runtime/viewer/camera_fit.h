@@ -4,6 +4,7 @@
 
 #include "formats/pack_view.h"
 #include "formats/shared/frame.h"
+#include "runtime/gpu/scene_boxes.h"
 #include "runtime/pack/pose_player.h"
 
 namespace hearth::viewer
@@ -13,7 +14,10 @@ namespace hearth::viewer
 /// small margin: deformed instances in the player's pose. A scene without triangles gets a view of the origin.
 shared::Camera fitCamera(const formats::PackView& pack, const pack::PosePlayer& player, float aspect);
 
-/// The same at rest.
+/// The same for what is in boxes.
+shared::Camera fitCamera(std::span<const gpu::PlacedBox> boxes, float aspect);
+
+/// Of a pack at rest.
 shared::Camera fitCamera(const formats::PackView& pack, float aspect);
 
 /// Camera `index` of the pack, which must exist and be a perspective one.

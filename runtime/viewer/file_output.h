@@ -19,6 +19,9 @@ Status writeFile(const std::string& path, std::span<const std::byte> bytes);
 /// `rgba` as a PNG file in memory. errors: internal.
 Result<std::vector<std::byte>> encodePng(std::span<const std::byte> rgba, uint32_t width, uint32_t height);
 
+/// The same as a JPEG file, of a quality that keeps the colours of single pixels apart. errors: internal.
+Result<std::vector<std::byte>> encodeJpeg(std::span<const std::byte> rgba, uint32_t width, uint32_t height);
+
 /// Half the size in both directions, each pixel the mean of four in linear light. RGBA8 sRGB; width and height even.
 std::vector<std::byte> downsampleSrgb(std::span<const std::byte> rgba, uint32_t width, uint32_t height);
 

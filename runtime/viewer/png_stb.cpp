@@ -13,19 +13,38 @@
 namespace hearth::viewer
 {
 
+namespace
+{
+
+/// What stb calls with each piece of a file; `context` is the std::vector<std::byte> that it goes to.
+void append(void* context, void* data, int size)
+{
+    const auto* bytes = static_cast<const std::byte*>(data);
+    auto& out = *static_cast<std::vector<std::byte>*>(context);
+    out.insert(out.end(), bytes, bytes + size);
+}
+
+// From there on stb keeps all of the colours' resolution; the views of clusters and levels need it.
+constexpr int kJpegQuality = 91;
+
+} // namespace
+
 Result<std::vector<std::byte>> encodePng(std::span<const std::byte> rgba, uint32_t width, uint32_t height)
 {
     std::vector<std::byte> file;
-    const auto append = [](void* context, void* data, int size)
-    {
-        const auto* bytes = static_cast<const std::byte*>(data);
-        auto& out = *static_cast<std::vector<std::byte>*>(context);
-        out.insert(out.end(), bytes, bytes + size);
-    };
     const int stride = static_cast<int>(width) * 4;
     if (stbi_write_png_to_func(append, &file, static_cast<int>(width), static_cast<int>(height), 4,
                                rgba.data(), stride) == 0)
         return Error{Issue::internal, "", "", "the PNG encoder failed"};
+    return file;
+}
+
+Result<std::vector<std::byte>> encodeJpeg(std::span<const std::byte> rgba, uint32_t width, uint32_t height)
+{
+    std::vector<std::byte> file;
+    if (stbi_write_jpg_to_func(append, &file, static_cast<int>(width), static_cast<int>(height), 4,
+                               rgba.data(), kJpegQuality) == 0)
+        return Error{Issue::internal, "", "", "the JPEG encoder failed"};
     return file;
 }
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "formats/container_reader.h"
 #include "pipelines/command/verify.h"
+#include "tests/command/json_schema.h"
 #include "tests/command/sandbox.h"
 #include "tests/command/small_parts.h"
 
@@ -34,17 +35,21 @@ case "$1" in
   *warning*) echo "$1|/extras: warning: left out [W1400]" >&2; echo "noise of a library" >&2 ;;
 esac
 cp "PARTS.import.part" "$3"
+while [ $# -gt 0 ]; do if [ "$1" = "--stats" ]; then cp "PARTS.import.json" "$2"; fi; shift; done
 )";
 
 constexpr const char* kTextures = R"(#!/bin/sh
 if [ -e ./textures-fail ]; then echo "$1|chunk IMGD 0: error: is bad [E2009] hint: again" >&2; exit 65; fi
 cp "PARTS.textures.part" "$3"
+echo '{"images": [{"name": "bark", "width": 4, "height": 2, "mips": 3, "format": "rgba8-srgb", "bytes": 44,
+                   "bytes_stored": 40, "error": {"rms": 0.0, "psnr_db": null}}]}' > "$5"
 )";
 
 constexpr const char* kClusters = R"(#!/bin/sh
 if [ "$4" = "--set" ]; then echo "$*" >> asked; fi
 if [ -e ./clusters-lie ]; then exit 0; fi
-if [ "$4" = "--stats" ]; then echo '{"meshes": [{"name": "strip"}], "totals": {"triangles": 8}}' > "$5"; fi
+echo '{"meshes": [{"name": "strip", "source": {"triangles": 8}, "levels": [], "clusters": 1,
+                   "bytes": {"pages_stored": 70}}], "totals": {"triangles": 8}}' > "$5"
 cp "PARTS.clusters.part" "$3"
 )";
 
@@ -68,7 +73,15 @@ done
 
 std::string withParts(std::string script, const std::string& parts)
 {
-    return script.replace(script.find("PARTS"), 5, parts);
+    for (size_t at = script.find("PARTS"); at != std::string::npos; at = script.find("PARTS"))
+        script.replace(at, 5, parts);
+    return script;
+}
+
+/// How a report differs from what its schema promises; empty where it does not.
+std::string faultOfReport(const nlohmann::json& report)
+{
+    return faultOfSchema(HEARTH_SCHEMAS "/hearth.report.1.json", report);
 }
 
 /// A folder to cook in; the programs lie elsewhere, so that the folder shows what cooking leaves behind.
@@ -81,6 +94,7 @@ protected:
         model.meta = importMeta("small.gltf");
         writeParts(model, programs.path(), "small");
         const std::string parts = programs / "small";
+        programs.write("small.import.json", model.meta);
         programs.write("hearth-import", withParts(kImport, parts), true);
         programs.write("hearth-textures", withParts(kTextures, parts), true);
         programs.write("hearth-clusters", withParts(kClusters, parts), true);
@@ -387,28 +401,94 @@ TEST_F(Cook, reportsWhatItDid)
     const ProgramEnd end = cook({"warning.gltf", "-o", "a.hearth", "--report", "report.json"});
     ASSERT_EQ(end.exit_code, 0) << end.err;
     const auto report = nlohmann::json::parse(folder.read("report.json"));
+    EXPECT_EQ(faultOfReport(report), "");
     EXPECT_EQ(report["schema"], "hearth.report/1");
     EXPECT_EQ(report["status"], "ok");
-    EXPECT_EQ(report["totals"]["bytes_out"], folder.read("a.hearth").size());
-    EXPECT_EQ(report["totals"]["bytes_in"], 100);
-    EXPECT_EQ(report["assets"][0]["source"], "warning.gltf");
-    EXPECT_EQ(report["assets"][0]["stages"].size(), 4u);
-    EXPECT_EQ(report["assets"][0]["clusters"]["meshes"][0]["name"], "strip");
-    EXPECT_EQ(report["assets"][0]["clusters"]["totals"]["triangles"], 8);
+    EXPECT_EQ(report["failures"].size(), 0u);
+    const auto& totals = report["totals"];
+    EXPECT_EQ(totals["bytes_out"], folder.read("a.hearth").size());
+    EXPECT_EQ(totals["bytes_in"], 100);
+    EXPECT_EQ(totals["cooked"], 1);
+    EXPECT_EQ(totals["actions"]["cooked"], 5);
+    EXPECT_GT(totals["sizes"]["geometry"], 0);
+    const auto& asset = report["assets"][0];
+    EXPECT_EQ(asset["source"], "warning.gltf");
+    EXPECT_EQ(asset["state"], "cooked");
+    EXPECT_EQ(asset["stages"].size(), 4u);
+    EXPECT_GE(asset["stages"][1]["start_s"], asset["stages"][0]["start_s"]);
+    EXPECT_EQ(asset["clusters"]["meshes"][0]["name"], "strip");
+    EXPECT_EQ(asset["clusters"]["totals"]["triangles"], 8);
+    EXPECT_EQ(asset["textures"][0]["name"], "bark");
+    EXPECT_EQ(asset["sizes"]["geometry"], 70);
+    EXPECT_EQ(asset["sizes"]["textures"], 40);
+    EXPECT_EQ(asset["messages"].size(), 1u) << "the import's own list, not its lines as well";
+    EXPECT_EQ(asset["messages"][0]["pointer"], "/extras");
+    EXPECT_EQ(asset["dropped"][0], "extras");
     EXPECT_EQ(report["link"]["stage"], "link");
-    EXPECT_EQ(report["dropped"][0], "extras");
+    EXPECT_EQ(report["dropped"][0]["source"], "warning.gltf");
+    EXPECT_EQ(report["dropped"][0]["text"], "extras");
 }
 
-TEST_F(Cook, reportsFailuresToo)
+TEST_F(Cook, reportsRootCausesAndWhatDependsOnThem)
 {
     EXPECT_EQ(cook({"good.gltf", "malformed.gltf", "-o", "a.hearth", "--report", "report.json"}).exit_code,
               65);
     const auto report = nlohmann::json::parse(folder.read("report.json"));
+    EXPECT_EQ(faultOfReport(report), "");
     EXPECT_EQ(report["status"], "failed");
     EXPECT_EQ(report["exit"], 65);
-    EXPECT_EQ(report["assets"][0]["state"], "not cooked");
+    EXPECT_EQ(report["assets"][0]["state"], "cooked");
     EXPECT_EQ(report["assets"][1]["state"], "failed");
+    EXPECT_EQ(report["assets"][1]["stages"][1]["state"], "dependency failed");
+    EXPECT_EQ(report["link"]["state"], "dependency failed");
+    ASSERT_EQ(report["failures"].size(), 1u);
+    const auto& failure = report["failures"][0];
+    EXPECT_EQ(failure["code"], "E1101");
+    EXPECT_EQ(failure["file"], "malformed.gltf");
+    EXPECT_EQ(failure["pointer"], "/meshes/0");
+    EXPECT_EQ(failure["text"], "is bad");
+    EXPECT_EQ(failure["hint"], "mend it");
+    EXPECT_EQ(failure["stage"], "import");
+    EXPECT_EQ(failure["not_made"].size(), 4u) << "three cookers of the source, and the link";
     EXPECT_NE(report["error"].get<std::string>().find("E1101"), std::string::npos);
+}
+
+TEST_F(Cook, reportsWhereItDoesNotEvenBegin)
+{
+    EXPECT_EQ(cook({"good.gltf", "-o", ".", "--report", "report.json"}).exit_code, 73);
+    const auto report = nlohmann::json::parse(folder.read("report.json"));
+    EXPECT_EQ(faultOfReport(report), "");
+    EXPECT_EQ(report["assets"][0]["state"], "not cooked");
+    ASSERT_EQ(report["failures"].size(), 1u);
+    EXPECT_EQ(report["failures"][0]["code"], "E4000");
+}
+
+TEST_F(Cook, writesReportsForWhoeverReadsThem)
+{
+    const ProgramEnd end = cook({"good.gltf", "malformed.gltf", "-o", "a.hearth", "--report", "r.json",
+                                 "--report", "r.html", "--report", "r.xml", "--report", "r.csv"});
+    EXPECT_EQ(end.exit_code, 65);
+    EXPECT_EQ(folder.list(), (std::vector<std::string>{"r.csv", "r.html", "r.json", "r.xml"}));
+    EXPECT_EQ(countOf(folder.read("r.xml"), "<testcase "), 3u);
+    EXPECT_EQ(countOf(folder.read("r.xml"), "<failure "), 2u) << "the source, and the pack";
+    EXPECT_EQ(countOf(folder.read("r.csv"), "\r\n"), 3u);
+    EXPECT_NE(folder.read("r.html").find("E1101"), std::string::npos);
+
+    // the same of the JSON
+    const auto report = [&](std::vector<std::string> arguments)
+    {
+        arguments.insert(arguments.begin(), {programs / "hearth", "report"});
+        return folder.run(arguments, {"TMPDIR="});
+    };
+    ASSERT_EQ(report({"r.json", "--html", "b.html", "--junit", "b.xml", "--csv", "b.csv"}).exit_code, 0);
+    for (const char* ending : {".html", ".xml", ".csv"})
+        EXPECT_EQ(folder.read(std::string("b") + ending), folder.read(std::string("r") + ending));
+    folder.write("no.json", R"({"schema": "hearth.plan/1"})");
+    EXPECT_EQ(report({"no.json", "--html", "c.html"}).exit_code, 65);
+    EXPECT_EQ(report({"none.json", "--html", "c.html"}).exit_code, 66);
+    EXPECT_EQ(report({"r.json", "--html", "c.txt"}).exit_code, 2);
+    EXPECT_EQ(report({"r.json"}).exit_code, 2);
+    EXPECT_FALSE(folder.has("c.html"));
 }
 
 TEST_F(Cook, aReportThatCannotBeWrittenIsAnError)

@@ -465,12 +465,26 @@ TEST_F(SecondCook, reportsWhatWasKept)
     const ProgramEnd end = cook({"house.obj", "-o", "a.hearth", "--report", "b.json"});
     EXPECT_TRUE(isUpToDate(end)) << end.err;
     const auto report = nlohmann::json::parse(folder.read("b.json"));
-    EXPECT_EQ(report["totals"]["cached"], 5);
+    EXPECT_EQ(report["totals"]["cached"], 1);
+    EXPECT_EQ(report["totals"]["actions"]["cached"], 5);
+    EXPECT_EQ(report["assets"][0]["state"], "cached");
+    EXPECT_EQ(report["assets"][0]["key"].get<std::string>().size(), 64u);
     EXPECT_EQ(report["totals"]["cpu_s"], 0);
     EXPECT_TRUE(report["assets"][0]["stages"][0]["cached"].get<bool>());
     EXPECT_EQ(report["assets"][0]["clusters"],
               nlohmann::json::parse(folder.read("a.json"))["assets"][0]["clusters"]);
     EXPECT_FALSE(report["assets"][0]["clusters"].is_null());
+    // the texture that the material names
+    EXPECT_EQ(report["assets"][0]["deps"].size(), 2u) << report["assets"][0]["deps"];
+}
+
+TEST_F(SecondCook, aReportRunsNothingAgain)
+{
+    ran(cook({"house.obj", "-o", "a.hearth"}));
+    EXPECT_TRUE(isUpToDate(cook({"house.obj", "-o", "a.hearth", "--report", "a.json"})));
+    const auto report = nlohmann::json::parse(folder.read("a.json"));
+    EXPECT_GT(report["assets"][0]["clusters"]["meshes"].size(), 0u);
+    EXPECT_EQ(report["assets"][0]["textures"].size(), 1u);
 }
 
 TEST_F(SecondCook, tellsMakeOfAllThatItReads)

@@ -28,7 +28,6 @@ CookSettings allSettings()
          {"--set", "clusters.influences=4"},
          VisibilityOptions{"draft", "asset", 2.5, 1, {"Run@0.5,1", "Walk"}, true}}};
     settings.bricks = BrickOptions{0.25, uint64_t{1} << 20, 2};
-    settings.statistics = true;
     return settings;
 }
 
@@ -56,12 +55,14 @@ TEST(CookGraph, runsEveryCookerWithWhatItIsTold)
 {
     const std::vector<Words> commands = commandsOf(makeCookGraph(allSettings()).value());
     ASSERT_EQ(commands.size(), 8u);
-    EXPECT_EQ(commands[0], (Words{"bin/hearth-import", "props/a.obj", "-o", "{import.part}", "--lod",
-                                  "1=low/a=b.obj", "--lod", "2=b.obj", "--set", "animation.error=0.5"}));
-    EXPECT_EQ(commands[1],
-              (Words{"bin/hearth-textures", "{import.part}", "-o", "{textures.part}", "--max-size", "64"}));
+    EXPECT_EQ(commands[0],
+              (Words{"bin/hearth-import", "props/a.obj", "-o", "{import.part}", "--lod", "1=low/a=b.obj",
+                     "--lod", "2=b.obj", "--set", "animation.error=0.5", "--stats", "{import.json}"}));
+    EXPECT_EQ(commands[1], (Words{"bin/hearth-textures", "{import.part}", "-o", "{textures.part}",
+                                  "--max-size", "64", "--stats", "{textures.json}"}));
     EXPECT_EQ(commands[2], (Words{"bin/hearth-clusters", "{import.part}", "-o", "{clusters.part}", "--set",
-                                  "clusters.influences=4", "--stats", "{clusters.json}", "--visibility"}));
+                                  "clusters.influences=4", "--stats", "{clusters.json}", "--no-manual-lods",
+                                  "--visibility"}));
     EXPECT_EQ(commands[3],
               (Words{"bin/hearth-skinning", "{import.part}", "{clusters.part}", "-o", "{skinning.part}"}));
     EXPECT_EQ(commands[4], (Words{"bin/hearth-visibility",
@@ -84,6 +85,7 @@ TEST(CookGraph, runsEveryCookerWithWhatItIsTold)
                                   "--refine-cones",
                                   "--stats",
                                   "{visibility.json}",
+                                  "--no-noise-estimate",
                                   "--picture",
                                   "{visibility.png}"}));
     EXPECT_EQ(commands[5], (Words{"bin/hearth-specular", "-o", "{specular.part}"}));

@@ -59,7 +59,7 @@ class PlanFile : public ::testing::Test
 protected:
     PlanFile()
     {
-        for (const char* name : {"a.obj", "b.obj", "c.obj", "house.toml", "wood.png"})
+        for (const char* name : {"a.obj", "b.obj", "c.obj", "wood.png"})
             folder.write(name, name);
         for (const char* cooker :
              {"import", "textures", "clusters", "skinning", "visibility", "specular", "link"})
@@ -79,8 +79,7 @@ protected:
         return {{folder / "a.obj", folder / "b.obj", folder / "c.obj"},
                 {},
                 {settings, settings, settings},
-                {"bricks.bake=2"},
-                true};
+                {"bricks.bake=2"}};
     }
 
     Status check(const Plan& plan, const std::vector<size_t>& sources)
@@ -186,7 +185,7 @@ TEST_F(PlanFile, comesBack)
     const Result<Plan> again = parsePlan(text, "plan.json");
     ASSERT_TRUE(again.ok()) << formatMessage(again.error());
     EXPECT_EQ(planText(*again), text);
-    EXPECT_EQ(again->hash_of_file.size(), 4u) << "three sources and a profile";
+    EXPECT_EQ(again->hash_of_file.size(), 3u);
     EXPECT_EQ(again->shards.size(), 2u);
     EXPECT_FALSE(again->processor.empty()) << "rays are traced";
 }
@@ -224,9 +223,14 @@ TEST_F(PlanFile, isRefusedWhereItIsNotWhatACookWouldBe)
         {"/actions/2/words/-", [](json& p) { p["actions"][2]["words"].push_back("--debug-output"); }},
         {"/actions/0/outputs/0", [](json& p) { p["actions"][0]["outputs"][0] = "../../../etc/cron.d/x"; }},
         {"/actions/0/inputs/0/path", [](json& p) { p["actions"][0]["inputs"][0]["path"] = "/etc/shadow"; }},
-        {"/cook", [](json& p) { p["cook"]["options"].push_back("--launcher"); }},
+        {"/cook", [](json& p) { p["cook"]["settings"][0].push_back("clusters.output=1"); }},
+        {"/cook", [](json& p) { p["cook"]["settings"][0].push_back("clusters.influences=2"); }},
+        {"/cook", [](json& p) { p["cook"]["settings"].erase(0); }},
         {"/cook", [](json& p) { p["cook"]["sources"][0] = "--depfile=/etc/passwd"; }},
-        {"/cook", [](json& p) { p["cook"]["options"][2] = "-o"; }},
+        {"/cook", [](json& p) { p["cook"]["settings"][0][0] = "visibility.poses=--debug-output"; }},
+        {"/cook", [](json& p) { p["cook"]["settings"][0][0] = "visibility.poses=['-o']"; }},
+        {"/cook", [](json& p) { p["cook"]["pack"][0] = "--launcher=sh"; }},
+        {"/cook", [](json& p) { p["cook"]["lods"] = {"1=-o"}; }},
         {"/cookers", [](json& p) { p["cookers"]["sh"] = p["cookers"]["import"]; }},
         {"/cookers", [](json& p) { p["cookers"].erase("link"); }},
         {"/cookers", [](json& p) { p["cookers"]["import"] = "whatever"; }},
@@ -289,9 +293,6 @@ TEST_F(PlanFile, isNotCookedFromSomethingElse)
     EXPECT_EQ(check(plan, {1}).error().file, folder / "b.obj");
     EXPECT_TRUE(check(plan, {0, 2}).ok()) << "what others cook is no matter";
     folder.write("b.obj", "b.obj");
-    folder.write("house.toml", "edited");
-    EXPECT_EQ(check(plan, {0}).error().file, folder / "house.toml");
-    folder.write("house.toml", "house.toml");
     folder.write("hearth-clusters", "another build", true);
     EXPECT_EQ(check(plan, {0}).error().issue, Issue::plan_build);
     folder.write("hearth-clusters", "clusters", true);

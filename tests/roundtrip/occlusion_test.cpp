@@ -489,7 +489,7 @@ TEST_F(Occlusion, isReportedWithAPicture)
     EXPECT_GT(mesh["solve"]["iterations"], 0);
     EXPECT_GE(mesh["solve"]["condition"], 1);
     EXPECT_TRUE(mesh.contains("clamped"));
-    EXPECT_GT(mesh["ao_error"], 0);
+    EXPECT_FALSE(mesh.contains("ao_error")) << "its noise takes time, and a report asks for none";
     EXPECT_GT(mesh["refined"]["cones"], 0);
     EXPECT_LT(mesh["refined"]["distance"], mesh["refined"]["distance_before"]);
     // the signature of PNG

@@ -192,6 +192,12 @@ TEST(RenderOptions, mistakesAreNamed)
     for (const char* curve : {"", "1", "1:2:3", "1:x", "1:1,2:3"})
         expectUsage({"a.hearth", "-o", "a.png", "--lod-curve", curve}, "--lod-curve");
     expectUsage({"a.hearth", "-o", "a.png", "--camera-path", "p.txt", "--frames", "2"}, "--camera-path");
+    for (const char* meshes : {"", "1,", "x", "1,-2"})
+        expectUsage({"a.hearth", "-o", "a.png", "--meshes", meshes}, "--meshes");
+    expectUsage({"a.hearth", "-o", "a.png", "--meshes", "1", "--camera-path", "p.txt"}, "--meshes");
+    for (const char* views : {"", "final,", "final,nothing", "overdraw"})
+        expectUsage({"a.hearth", "-o", "a.png", "--views", views}, "--views");
+    expectUsage({"a.hearth", "-o", "a.png", "--views", "lod", "--frames", "2"}, "--views");
     for (const char* start : {"", "noise", "noise:", "noise:x", "noise:-1", "last"})
         expectUsage({"a.hearth", "-o", "a.png", "--hzb", start}, "--hzb");
 }

@@ -90,6 +90,35 @@ TEST(CookTextures, leavesOutMipsThatAreTooLarge)
     }
 }
 
+TEST(CookTextures, saysWhatBecameOfEachImage)
+{
+    const TemporaryFolder folder;
+    std::vector<ImageRecord> images = {recordOf(12, 7), recordOf(4, 4, TexelFormat::rgba16_float)};
+    images[0].name = {3, 400}; // of the strings that are not there
+    const std::vector<std::vector<std::byte>> texels = {randomBytes(12 * 7 * 4, 1),
+                                                        std::vector<std::byte>(4 * 4 * 8)};
+    writeImport(folder.file("in.part"), images, texels);
+    std::vector<ImageStatistics> statistics;
+    ASSERT_TRUE(cookTextures(folder.file("in.part"), folder.file("out.part"), 0, &statistics).ok());
+    const auto part = ContainerReader::open(folder.file("out.part"));
+    ASSERT_EQ(statistics.size(), 2u);
+    for (uint32_t i = 0; i < 2; ++i)
+    {
+        EXPECT_EQ(statistics[i].name, "");
+        EXPECT_EQ(statistics[i].stored_bytes, part->find(kChunkImageData, i)->stored_size);
+        EXPECT_EQ(statistics[i].bytes, part->find(kChunkImageData, i)->size);
+    }
+    EXPECT_GT(statistics[0].half_error, 0.1);
+    EXPECT_FALSE(statistics[1].half_error);
+    EXPECT_EQ(statistics[0].error, 0);
+
+    std::vector<ImageStatistics> smaller;
+    ASSERT_TRUE(cookTextures(folder.file("in.part"), folder.file("small.part"), 6, &smaller).ok());
+    EXPECT_EQ(smaller[0].image.width, 6u);
+    EXPECT_EQ(smaller[0].error, statistics[0].half_error) << "it has half of its size now";
+    EXPECT_GE(smaller[0].half_error, smaller[0].error);
+}
+
 TEST(CookTextures, partWithoutImagesGivesAnEmptyTable)
 {
     const TemporaryFolder folder;

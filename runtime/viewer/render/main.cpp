@@ -7,6 +7,7 @@
 #include "runtime/viewer/camera_path.h"
 #include "runtime/viewer/file_output.h"
 #include "runtime/viewer/frame_report.h"
+#include "runtime/viewer/mesh_stage.h"
 #include "runtime/viewer/page_reading.h"
 #include "runtime/viewer/pyramid_start.h"
 #include "runtime/viewer/render/options.h"
@@ -30,6 +31,12 @@ Result<std::vector<std::byte>> readPicture(VulkanHost& host, const gpu::Renderer
     if (samples == 1)
         return pixels;
     return downsampleSrgb(pixels, targets.extent().width, targets.extent().height);
+}
+
+Result<std::vector<std::byte>> encodePicture(const RenderOptions& options, std::span<const std::byte> pixels)
+{
+    return options.output.ends_with(".jpg") ? encodeJpeg(pixels, options.width, options.height)
+                                            : encodePng(pixels, options.width, options.height);
 }
 
 /// One for each frame.
@@ -78,12 +85,14 @@ void warnAboutShadows(const ShadowCounts& counts, const std::string& name)
 class Run
 {
 public:
-    Run(const RenderOptions& options, const formats::PackView& pack, Animation& animation, VulkanHost& host,
-        const gpu::Renderer& renderer, const gpu::Scene& scene, gpu::FrameTargets& targets,
+    /// stage  null: the whole scene is shown
+    Run(const RenderOptions& options, const formats::PackView& pack, Animation& animation, MeshStage* stage,
+        VulkanHost& host, const gpu::Renderer& renderer, const gpu::Scene& scene, gpu::FrameTargets& targets,
         VkQueryPool timestamps)
         : options_(options),
           pack_(pack),
           animation_(animation),
+          stage_(stage),
           host_(host),
           renderer_(renderer),
           scene_(scene),
@@ -92,6 +101,9 @@ public:
           settings_(settingsOfSamples(options, targets.extent()))
     {
     }
+
+    /// Of the frames to come.
+    void setView(uint32_t view) { settings_.view = view; }
 
     /// Streams until a frame of this camera has all that it wants.
     Status prefetch(const shared::Camera& camera)
@@ -134,6 +146,13 @@ public:
         HEARTH_TRY(animation_.update(scene_));
         frame.moves = animation_.moves();
         frame.poses = animation_.poses();
+        std::vector<gpu::InstanceMove> alone;
+        if (stage_ != nullptr)
+        {
+            HEARTH_ASSIGN_OR_RETURN(alone, stage_->show(scene_, number));
+            frame.moves = alone;
+            frame.poses = stage_->poses(animation_.poses(), number);
+        }
         beginFrame();
         if (options_.pyramid == PyramidStart::none)
             targets_.setPyramidView({});
@@ -159,9 +178,8 @@ public:
         warnAboutLimits(scene_, list, pack_.name());
         HEARTH_ASSIGN_OR_RETURN(const std::vector<std::byte> picture,
                                 readPicture(host_, renderer_, targets_, options_.samples));
-        HEARTH_ASSIGN_OR_RETURN(const std::vector<std::byte> png,
-                                encodePng(picture, options_.width, options_.height));
-        HEARTH_TRY(writeFile(picture_file, png));
+        HEARTH_ASSIGN_OR_RETURN(const std::vector<std::byte> encoded, encodePicture(options_, picture));
+        HEARTH_TRY(writeFile(picture_file, encoded));
         if (!options_.stats.empty())
             HEARTH_TRY(count(list));
         if (scene_.stream != nullptr)
@@ -261,6 +279,7 @@ private:
     const RenderOptions& options_;
     const formats::PackView& pack_;
     Animation& animation_;
+    MeshStage* stage_;
     VulkanHost& host_;
     const gpu::Renderer& renderer_;
     const gpu::Scene& scene_;
@@ -274,6 +293,15 @@ private:
     std::optional<SkinningCounts> skinning_;
     uint64_t serial_ = 0; ///< of the last frame
 };
+
+/// "a.png" becomes "a-lod.png"; it stays as it is without a name of a view.
+std::string viewFile(const std::string& path, std::string_view view)
+{
+    const size_t name = path.rfind('/') + 1; // npos + 1 is 0
+    const size_t dot = std::max(path.rfind('.'), name);
+    const size_t at = path.rfind('.') == std::string::npos || dot == name ? path.size() : dot;
+    return view.empty() ? path : path.substr(0, at) + "-" + std::string(view) + path.substr(at);
+}
 
 /// Reads at once.
 pack::PageReader pageReader(const formats::PackView& pack)
@@ -297,8 +325,19 @@ Status drawPack(const RenderOptions& options, const formats::PackView& pack, Vul
     HEARTH_TRY(checkPack(options, pack));
     HEARTH_ASSIGN_OR_RETURN(Animation animation, Animation::create(options.animation, pack));
     animation.goTo(0);
-    HEARTH_ASSIGN_OR_RETURN(const std::vector<shared::Camera> cameras,
-                            chooseCameras(options, pack, animation.player()));
+    std::optional<MeshStage> stage;
+    std::vector<shared::Camera> cameras;
+    if (options.meshes.empty())
+    {
+        HEARTH_ASSIGN_OR_RETURN(cameras, chooseCameras(options, pack, animation.player()));
+    }
+    else
+    {
+        HEARTH_ASSIGN_OR_RETURN(
+            stage, MeshStage::create(pack, animation.player(), options.meshes,
+                                     static_cast<float>(options.width) / static_cast<float>(options.height)));
+        cameras = stage->cameras();
+    }
     HEARTH_ASSIGN_OR_RETURN(const std::unique_ptr<gpu::Renderer> renderer,
                             gpu::Renderer::create(host.description()));
     if (options.settings.view == shared::kViewOverdraw)
@@ -317,18 +356,27 @@ Status drawPack(const RenderOptions& options, const formats::PackView& pack, Vul
     HEARTH_ASSIGN_OR_RETURN(gpu::FrameTargets targets,
                             renderer->createTargets({options.width * scale, options.height * scale}));
     HEARTH_ASSIGN_OR_RETURN(const VkQueryPool timestamps, host.createTimestamps(gpu::kTimestampCount));
-    Run run(options, pack, animation, host, *renderer, *scene, targets, timestamps);
-    if (scene->stream != nullptr && options.camera_path.empty())
+    Run run(options, pack, animation, stage ? &*stage : nullptr, host, *renderer, *scene, targets,
+            timestamps);
+    const bool is_sequence = !options.camera_path.empty() || stage.has_value();
+    if (scene->stream != nullptr && !is_sequence)
         HEARTH_TRY(run.prefetch(cameras.front()));
     HEARTH_TRY(run.settle(cameras.front()));
+    const std::vector<Named<uint32_t>> views =
+        options.views.empty() ? std::vector<Named<uint32_t>>{{"", options.settings.view}} : options.views;
     for (size_t i = 0; i < cameras.size(); ++i)
-    {
-        HEARTH_TRY(run.draw(cameras[i], i));
-        const auto file = [&](const std::string& name)
-        { return options.camera_path.empty() || name.empty() ? name : numberedFile(name, i); };
-        if (!options.camera_path.empty() || i + 1 == cameras.size())
-            HEARTH_TRY(run.write(file(options.output), file(options.visibility)));
-    }
+        for (const Named<uint32_t>& view : views)
+        {
+            run.setView(view.value);
+            HEARTH_TRY(run.draw(cameras[i], i));
+            const auto file = [&](const std::string& name)
+            {
+                const std::string of_view = name.empty() ? name : viewFile(name, view.name);
+                return !is_sequence || name.empty() ? of_view : numberedFile(of_view, i);
+            };
+            if (is_sequence || i + 1 == cameras.size())
+                HEARTH_TRY(run.write(file(options.output), file(options.visibility)));
+        }
     return run.writeStats();
 }
 

@@ -29,6 +29,41 @@ Status parsePyramid(std::string_view text, RenderOptions& options)
     return success();
 }
 
+/// "N,N,..."
+Status parseMeshes(std::string_view text, RenderOptions& options)
+{
+    options.meshes.clear();
+    for (size_t at = 0; at <= text.size();)
+    {
+        const size_t end = std::min(text.find(',', at), text.size());
+        const auto number = parseNumber<uint32_t>(text.substr(at, end - at));
+        if (!number)
+            return usageError("--meshes: " + quoted(text) + " is not a list of numbers of meshes");
+        options.meshes.push_back(*number);
+        at = end + 1;
+    }
+    return success();
+}
+
+/// "VIEW,VIEW,..."
+Status parseViews(std::string_view text, RenderOptions& options)
+{
+    options.views.clear();
+    for (size_t at = 0; at <= text.size();)
+    {
+        const size_t end = std::min(text.find(',', at), text.size());
+        const std::string_view name = text.substr(at, end - at);
+        const auto names = viewNames();
+        const auto view = std::find_if(names.begin(), names.end(),
+                                       [&](const Named<uint32_t>& known) { return known.name == name; });
+        if (view == names.end() || view->value == shared::kViewOverdraw)
+            return usageError("--views: " + quoted(name) + " is no view that can be drawn beside others");
+        options.views.push_back(*view);
+        at = end + 1;
+    }
+    return success();
+}
+
 Status parseGiFrames(std::string_view text, RenderOptions& options)
 {
     const auto number = parseNumber<uint32_t>(text);
@@ -53,11 +88,18 @@ std::string renderHelp()
     return std::string("Usage: hearth-render PACK -o IMAGE.png [options]\n"
                        "Draw a pack without a window.\n"
                        "\n"
-                       "  -o, --output FILE       the picture, PNG\n") +
+                       "  -o, --output FILE       the picture, PNG, or JPEG where it ends in .jpg\n") +
            kDrawHelp +
            "\n"
            "      --camera-path FILE  a picture for each line of FILE, written as for --camera: "
            "IMAGE-0000.png, ...\n"
+           "      --meshes N,N,...    a picture of each of these meshes alone, where its first instance "
+           "stands: "
+           "IMAGE-0000.png,\n"
+           "                          ... in the order of the list\n"
+           "      --views VIEW,...    each picture in each of these views: IMAGE-VIEW.png, or "
+           "IMAGE-VIEW-0000.png; "
+           "not overdraw\n"
            "      --animation CLIP    in the pose of a clip, by its name or number\n"
            "      --time SECONDS      of the clip, default 0; beyond its keys it rests\n"
            "      --blend CLIP,SECONDS,WEIGHT\n"
@@ -94,6 +136,8 @@ Result<RenderOptions> parseRenderOptions(std::span<const char* const> arguments)
     for (const char* name : {"-o", "--output"})
         command_line.addText(name, options.output);
     command_line.addText("--camera-path", options.camera_path);
+    command_line.addValue("--meshes", [&](std::string_view text) { return parseMeshes(text, options); });
+    command_line.addValue("--views", [&](std::string_view text) { return parseViews(text, options); });
     addAnimationOptions(command_line, options.animation);
     command_line.addValue("--samples", [&](std::string_view text) { return parseSamples(text, options); });
     command_line.addText("--stats", options.stats);
@@ -115,6 +159,11 @@ Result<RenderOptions> parseRenderOptions(std::span<const char* const> arguments)
         return usageError("--blend and --time-step need --animation");
     if (!options.camera_path.empty() && options.frames != 1)
         return usageError("--frames and --camera-path exclude each other");
+    if (!options.views.empty() && options.frames != 1)
+        return usageError("--views and --frames exclude each other");
+    if (!options.meshes.empty() && (!options.camera_path.empty() || options.frames != 1 || options.camera ||
+                                    options.scene_camera || options.animation.clip))
+        return usageError("--meshes excludes cameras, --frames and --animation");
     return options;
 }
 

@@ -19,7 +19,10 @@ enum class PyramidStart
 struct RenderOptions : DrawOptions
 {
     std::string output;
-    std::string camera_path; ///< a file; empty: one picture
+    std::string camera_path;      ///< a file; empty: one picture
+    std::vector<uint32_t> meshes; ///< a picture of each alone; none: of the scene
+    std::vector<Named<uint32_t>>
+        views; ///< each picture is drawn in each of these; none: in that of the settings
     AnimationSettings animation;
     uint32_t samples = 1;
     uint32_t frames = 1;

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "pipelines/cache/folder_level.h"
+#include "pipelines/command/verb_tools.h"
+#include "pipelines/command/verbs.h"
+#include "pipelines/report/write_report.h"
+
+#include <CLI/CLI.hpp>
+
+namespace hearth::command
+{
+
+namespace
+{
+
+struct Options
+{
+    std::string file;
+    std::string pack;
+    std::string page;
+    std::string junit;
+    std::string table;
+};
+
+/// The ending that an option's file must have; empty where it has it.
+std::string endingFault(const std::string& path, const std::string& ending)
+{
+    return path.empty() || path.ends_with(ending) ? "" : path + " does not end in " + ending;
+}
+
+int report(const Options& options)
+{
+    for (const std::string& fault : {endingFault(options.page, ".html"), endingFault(options.junit, ".xml"),
+                                     endingFault(options.table, ".csv")})
+        if (!fault.empty())
+            return usageError(fault);
+    if (options.page.empty() && options.junit.empty() && options.table.empty())
+        return usageError("report: nothing is asked for: name --html, --junit or --csv");
+    const std::optional<std::string> json = cache::readText(options.file);
+    if (!json)
+        return fail({Issue::input_missing, options.file, "", "cannot be read"});
+    for (const std::string& path : {options.page, options.junit, options.table})
+        if (!path.empty())
+            if (const Status status = report::writeReport(*json, path, options.pack, options.file);
+                !status.ok())
+                return fail(status.error());
+    return 0;
+}
+
+} // namespace
+
+void addReport(CLI::App& app, Work& run)
+{
+    CLI::App* verb =
+        app.add_subcommand("report", "Turn the report of a cook into a page, or what machines read");
+    auto options = std::make_shared<Options>();
+    verb->add_option("FILE", options->file, "what hearth cook --report wrote as JSON")->required();
+    verb->add_option("--html", options->page, "write a page that needs nothing else: FILE.html");
+    verb->add_option("--pack", options->pack, "what was cooked: the page has pictures of it");
+    verb->add_option("--junit", options->junit, "write a test case for each asset: FILE.xml");
+    verb->add_option("--csv", options->table, "write a row for each asset: FILE.csv");
+    verb->footer("Example: hearth report cook.json --html cook.html --pack house.hearth");
+    verb->callback([options, &run] { run = [options] { return report(*options); }; });
+}
+
+} // namespace hearth::command

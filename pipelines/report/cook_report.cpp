@@ -1,0 +1,385 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "pipelines/report/cook_report.h"
+
+#include "pipelines/report/base64.h"
+#include "pipelines/report/message.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+namespace hearth::report
+{
+
+using graph::Action;
+using graph::ActionOutcome;
+using graph::Ending;
+using Json = nlohmann::ordered_json;
+
+namespace
+{
+
+const char* stateOf(Ending ending)
+{
+    switch (ending)
+    {
+    case Ending::cooked:
+        return "cooked";
+    case Ending::kept:
+        return "cached";
+    case Ending::failed:
+        return "failed";
+    case Ending::left_out:
+        return "dependency failed";
+    case Ending::unknown:
+        break;
+    }
+    return "not cooked";
+}
+
+bool hasResult(Ending ending)
+{
+    return ending == Ending::cooked || ending == Ending::kept;
+}
+
+Json messageJson(const std::string& line)
+{
+    const Message message = parseMessage(line);
+    Json json{{"code", message.code}, {"severity", message.severity}, {"text", message.text}};
+    if (!message.file.empty())
+        json["file"] = message.file;
+    if (!message.pointer.empty())
+        json["pointer"] = message.pointer;
+    if (!message.hint.empty())
+        json["hint"] = message.hint;
+    return json;
+}
+
+Json stageJson(const CookReport& cook, size_t index)
+{
+    const ActionOutcome& outcome = cook.outcomes[index];
+    const graph::KeptResult& result = outcome.result;
+    Json json{{"stage", cook.graph->actions[index].cooker}, {"state", stateOf(outcome.ending)}};
+    if (outcome.ending == Ending::kept)
+        json["cached"] = true;
+    if (!outcome.record.empty())
+        json["key"] = graph::resultKey(outcome.record);
+    if (hasResult(outcome.ending))
+    {
+        if (!result.outputs.front().hash.empty())
+            json["sha256"] = result.outputs.front().hash;
+        json["bytes"] = result.outputs.front().bytes;
+    }
+    if (hasResult(outcome.ending) || outcome.ending == Ending::failed)
+        json.update({{"seconds", result.seconds},
+                     {"cpu_seconds", result.cpu_seconds},
+                     {"peak_rss_bytes", result.peak_rss_bytes}});
+    if (const auto time = cook.times.find(index); time != cook.times.end())
+    {
+        json["start_s"] = time->second.start_seconds;
+        json["lane"] = time->second.lane;
+        json["why"] = outcome.causes;
+    }
+    if (const auto error = cook.errors.find(index); error != cook.errors.end())
+        json["error"] = messageJson(error->second);
+    return json;
+}
+
+/// What a cooker wrote beside its part; null where it did not.
+Json statisticsOf(const CookReport& cook, size_t index)
+{
+    const auto text = cook.statistics.find(index);
+    Json json = text == cook.statistics.end() ? Json() : Json::parse(text->second, nullptr, false);
+    return json.is_object() ? json : Json();
+}
+
+/// A list of an object, or an empty one.
+Json listOf(const Json& object, const char* key)
+{
+    const auto list = object.is_object() ? object.find(key) : object.end();
+    return object.is_object() && list != object.end() && list->is_array() ? *list : Json::array();
+}
+
+uint64_t numberOf(const Json& object, const char* key)
+{
+    const auto number = object.is_object() ? object.find(key) : object.end();
+    return object.is_object() && number != object.end() && number->is_number_unsigned()
+               ? number->get<uint64_t>()
+               : 0;
+}
+
+/// All actions of a source.
+struct Asset
+{
+    size_t source = 0;
+    std::vector<size_t> actions;
+};
+
+std::vector<Asset> assetsOf(const CookReport& cook)
+{
+    std::vector<Asset> assets(cook.sources.size());
+    for (size_t i = 0; i < assets.size(); ++i)
+        assets[i].source = i;
+    for (size_t i = 0; cook.graph != nullptr && i < cook.graph->actions.size(); ++i)
+        if (const size_t source = cook.graph->actions[i].source; source < assets.size())
+            assets[source].actions.push_back(i);
+    return assets;
+}
+
+const char* stateOf(const CookReport& cook, const Asset& asset)
+{
+    const auto any = [&](Ending ending)
+    {
+        return std::any_of(asset.actions.begin(), asset.actions.end(),
+                           [&](size_t action) { return cook.outcomes[action].ending == ending; });
+    };
+    for (const Ending ending : {Ending::failed, Ending::left_out, Ending::unknown, Ending::cooked})
+        if (any(ending))
+            return stateOf(ending);
+    return asset.actions.empty() ? "not cooked" : "cached";
+}
+
+/// The files that the import has read besides the source, with what it was called there; those that it has missed.
+Json dependenciesOf(const CookReport& cook, const Asset& asset, const Json& import_report)
+{
+    Json dependencies = Json::array();
+    const Json files = listOf(import_report, "sources");
+    for (size_t i = 1; i < files.size(); ++i)
+        dependencies.push_back(files[i]);
+    for (const size_t action : asset.actions)
+        for (const auto& [name, value] : cook.outcomes[action].record)
+            if (name.starts_with(graph::kFound) && value == graph::kAbsent)
+                dependencies.push_back({{"name", name.substr(name.find('/') + 1)}, {"missing", true}});
+    return dependencies;
+}
+
+/// What came before each cooker's own messages is how they are told of in the pack: the import's have their parts already.
+Json messagesOf(const CookReport& cook, const Asset& asset, const Json& import_report)
+{
+    Json messages = listOf(import_report, "messages");
+    for (const size_t action : asset.actions)
+        if (cook.graph->actions[action].cooker != "import" || import_report.is_null())
+            for (const std::string& line : cook.outcomes[action].result.warnings)
+                messages.push_back(messageJson(line));
+    for (const size_t action : asset.actions)
+        if (const auto error = cook.errors.find(action); error != cook.errors.end())
+            messages.push_back(messageJson(error->second));
+    return messages;
+}
+
+Json visibilityJson(const CookReport& cook, size_t action)
+{
+    Json json = statisticsOf(cook, action);
+    if (json.is_null())
+        return json;
+    json.erase("source");
+    if (const auto picture = cook.pictures.find(action); picture != cook.pictures.end())
+        json["picture"] = "data:image/png;base64," + base64(picture->second);
+    return json;
+}
+
+uint64_t sumOf(const Json& list, const char* group, const char* key)
+{
+    uint64_t sum = 0;
+    for (const Json& item : list)
+        sum += numberOf(group == nullptr ? item : item.value(group, Json::object()), key);
+    return sum;
+}
+
+Json assetJson(const CookReport& cook, const Asset& asset)
+{
+    Json json{{"source", cook.sources[asset.source]}, {"state", stateOf(cook, asset)}};
+    const auto actionOf = [&](const char* cooker)
+    {
+        const auto found =
+            std::find_if(asset.actions.begin(), asset.actions.end(),
+                         [&](size_t action) { return cook.graph->actions[action].cooker == cooker; });
+        return found == asset.actions.end() ? graph::kNoAction : *found;
+    };
+    const size_t import_action = actionOf("import");
+    const Json import_report = statisticsOf(cook, import_action);
+    if (import_action != graph::kNoAction)
+    {
+        const graph::Record& record = cook.outcomes[import_action].record;
+        if (!record.empty())
+        {
+            json["key"] = graph::resultKey(record);
+            // the hash, and behind a space the name
+            const std::string_view source = cache::valueOf(record, "input source");
+            json["sha256"] = source.substr(0, source.find(' '));
+        }
+    }
+    double seconds = 0;
+    double cpu_seconds = 0;
+    uint64_t peak = 0;
+    Json why = Json::array();
+    Json stages = Json::array();
+    for (const size_t action : asset.actions)
+    {
+        stages.push_back(stageJson(cook, action));
+        const ActionOutcome& outcome = cook.outcomes[action];
+        if (!cook.times.contains(action))
+            continue;
+        seconds += outcome.result.seconds;
+        cpu_seconds += outcome.result.cpu_seconds;
+        peak = std::max(peak, outcome.result.peak_rss_bytes);
+        for (const std::string& cause : outcome.causes)
+            if (std::find(why.begin(), why.end(), cause) == why.end())
+                why.push_back(cause);
+    }
+    json.update({{"seconds", seconds}, {"cpu_seconds", cpu_seconds}, {"peak_rss_bytes", peak}});
+    json["bytes_in"] = sumOf(listOf(import_report, "sources"), nullptr, "bytes");
+    json["why"] = why;
+    json["deps"] = dependenciesOf(cook, asset, import_report);
+    json["stages"] = stages;
+
+    const Json clusters = statisticsOf(cook, actionOf("clusters"));
+    const Json textures = listOf(statisticsOf(cook, actionOf("textures")), "images");
+    json["sizes"] = {{"geometry", sumOf(listOf(clusters, "meshes"), "bytes", "pages_stored")},
+                     {"textures", sumOf(textures, nullptr, "bytes_stored")}};
+    if (import_report.contains("counts"))
+        json["counts"] = import_report["counts"];
+    if (!clusters.is_null())
+        json["clusters"] = {{"meshes", listOf(clusters, "meshes")},
+                            {"totals", clusters.value("totals", Json::object())}};
+    json["textures"] = textures;
+    if (const size_t action = actionOf("visibility"); action != graph::kNoAction)
+        json["visibility"] = visibilityJson(cook, action);
+    json["messages"] = messagesOf(cook, asset, import_report);
+    json["dropped"] = listOf(import_report, "dropped");
+    return json;
+}
+
+/// What each failure is, and what could not be made because of it.
+Json failuresJson(const CookReport& cook)
+{
+    Json failures = Json::array();
+    for (const auto& [index, line] : cook.errors)
+    {
+        const Action& action = cook.graph->actions[index];
+        Json failure{{"subject", action.subject}, {"stage", action.cooker}};
+        failure.update(messageJson(line));
+        failure["not_made"] = Json::array();
+        // actions stand after those that they read from
+        std::vector<bool> depends(cook.graph->actions.size(), false);
+        depends[index] = true;
+        for (size_t i = index + 1; i < depends.size(); ++i)
+            for (const graph::Input& input : cook.graph->actions[i].inputs)
+                if (input.action != graph::kNoAction && depends[input.action] && !depends[i])
+                {
+                    depends[i] = true;
+                    const Action& dependent = cook.graph->actions[i];
+                    failure["not_made"].push_back(
+                        {{"subject", dependent.subject}, {"stage", dependent.cooker}});
+                }
+        failures.push_back(failure);
+    }
+    if (failures.empty() && !cook.error.empty())
+    {
+        Json failure{{"subject", cook.output}, {"stage", "cook"}};
+        failure.update(messageJson(cook.error));
+        failure["not_made"] = Json::array();
+        failures.push_back(failure);
+    }
+    return failures;
+}
+
+/// Bytes of the pack by what they are for.
+Json sizesJson(const std::map<std::string, uint64_t>& bytes_of_chunks)
+{
+    static const std::map<std::string, const char*> kind_of_chunk{
+        {"PAGE", "geometry"},  {"PGTB", "geometry"},  {"PGPA", "geometry"},  {"CLUS", "geometry"},
+        {"GRUP", "geometry"},  {"LEVL", "geometry"},  {"MESH", "geometry"},  {"IMGD", "textures"},
+        {"IMGR", "textures"},  {"DCLU", "animation"}, {"DJNT", "animation"}, {"DMSH", "animation"},
+        {"ACHN", "animation"}, {"AKBT", "animation"}, {"AKEY", "animation"}, {"ANIM", "animation"},
+        {"SKIN", "animation"}, {"JOIN", "animation"}, {"MWGT", "animation"}, {"SPOC", "light"},
+        {"INST", "scene"},     {"NODE", "scene"},     {"MATL", "scene"},     {"CAMR", "scene"},
+        {"LGHT", "scene"},     {"SHSP", "scene"},     {"STRS", "scene"},     {"META", "scene"}};
+    Json sizes{{"geometry", 0}, {"textures", 0}, {"animation", 0}, {"light", 0}, {"scene", 0}, {"other", 0}};
+    for (const auto& [type, bytes] : bytes_of_chunks)
+    {
+        const auto kind = kind_of_chunk.find(type);
+        Json& size = sizes[type == "bricks" ? "light" : kind == kind_of_chunk.end() ? "other" : kind->second];
+        size = size.get<uint64_t>() + bytes;
+    }
+    return sizes;
+}
+
+Json totalsJson(const CookReport& cook, const Json& assets)
+{
+    std::map<std::string, uint64_t> assets_of_state;
+    for (const Json& asset : assets)
+        ++assets_of_state[asset["state"]];
+    Json actions{{"cooked", 0}, {"cached", 0}, {"failed", 0}, {"dependency failed", 0}, {"not cooked", 0}};
+    double cpu_seconds = 0;
+    uint64_t peak = 0;
+    for (size_t i = 0; i < cook.outcomes.size(); ++i)
+    {
+        const ActionOutcome& outcome = cook.outcomes[i];
+        Json& count = actions[stateOf(outcome.ending)];
+        count = count.get<uint64_t>() + 1;
+        if (!cook.times.contains(i))
+            continue;
+        cpu_seconds += outcome.result.cpu_seconds;
+        peak = std::max(peak, outcome.result.peak_rss_bytes);
+    }
+    Json totals{{"assets", cook.sources.size()},
+                {"cooked", assets_of_state["cooked"]},
+                {"cached", assets_of_state["cached"]},
+                {"failed", assets_of_state["failed"]},
+                {"wall_s", cook.seconds},
+                {"cpu_s", cpu_seconds},
+                {"peak_rss", peak},
+                {"bytes_in", sumOf(assets, nullptr, "bytes_in")},
+                {"bytes_out", cook.output_bytes},
+                {"actions", actions}};
+    if (!cook.bytes_of_chunks.empty())
+        totals["sizes"] = sizesJson(cook.bytes_of_chunks);
+    return totals;
+}
+
+/// The assets' lists as one, each item with its source.
+Json gathered(const Json& assets, const char* key)
+{
+    Json all = Json::array();
+    for (const Json& asset : assets)
+        for (const Json& item : asset[key])
+        {
+            Json named{{"source", asset["source"]}};
+            named.update(item.is_object() ? item : Json{{"text", item}});
+            all.push_back(named);
+        }
+    return all;
+}
+
+} // namespace
+
+std::string reportJson(const CookReport& cook)
+{
+    Json assets = Json::array();
+    for (const Asset& asset : assetsOf(cook))
+        assets.push_back(assetJson(cook, asset));
+    Json report{{"schema", "hearth.report/1"},
+                {"tool", {{"name", "hearth"}, {"version", HEARTH_VERSION}}},
+                {"started", cook.started},
+                {"status", cook.exit_code == 0 ? "ok" : "failed"},
+                {"exit", cook.exit_code},
+                {"output", cook.output},
+                {"up_to_date", cook.is_up_to_date},
+                {"totals", totalsJson(cook, assets)},
+                {"failures", failuresJson(cook)},
+                {"messages", gathered(assets, "messages")},
+                {"dropped", gathered(assets, "dropped")}};
+    for (size_t i = 0; i < cook.outcomes.size(); ++i)
+        if (const Action& action = cook.graph->actions[i]; action.source >= cook.sources.size())
+        {
+            report[action.cooker] = stageJson(cook, i);
+            if (const Json grid = statisticsOf(cook, i); action.cooker == "bricks" && !grid.is_null())
+                report["bricks"]["grid"] = grid;
+        }
+    if (!cook.error.empty())
+        report["error"] = cook.error;
+    report["assets"] = std::move(assets);
+    return report.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+} // namespace hearth::report

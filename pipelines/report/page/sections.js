@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+// The parts of the page, each made of the data alone.
+
+function section(id, title, note, ...content) {
+  return el('section', {id, 'aria-labelledby': id + '-title'},
+            el('div.head', {}, el('h2', {id: id + '-title'}, title), note ? el('span.note', {}, note) : null), ...content);
+}
+
+/** Adds buttons or a filter to the head of a section. */
+const withTools = (part, ...tools) => { part.querySelector('.head').append(el('div.tools', {}, ...tools)); return part; };
+
+function totalsOf(data) {
+  const totals = data.totals, actions = totals.actions || {};
+  const kept = actions.cached || 0, all = Object.values(actions).reduce((sum, n) => sum + n, 0);
+  const total = (figure, name, more) => el('div.total', {}, el('b', {}, figure), el('span', {}, name), more ? el('div.faint', {}, more) : null);
+  const triangles = data.meshes.reduce((sum, mesh) => sum + mesh.triangles, 0);
+  const texels = data.textures.reduce((sum, texture) => sum + texture.memory, 0);
+  return el('section.totals', {id: 'totals', 'aria-label': 'Totals'},
+    total(count(totals.assets), totals.assets === 1 ? 'asset' : 'assets',
+          [totals.cooked && totals.cooked + ' cooked', totals.cached && totals.cached + ' cached', totals.failed && totals.failed + ' failed']
+            .filter(Boolean).join(', ')),
+    total(seconds(totals.wall_s), 'wall time', seconds(totals.cpu_s) + ' of processors'),
+    total(all ? percent(kept / all) : '–', 'cache hits', `${count(kept)} of ${plural(all, 'action')}`),
+    total(bytes(totals.bytes_out), 'pack', data.status === 'ok' ? 'of ' + bytes(totals.bytes_in) + ' of sources' : 'not made'),
+    total(count(triangles), 'source triangles', plural(data.meshes.length, 'mesh').replace('meshs', 'meshes')),
+    total(count(data.textures.length), data.textures.length === 1 ? 'texture' : 'textures', bytes(texels) + ' decoded, with mips'),
+    total(totals.peak_rss ? bytes(totals.peak_rss) : '–', 'most memory', 'of one cooker'),
+    total(count(data.warnings), data.warnings === 1 ? 'warning' : 'warnings', plural(data.dropped, 'part') + ' of sources left out'));
+}
+
+function failuresOf(data) {
+  if (!data.failures.length) return null;
+  return section('failures', plural(data.failures.length, 'failure'), 'the root causes; what only depends on them is listed below each',
+    data.failures.map(failure => {
+      const explained = data.explain[failure.code];
+      const others = failure.not_made || [];
+      return el('div.failure', {},
+        el('p.what', {}, failure.file || failure.subject, failure.pointer ? el('span.mono', {}, '  ' + failure.pointer) : null),
+        el('p', {}, el('b', {}, failure.text), ' ', el('span.badge.bad', {}, failure.code || 'error')),
+        failure.hint ? el('p', {}, 'What to do: ' + failure.hint + '.') : null,
+        explained ? el('p.faint', {}, `${failure.code}: ${explained.summary}, says `, el('code', {}, 'hearth explain ' + failure.code), `; it came from hearth-${failure.stage}.`)
+                  : el('p.faint', {}, 'It came from ' + failure.stage + '.'),
+        others.length ? el('details', {open: others.length <= 6}, el('summary', {}, `Not made because of it: ${plural(others.length, 'action')}`),
+                           el('ul', {}, others.slice(0, 50).map(other => el('li', {}, `${other.stage} of ${other.subject}`)))) : null);
+    }));
+}
+
+function picturesOf(views, uris, name) {
+  if (!uris || !uris.some(Boolean)) return null;
+  const titles = {final: 'as it is drawn', clusters: 'clusters', lod: 'level of detail', ao: 'ambient occlusion'};
+  return el('div.pictures', {}, views.map((view, i) => uris[i]
+    ? el('figure', {}, el('img', {src: uris[i], alt: `${name}: ${titles[view] || view}`, loading: 'lazy'}), el('figcaption', {}, titles[view] || view)) : null));
+}
+
+function sceneOf(pictures) {
+  if (!pictures.scene.length) return null;
+  const part = section('scene', 'Scene', 'all of the pack, framed', picturesOf(pictures.views, pictures.scene, 'the scene'));
+  part.classList.add('scene');
+  return part;
+}
+
+function assetsOf(data, go) {
+  const detail = el('div.detail', {'aria-live': 'polite'}, el('p.faint', {}, 'Choose an asset to see what it is made of, what ran for it and why.'));
+  const slowest = data.assets.reduce((most, asset) => Math.max(most, asset.seconds), 1e-9);
+  const table = makeTable('Assets', data.assets, [
+    {name: 'Asset', of: asset => asset.source, show: asset => path(asset.source), width: 'minmax(170px, 2fr)'},
+    {name: 'State', of: asset => asset.state, show: asset => state(asset.state), width: '84px'},
+    {name: 'Time', number: true, of: asset => asset.seconds, show: asset => asset.seconds ? seconds(asset.seconds) : '–', tip: 'that its cookers ran in this cook'},
+    {name: '', of: asset => asset.seconds, tip: 'time beside that of the slowest', show: asset => asset.seconds ? el('span.bar', {style: `width:${100 * asset.seconds / slowest}%`}) : '', width: '70px'},
+    {name: 'Memory', number: true, of: asset => asset.peak_rss_bytes, show: asset => asset.peak_rss_bytes ? bytes(asset.peak_rss_bytes) : '–', tip: 'the most that one of its cookers took'},
+    {name: 'Source', number: true, of: asset => asset.bytes_in, show: asset => bytes(asset.bytes_in)},
+    {name: 'Cooked', number: true, of: asset => asset.bytes, show: asset => bytes(asset.bytes), tip: 'geometry and textures, as they lie in the pack'},
+    {name: 'Triangles', number: true, of: asset => asset.triangles, show: asset => count(asset.triangles)},
+    {name: 'Warnings', number: true, of: asset => asset.warnings, show: asset => asset.warnings ? el('span.warn', {}, count(asset.warnings)) : '0', width: '72px'},
+  ], {select: show, sort: 2, text: asset => asset.source + ' ' + asset.state, minWidth: 830});
+
+  function list(title, items, most = 40) {
+    if (!items.length) return [];
+    return [el('h3', {}, title), el('ul', {}, items.slice(0, most).map(item => el('li', {}, item)),
+            items.length > most ? el('li.faint', {}, `and ${count(items.length - most)} more`) : null)];
+  }
+
+  function show(asset) {
+    detail.replaceChildren(...[
+      el('h3', {}, asset.source), el('p', {}, state(asset.state)),
+      el('dl', {}, asset.sha256 ? [el('dt', {}, 'content'), el('dd.mono', {title: 'SHA-256 of the source: ' + asset.sha256}, asset.sha256.slice(0, 16))] : [],
+         asset.key ? [el('dt', {}, 'key'), el('dd.mono', {title: 'of its import in the cache: ' + asset.key}, asset.key.slice(0, 16))] : [],
+         el('dt', {}, 'geometry'), el('dd', {}, bytes(asset.sizes.geometry)), el('dt', {}, 'textures'), el('dd', {}, bytes(asset.sizes.textures))),
+      ...(asset.meshes.length ? [el('button', {type: 'button', onclick: () => go.mesh(asset.meshes[0])},
+          'Show its ' + plural(asset.meshes.length, 'mesh').replace('meshs', 'meshes'))] : []),
+      ...list('Why it ran', asset.why),
+      el('h3', {}, 'Stages'),
+      el('table.plain', {}, el('thead', {}, el('tr', {}, ['stage', 'state', 'time', 'memory', 'bytes'].map(name => el('th', {}, name)))),
+         el('tbody', {}, asset.stages.map(stage => el('tr', {}, el('td', {}, stage.stage), el('td', {}, state(stage.state)),
+            el('td', {}, stage.seconds ? seconds(stage.seconds) : '–'), el('td', {}, stage.peak ? bytes(stage.peak) : '–'), el('td', {}, bytes(stage.bytes)))))),
+      asset.state === 'cached' ? el('p.faint', {}, 'Times are those of the cook that made the results.') : null,
+      ...list('Messages', asset.messages.map(messageText)),
+      ...list(`Reads ${plural(asset.dep_count, 'file')} more`, asset.deps.map(file => file.missing ? el('span.warn', {}, file.name + ': not there') : `${file.name}, ${bytes(file.bytes)}`)),
+      ...list('Left out', asset.dropped)].filter(Boolean));
+  }
+  const part = section('assets', 'Assets', 'slowest first', el('div.split', {}, table.table, detail));
+  return {part: table.filter ? withTools(part, table.filter) : part, choose: table.choose, first: table.first};
+}
+
+/** The name first: it is what tells assets apart where there is no room for all of the path. */
+const path = source => el('span', {title: source}, nameOf(source), el('span.faint', {}, '  ' + source.slice(0, source.length - nameOf(source).length)));
+
+const messageText = message => el('span', {}, el('span.' + (message.severity === 'error' ? 'bad' : 'warn'), {}, message.code), ' ',
+                                  message.pointer ? el('span.mono', {}, message.pointer + ' ') : null, message.text);
+
+function sizesOf(data, go) {
+  const items = [
+    ...data.meshes.map(mesh => ({name: mesh.name || 'mesh', asset: mesh.asset, kind: 'geometry', color: 'geometry', bytes: mesh.bytes, open: () => go.mesh(mesh)})),
+    ...data.textures.map(texture => ({name: texture.name || 'texture', asset: texture.asset, kind: 'textures', color: 'textures', bytes: texture.bytes, open: () => go.texture(texture)}))];
+  const kinds = data.totals.sizes || {};
+  for (const [kind, size] of Object.entries(kinds)) {
+    const known = items.filter(item => item.kind === kind).reduce((sum, item) => sum + item.bytes, 0);
+    if (size > known) items.push({name: kind === 'geometry' ? 'tables of clusters and groups' : kind, kind, color: kind, bytes: size - known});
+  }
+  const holder = el('div');
+  const by = {
+    kind: () => Object.keys({geometry: 0, textures: 0, ...kinds}).map(kind => ({name: kind, color: kind, items: items.filter(item => item.kind === kind)})),
+    asset: () => {
+      const groups = data.assets.map(asset => ({name: asset.source, color: 'other', items: []}));
+      const shared = {name: 'shared', color: 'other', items: []};
+      for (const item of items) (item.asset ? groups[item.asset.index] : shared).items.push(item);
+      return [...groups, shared];
+    }};
+  const buttons = Object.keys(by).map(key => el('button', {type: 'button', onclick: () => show(key)}, 'by ' + key));
+  function show(key) {
+    buttons.forEach((button, i) => button.setAttribute('aria-pressed', String(Object.keys(by)[i] === key)));
+    holder.replaceChildren(makeTreemap(by[key]().filter(group => group.items.length), 1400, 380));
+  }
+  if (!items.length) return null;
+  show('kind');
+  const names = [...new Set(items.map(item => item.kind))];
+  return withTools(section('sizes', 'Size', 'bytes as they lie in the pack, compressed', holder,
+    el('p.keys', {}, names.map(kind => el('span', {}, el('i', {style: 'background:' + color(kind)}), kind,
+       kinds[kind] === undefined ? '' : ' ' + bytes(kinds[kind]))))), ...buttons);
+}
+
+function meshesOf(data, pictures) {
+  if (!data.meshes.length) return null;
+  const curves = makeCurves(data.meshes, 400, 250);
+  const about = el('div');
+  const detail = el('div.detail', {'aria-live': 'polite'}, about, el('h3', {}, 'Error over triangles'), curves.picture);
+  const last = mesh => mesh.levels[mesh.levels.length - 1] || [0, 0, 0, 0, 0, 0, 0];
+  const table = makeTable('Meshes', data.meshes, [
+    {name: 'Mesh', of: mesh => mesh.name, show: mesh => el('span', {title: mesh.name}, pictures.meshes[mesh.index] ? '▣ ' : '', mesh.name || '(no name)'), width: 'minmax(130px, 2fr)'},
+    {name: 'Asset', of: mesh => mesh.asset.source, show: mesh => nameOf(mesh.asset.source), width: 'minmax(90px, 1fr)'},
+    {name: 'Triangles', number: true, of: mesh => mesh.triangles, show: mesh => count(mesh.triangles)},
+    {name: 'Levels', number: true, of: mesh => mesh.levels.length, width: '56px'},
+    {name: 'Clusters', number: true, of: mesh => mesh.clusters, show: mesh => count(mesh.clusters), width: '72px'},
+    {name: 'Coarsest', number: true, of: mesh => last(mesh)[1], show: mesh => count(last(mesh)[1]), tip: 'triangles of the coarsest level'},
+    {name: 'Its error', number: true, of: mesh => last(mesh)[2], show: mesh => metres(last(mesh)[2]), tip: 'the largest of the coarsest level'},
+    {name: 'Bytes', number: true, of: mesh => mesh.bytes, show: mesh => bytes(mesh.bytes), tip: 'of its pages, as they lie in the pack'},
+    {name: 'a triangle', number: true, of: mesh => mesh.bytes / Math.max(mesh.triangles, 1), show: mesh => mesh.triangles ? (mesh.bytes / mesh.triangles).toFixed(1) + ' B' : '–', tip: 'bytes for each source triangle, all levels together'},
+  ], {select: show, sort: 7, text: mesh => mesh.name + ' ' + mesh.asset.source, minWidth: 820});
+  function show(mesh) {
+    curves.show(mesh);
+    about.replaceChildren(...[el('h3', {}, mesh.name || '(no name)'), picturesOf(pictures.views, pictures.meshes[mesh.index], mesh.name),
+      el('h3', {}, 'Levels'),
+      el('table.plain', {}, el('thead', {}, el('tr', {}, ['level', 'clusters', 'triangles', 'error', 'mean', 'normals'].map(name => el('th', {}, name)))),
+         el('tbody', {}, mesh.levels.map((level, i) => el('tr', {}, el('td', {}, String(i)), el('td', {}, count(level[0])), el('td', {}, count(level[1])),
+            el('td', {}, metres(level[2])), el('td', {}, metres(level[3])), el('td', {}, (level[5] * 180 / Math.PI).toFixed(1) + '°')))))].filter(Boolean));
+  }
+  const note = Object.keys(pictures.meshes).length ? '▣ has pictures' + (pictures.left_out ? `; ${count(pictures.left_out)} have none: ${pictures.why}` : '')
+                                                   : pictures.why ? 'no pictures: ' + pictures.why : 'largest first';
+  const part = section('meshes', 'Meshes', note, el('div.split', {}, table.table, detail));
+  return {part: table.filter ? withTools(part, table.filter) : part, choose: table.choose, first: table.first};
+}
+
+function texturesOf(data) {
+  if (!data.textures.length) return null;
+  const decibels = (value, known) => known === false ? '–' : value === null ? 'exact' : value.toFixed(1) + ' dB';
+  const table = makeTable('Textures', data.textures, [
+    {name: 'Texture', of: texture => texture.name, show: texture => el('span', {title: texture.name}, texture.name || '(no name)', texture.placeholder ? el('span.warn', {}, '  placeholder') : null), width: 'minmax(140px, 2fr)'},
+    {name: 'Asset', of: texture => texture.asset.source, show: texture => nameOf(texture.asset.source)},
+    {name: 'Size', number: true, of: texture => texture.width * texture.height, show: texture => `${texture.width} × ${texture.height}`, width: '100px'},
+    {name: 'Mips', number: true, of: texture => texture.mips, width: '50px'},
+    {name: 'Content', of: texture => texture.content, width: '76px'},
+    {name: 'Format', of: texture => texture.format, width: '104px'},
+    {name: 'In the pack', number: true, of: texture => texture.bytes, show: texture => bytes(texture.bytes), width: '92px'},
+    {name: 'In memory', number: true, of: texture => texture.memory, show: texture => bytes(texture.memory), width: '92px'},
+    {name: 'Error', number: true, of: texture => texture.rms, show: texture => decibels(texture.psnr), tip: 'PSNR of what is stored against the source: more is better, exact is no error'},
+    {name: 'Half size', number: true, of: texture => texture.halfKnown ? texture.half ?? Infinity : -1, show: texture => decibels(texture.half, texture.halfKnown),
+     tip: 'PSNR of half the size against the source: where it is 45 dB and more, half the size would hardly be seen'},
+  ], {select: () => {}, sort: 6, text: texture => texture.name + ' ' + texture.asset.source + ' ' + texture.format + ' ' + texture.content, minWidth: 900});
+  const part = section('textures', 'Textures', 'PSNR against the source, in decibels: more is better', table.table);
+  return {part: table.filter ? withTools(part, table.filter) : part, choose: table.choose};
+}
+
+function timelineOf(data, go) {
+  const bars = [];
+  const add = (stage, subject, open) => {
+    if (stage.start !== null) bars.push({...stage, subject, open, failed: stage.state === 'failed'});
+  };
+  for (const asset of data.assets) for (const stage of asset.stages) add(stage, asset.source, () => go.asset(asset));
+  for (const stage of data.stages) add(stage, data.output);
+  if (!bars.length) return {part: section('timeline', 'Timeline', '', el('p.empty', {}, 'Nothing ran: all results were in the cache.')), draw() {}};
+  const line = makeTimeline(bars, data.totals.wall_s);
+  const names = [...new Set(bars.map(bar => bar.stage))];
+  const busy = bars.reduce((sum, bar) => sum + bar.seconds, 0);
+  const part = section('timeline', 'Timeline', `${plural(bars.length, 'action')} ran, ${seconds(busy)} in all`, line.canvas,
+    el('p.keys', {}, names.map(name => el('span', {}, el('i', {style: 'background:' + color(kStageColors[name] || 'other')}),
+       `${name} ${seconds(bars.filter(bar => bar.stage === name).reduce((sum, bar) => sum + bar.seconds, 0))}`))));
+  return {part, draw: line.draw};
+}
+
+/** What made actions run, and how many each. */
+function causesOf(data) {
+  const counts = new Map();
+  const stages = [...data.assets.flatMap(asset => asset.stages), ...data.stages];
+  for (const stage of stages) for (const cause of stage.why) counts.set(cause, (counts.get(cause) || 0) + 1);
+  const rows = [...counts].map(([cause, actions]) => ({cause, actions}));
+  const table = makeTable('Causes', rows, [
+    {name: 'Cause', of: row => row.cause, show: row => el('span', {title: row.cause}, row.cause), width: 'minmax(200px, 1fr)'},
+    {name: 'Actions', number: true, of: row => row.actions, width: '90px'},
+  ], {sort: 1, text: row => row.cause, minWidth: 300});
+  const hits = stages.filter(stage => stage.state === 'cached').length;
+  const part = section('causes', 'Cache', `${count(hits)} of ${plural(stages.length, 'action')} had a result; why the others ran`, table.table);
+  return table.filter ? withTools(part, table.filter) : part;
+}
+
+function messagesOf(data, go) {
+  const rows = data.assets.flatMap(asset => [
+    ...asset.messages.map(message => ({asset, code: message.code, severity: message.severity, pointer: message.pointer || '', text: message.text, hint: message.hint || ''}))]);
+  const known = new Set(rows.map(row => row.text));
+  for (const asset of data.assets) for (const text of asset.dropped)
+    if (!known.has(text)) rows.push({asset, code: '', severity: 'dropped', pointer: '', text, hint: ''});
+  const table = makeTable('Messages', rows, [
+    {name: 'Code', of: row => row.code, show: row => el('span.' + (row.severity === 'error' ? 'bad' : 'warn'), {title: (data.explain[row.code] || {}).summary}, row.code || 'left out'), width: '64px'},
+    {name: 'Asset', of: row => row.asset.source, show: row => nameOf(row.asset.source), width: 'minmax(90px, 150px)'},
+    {name: 'Where', of: row => row.pointer, show: row => el('span.mono', {title: row.pointer}, row.pointer), width: 'minmax(80px, 200px)'},
+    {name: 'What', of: row => row.text, show: row => el('span', {title: row.text + (row.hint ? '\nWhat to do: ' + row.hint : '')}, row.text), width: 'minmax(200px, 2fr)'},
+  ], {select: row => go.asset(row.asset, true), sort: 0, down: false, text: row => `${row.code} ${row.asset.source} ${row.pointer} ${row.text}`, minWidth: 520});
+  const part = section('messages', 'Messages and what was left out', 'what a source has and the pack has not', table.table);
+  return table.filter ? withTools(part, table.filter) : part;
+}

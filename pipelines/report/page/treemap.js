@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+// Bytes as areas: squarified (M. Bruls, K. Huizing, J. van Wijk, "Squarified Treemaps", 2000), in two levels.
+
+const kLeastCell = 60; // square pixels: what is smaller is counted together
+
+/** Places items {bytes} in a rectangle; calls place(item, x, y, w, h). */
+function squarify(items, x, y, w, h, place) {
+  let total = items.reduce((sum, item) => sum + item.bytes, 0);
+  let begin = 0;
+  while (begin < items.length && w > 0 && h > 0) {
+    const side = Math.min(w, h);
+    const scale = w * h / total;
+    const worst = (sum, least, most) => Math.max(side * side * most / (sum * sum), sum * sum / (side * side * least));
+    let end = begin, sum = 0, best = Infinity;
+    while (end < items.length) {
+      const next = sum + items[end].bytes * scale;
+      const ratio = worst(next, items[end].bytes * scale, items[begin].bytes * scale);
+      if (ratio > best) break;
+      best = ratio; sum = next; ++end;
+    }
+    const thickness = sum / side;
+    let at = 0;
+    for (let i = begin; i < end; ++i) {
+      const length = items[i].bytes * scale / thickness;
+      if (w < h) place(items[i], x + at, y, length, thickness);
+      else place(items[i], x, y + at, thickness, length);
+      at += length;
+      total -= items[i].bytes;
+    }
+    if (w < h) { y += thickness; h -= thickness; } else { x += thickness; w -= thickness; }
+    begin = end;
+  }
+}
+
+/** The items that are worth a cell, largest first, the rest as one. */
+function worthACell(items, area) {
+  const sorted = items.filter(item => item.bytes > 0).sort((a, b) => b.bytes - a.bytes);
+  const total = sorted.reduce((sum, item) => sum + item.bytes, 0);
+  const cut = sorted.findIndex((item, i) => i >= 400 || item.bytes / total * area < kLeastCell);
+  if (cut < 0 || cut === sorted.length - 1) return sorted;
+  const rest = sorted.slice(cut);
+  const sum = rest.reduce((all, item) => all + item.bytes, 0);
+  return [...sorted.slice(0, cut), {name: count(rest.length) + ' smaller', bytes: sum, color: rest[0].color}];
+}
+
+/** groups  {name, color, items: [{name, bytes, color, open}]} */
+function makeTreemap(groups, width, height) {
+  const total = groups.reduce((sum, group) => sum + group.items.reduce((all, item) => all + item.bytes, 0), 0);
+  const picture = svg('svg.treemap', {viewBox: `0 0 ${width} ${height}`, role: 'group', 'aria-label': 'Bytes of the pack as areas'});
+  const sized = groups.map(group => ({...group, bytes: group.items.reduce((all, item) => all + item.bytes, 0)}));
+  squarify(worthACell(sized, width * height), 0, 0, width, height, (group, x, y, w, h) => {
+    const title = group.items && w > 70 && h > 34 ? 17 : 0;
+    if (title) picture.append(svg('text.title', {x: x + 3, y: y + 12.5},
+                                  fitted(`${group.name}  ${bytes(group.bytes)} · ${percent(group.bytes / total)}`, w - 6)));
+    const items = worthACell(group.items || [group], w * (h - title));
+    squarify(items, x, y + title, w - 2, h - title - 2, (item, cx, cy, cw, ch) => {
+      const cell = svg('g.cell', {tabindex: item.open ? 0 : undefined, role: item.open ? 'button' : undefined,
+                                  'aria-label': `${item.name}, ${bytes(item.bytes)}`, onclick: item.open,
+                                  onkeydown: event => { if (event.key === 'Enter' && item.open) item.open(); }},
+                       svg('rect', {x: cx, y: cy, width: cw, height: ch, fill: color(item.color || group.color)}));
+      if (cw > 44 && ch > 15) cell.append(svg('text', {x: cx + 4, y: cy + 12}, fitted(nameOf(item.name), cw - 8)));
+      if (cw > 52 && ch > 30) cell.append(svg('text', {x: cx + 4, y: cy + 25, 'fill-opacity': .8}, fitted(bytes(item.bytes), cw - 8)));
+      picture.append(tip(cell, `${item.name}\n${bytes(item.bytes)}, ${percent(item.bytes / total)} of the pack`));
+    });
+  });
+  return picture;
+}
+
+/** About as much of a text as has room; characters are 6 pixels wide. */
+function fitted(text, width) {
+  const most = Math.floor(width / 6.1);
+  return text.length <= most ? text : most < 3 ? '' : text.slice(0, most - 1) + '…';
+}

@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "pipelines/report/page_data.h"
+
+#include "formats/issues.h"
+#include "pipelines/report/base64.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <set>
+
+namespace hearth::report
+{
+
+using Json = nlohmann::ordered_json;
+
+namespace
+{
+
+// More names of files that one asset reads are only counted: a page is no listing.
+constexpr size_t kMostDependencies = 100;
+
+Json listOf(const Json& object, const char* key)
+{
+    const auto list = object.find(key);
+    return list != object.end() && list->is_array() ? *list : Json::array();
+}
+
+/// stage, state, seconds, bytes, start or null, lane, cpu seconds, peak, why
+Json stageRow(const Json& stage)
+{
+    return Json::array({stage.at("stage"), stage.value("state", ""), stage.value("seconds", 0.0),
+                        stage.value("bytes", uint64_t{0}), stage.value("start_s", Json()),
+                        stage.value("lane", 0), stage.value("cpu_seconds", 0.0),
+                        stage.value("peak_rss_bytes", uint64_t{0}), stage.value("why", Json::array())});
+}
+
+/// clusters, triangles, largest and mean error, then the largest of positions, normals and UVs
+Json levelRow(const Json& level)
+{
+    const auto largest = [&](const char* key) { return level.value(key, Json::object()).value("max", 0.0); };
+    return Json::array({level.at("clusters"), level.at("triangles"), level.value("max_error", 0.0),
+                        level.value("mean_error", 0.0), largest("position_error"), largest("normal_error"),
+                        largest("uv_error")});
+}
+
+/// name, asset, triangles, vertices, bytes, clusters, pages, levels
+Json meshRow(const Json& mesh, size_t asset)
+{
+    const Json source = mesh.value("source", Json::object());
+    Json levels = Json::array();
+    for (const Json& level : listOf(mesh, "levels"))
+        levels.push_back(levelRow(level));
+    return Json::array({mesh.value("name", ""), asset, source.value("triangles", uint64_t{0}),
+                        source.value("vertices", uint64_t{0}),
+                        mesh.value("bytes", Json::object()).value("pages_stored", uint64_t{0}),
+                        mesh.value("clusters", 0), mesh.value("pages", 0), levels});
+}
+
+Json psnrOf(const Json& texture, const char* key)
+{
+    const Json error = texture.value(key, Json());
+    return error.is_object() ? error.value("psnr_db", Json()) : Json();
+}
+
+/// name, asset, width, height, mips, format, content, bytes in the file, bytes in memory, RMS and PSNR of what is stored, PSNR
+/// of half the size, whether that was measured, whether it is a placeholder
+Json textureRow(const Json& texture, size_t asset)
+{
+    return Json::array({texture.value("name", ""), asset, texture.value("width", 0),
+                        texture.value("height", 0), texture.value("mips", 0), texture.value("format", ""),
+                        texture.value("content", ""), texture.value("bytes_stored", uint64_t{0}),
+                        texture.value("bytes", uint64_t{0}),
+                        texture.value("error", Json::object()).value("rms", 0.0), psnrOf(texture, "error"),
+                        psnrOf(texture, "half_size_error"), texture.contains("half_size_error"),
+                        texture.value("placeholder", false)});
+}
+
+Json assetOf(const Json& asset)
+{
+    Json slim;
+    for (const char* key : {"source", "state", "seconds", "cpu_seconds", "peak_rss_bytes", "bytes_in", "key",
+                            "sha256", "why", "sizes", "messages", "dropped"})
+        if (asset.contains(key))
+            slim[key] = asset[key];
+    slim["stages"] = Json::array();
+    for (const Json& stage : listOf(asset, "stages"))
+        slim["stages"].push_back(stageRow(stage));
+    const Json dependencies = listOf(asset, "deps");
+    slim["dep_count"] = dependencies.size();
+    slim["deps"] = Json::array();
+    for (size_t i = 0; i < std::min(dependencies.size(), kMostDependencies); ++i)
+        slim["deps"].push_back(dependencies[i]);
+    return slim;
+}
+
+std::string codeOf(const IssueInfo& info)
+{
+    return (info.kind == IssueClass::warning ? "W" : "E") + std::to_string(static_cast<unsigned>(info.issue));
+}
+
+/// What hearth explain says of the codes that occur.
+Json explanations(const Json& report)
+{
+    std::set<std::string> codes;
+    for (const char* key : {"failures", "messages"})
+        for (const Json& message : listOf(report, key))
+            codes.insert(message.value("code", ""));
+    Json texts = Json::object();
+    for (const IssueInfo& info : allIssues())
+        if (codes.contains(codeOf(info)))
+            texts[codeOf(info)] = {{"summary", info.summary}, {"hint", info.hint}};
+    return texts;
+}
+
+uint64_t bytesOf(const Json& mesh)
+{
+    return mesh.value("bytes", Json::object()).value("pages_stored", uint64_t{0});
+}
+
+Json meshesOf(const Json& asset)
+{
+    const Json clusters = asset.value("clusters", Json());
+    return clusters.is_object() ? listOf(clusters, "meshes") : Json::array();
+}
+
+std::string dataUri(const std::string& jpeg)
+{
+    return jpeg.empty() ? "" : "data:image/jpeg;base64," + base64(jpeg);
+}
+
+} // namespace
+
+std::string pageData(const std::string& report_text)
+{
+    const Json report = Json::parse(report_text);
+    Json data;
+    for (const char* key :
+         {"tool", "started", "status", "exit", "output", "up_to_date", "totals", "failures", "error"})
+        if (report.contains(key))
+            data[key] = report[key];
+    for (const char* key : {"assets", "meshes", "textures", "stages"})
+        data[key] = Json::array();
+    const Json assets = listOf(report, "assets");
+    for (size_t i = 0; i < assets.size(); ++i)
+    {
+        data["assets"].push_back(assetOf(assets[i]));
+        for (const Json& mesh : meshesOf(assets[i]))
+            data["meshes"].push_back(meshRow(mesh, i));
+        for (const Json& texture : listOf(assets[i], "textures"))
+            data["textures"].push_back(textureRow(texture, i));
+    }
+    // of what belongs to no asset
+    for (const char* cooker : {"specular", "bricks", "link"})
+        if (report.contains(cooker))
+            data["stages"].push_back(stageRow(report[cooker]));
+    data["explain"] = explanations(report);
+    return data.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+std::vector<MeshOfPack> importantMeshes(const std::string& report_text)
+{
+    const Json report = Json::parse(report_text);
+    struct Ranked
+    {
+        MeshOfPack mesh;
+        uint64_t bytes;
+        bool is_largest; ///< of its asset
+    };
+    std::vector<Ranked> ranked;
+    for (const Json& asset : listOf(report, "assets"))
+    {
+        const size_t first = ranked.size();
+        for (const Json& mesh : meshesOf(asset))
+            ranked.push_back(
+                {{static_cast<uint32_t>(ranked.size()), mesh.value("name", "")}, bytesOf(mesh), false});
+        const auto largest =
+            std::max_element(ranked.begin() + static_cast<std::ptrdiff_t>(first), ranked.end(),
+                             [](const Ranked& a, const Ranked& b) { return a.bytes < b.bytes; });
+        if (largest != ranked.end())
+            largest->is_largest = true;
+    }
+    std::stable_sort(ranked.begin(), ranked.end(),
+                     [](const Ranked& a, const Ranked& b)
+                     { return std::pair(a.is_largest, a.bytes) > std::pair(b.is_largest, b.bytes); });
+    std::vector<MeshOfPack> meshes;
+    for (Ranked& mesh : ranked)
+        meshes.push_back(std::move(mesh.mesh));
+    return meshes;
+}
+
+std::string picturesData(const Pictures& pictures)
+{
+    Json data{{"views", pictures.views},
+              {"scene", Json::array()},
+              {"meshes", Json::object()},
+              {"left_out", pictures.left_out},
+              {"why", pictures.why_left_out}};
+    for (const std::string& jpeg : pictures.scene)
+        data["scene"].push_back(dataUri(jpeg));
+    for (const auto& [mesh, jpegs] : pictures.meshes)
+        for (const std::string& jpeg : jpegs)
+            data["meshes"][std::to_string(mesh)].push_back(dataUri(jpeg));
+    return data.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+} // namespace hearth::report

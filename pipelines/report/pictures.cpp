@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "pipelines/report/pictures.h"
+
+#include "cook/tools/child_processes.h"
+#include "cook/tools/private_folder.h"
+#include "formats/pack_view.h"
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <fmt/format.h>
+#include <fstream>
+#include <iterator>
+#include <numeric>
+#include <optional>
+#include <set>
+
+namespace hearth::report
+{
+
+namespace
+{
+
+using Clock = std::chrono::steady_clock;
+
+// Of a process, whose start and upload of the scene take seconds: few enough that the limit of time is kept.
+constexpr size_t kMeshesOfRun = 12;
+
+// Scenes larger than this are streamed, so that a report of them needs no more memory than their cook did.
+constexpr const char* kGeometryBudget = "512M";
+
+std::optional<std::string> takeFile(const std::string& path)
+{
+    std::ifstream file(path, std::ios::binary);
+    if (!file)
+        return std::nullopt;
+    return std::string(std::istreambuf_iterator<char>(file), {});
+}
+
+/// Draws with hearth-render into a folder of its own.
+class Painter
+{
+public:
+    explicit Painter(std::string pack) : pack_(std::move(pack)) {}
+
+    bool prepare()
+    {
+        auto folder = tools::PrivateFolder::create(tools::temporaryOr(tools::folderOf(pack_)), pack_);
+        if (!folder.ok())
+            return false;
+        folder_.emplace(std::move(folder).value());
+        return true;
+    }
+
+    /// Of each mesh, or of the scene where there are none, a picture in each view; nothing where that fails, and why() says
+    /// why.
+    std::vector<std::vector<std::string>> draw(const std::vector<std::string>& views, const char* size,
+                                               const std::vector<uint32_t>& meshes)
+    {
+        std::vector<std::string> command{tools::programFolder() + "/hearth-render",
+                                         pack_,
+                                         "-o",
+                                         folder_->path() + "/picture.jpg",
+                                         "--size",
+                                         size,
+                                         "--samples",
+                                         "4",
+                                         "--gi",
+                                         "off",
+                                         "--budget",
+                                         kGeometryBudget,
+                                         "--views",
+                                         fmt::format("{}", fmt::join(views, ","))};
+        if (!meshes.empty())
+            command.insert(command.end(), {"--meshes", fmt::format("{}", fmt::join(meshes, ","))});
+        if (!run(command))
+            return {};
+        std::vector<std::vector<std::string>> pictures(std::max<size_t>(meshes.size(), 1));
+        for (size_t i = 0; i < pictures.size(); ++i)
+            for (const std::string& view : views)
+            {
+                const std::string number = meshes.empty() ? "" : fmt::format("-{:04}", i);
+                const auto file = takeFile(fmt::format("{}/picture-{}{}.jpg", folder_->path(), view, number));
+                if (!file)
+                    return {};
+                pictures[i].push_back(*file);
+            }
+        return pictures;
+    }
+
+    const std::string& why() const { return why_; }
+
+private:
+    bool run(const std::vector<std::string>& command)
+    {
+        tools::ChildProcesses children;
+        if (!children.start(command).ok())
+        {
+            why_ = "hearth-render cannot be started";
+            return false;
+        }
+        const auto end = children.wait();
+        if (!end)
+        {
+            why_ = "interrupted";
+            return false;
+        }
+        if (end->signal == 0 && end->exit_code == 0)
+            return true;
+        why_ = end->messages.substr(0, end->messages.find('\n'));
+        return false;
+    }
+
+    std::string pack_;
+    std::optional<tools::PrivateFolder> folder_;
+    std::string why_;
+};
+
+Result<formats::PackView> openPack(const std::string& path)
+{
+    HEARTH_ASSIGN_OR_RETURN(formats::ContainerReader reader,
+                            formats::ContainerReader::open(path, formats::Check::structure));
+    return formats::PackView::read(std::move(reader));
+}
+
+/// Those of the list that the pack has, and draws somewhere.
+std::vector<uint32_t> drawable(const formats::PackView& pack, const std::vector<MeshOfPack>& meshes)
+{
+    std::set<uint32_t> drawn;
+    for (const formats::InstanceRecord& instance : pack.instances())
+        drawn.insert(instance.mesh);
+    std::vector<uint32_t> indices;
+    for (const MeshOfPack& mesh : meshes)
+        if (drawn.contains(mesh.index) && mesh.index < pack.meshes().size() &&
+            pack.meshes()[mesh.index].clusters.count > 0 &&
+            pack.text(pack.meshes()[mesh.index].name) == mesh.name)
+            indices.push_back(mesh.index);
+    return indices;
+}
+
+bool hasVisibility(const formats::PackView& pack)
+{
+    return std::any_of(pack.meshes().begin(), pack.meshes().end(),
+                       [](const formats::MeshRecord& mesh)
+                       { return (mesh.attributes & formats::kVertexVisibility) != 0; });
+}
+
+uint64_t bytesOf(const Pictures& pictures)
+{
+    const auto sum = [](const std::vector<std::string>& files)
+    {
+        return std::accumulate(files.begin(), files.end(), uint64_t{0},
+                               [](uint64_t bytes, const std::string& file) { return bytes + file.size(); });
+    };
+    uint64_t bytes = sum(pictures.scene);
+    for (const auto& [mesh, files] : pictures.meshes)
+        bytes += sum(files);
+    return bytes;
+}
+
+} // namespace
+
+Pictures takePictures(const std::string& pack_path, const std::vector<MeshOfPack>& meshes,
+                      const PictureLimits& limits)
+{
+    Pictures pictures;
+    pictures.left_out = meshes.size();
+    const auto reader = openPack(pack_path);
+    Painter painter(pack_path);
+    if (!reader.ok() || !painter.prepare())
+    {
+        pictures.why_left_out = reader.ok() ? "there is no folder for them" : formatMessage(reader.error());
+        return pictures;
+    }
+    const Clock::time_point start = Clock::now();
+    const auto isLate = [&]
+    { return std::chrono::duration<double>(Clock::now() - start).count() > limits.seconds; };
+    pictures.views = {"final", "clusters", "lod"};
+    if (hasVisibility(*reader))
+        pictures.views.emplace_back("ao");
+    const auto scene = painter.draw(pictures.views, "480x270", {});
+    if (scene.empty())
+    {
+        // what cannot draw the scene cannot draw its meshes
+        pictures.why_left_out = painter.why();
+        return pictures;
+    }
+    pictures.scene = scene.front();
+    const std::vector<uint32_t> drawn = drawable(*reader, meshes);
+    const size_t count = std::min(drawn.size(), limits.meshes);
+    for (size_t first = 0; first < count && !isLate() && bytesOf(pictures) < limits.bytes;
+         first += kMeshesOfRun)
+    {
+        const auto begin = drawn.begin() + static_cast<std::ptrdiff_t>(first);
+        const std::vector<uint32_t> some(
+            begin, begin + static_cast<std::ptrdiff_t>(std::min(kMeshesOfRun, count - first)));
+        const auto files = painter.draw(pictures.views, "240x180", some);
+        for (size_t i = 0; i < files.size(); ++i)
+            pictures.meshes[some[i]] = files[i];
+    }
+    pictures.left_out = meshes.size() - pictures.meshes.size();
+    if (pictures.left_out > 0)
+        pictures.why_left_out = pictures.meshes.size() < count
+                                    ? "drawing took too long, or too many bytes"
+                                    : "the largest of each asset, and then the largest, have one";
+    return pictures;
+}
+
+} // namespace hearth::report

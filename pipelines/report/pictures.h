@@ -1,0 +1,40 @@
+// Pictures of what was cooked: hearth-render run as a child, on whatever Vulkan device there is.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace hearth::report
+{
+
+struct MeshOfPack
+{
+    uint32_t index = 0;
+    std::string name;
+};
+
+/// What pictures may take; meshes beyond that have none.
+struct PictureLimits
+{
+    size_t meshes = 24;          ///< a page of them; more are read by nobody
+    double seconds = 120;        ///< no more are begun after it
+    uint64_t bytes = 8ull << 20; ///< of all files, so that the page stays well below 20 MB
+};
+
+struct Pictures
+{
+    std::vector<std::string> views; ///< of each list below: "final", ...
+    std::vector<std::string> scene; ///< JPEG of the whole scene; empty where it could not be drawn
+    std::map<uint32_t, std::vector<std::string>> meshes; ///< the same of meshes, each alone
+    size_t left_out = 0;                                 ///< meshes that have none
+    std::string why_left_out;
+};
+
+/// meshes  most important first; what the pack does not have under that number and name, or nowhere draws, is passed over
+Pictures takePictures(const std::string& pack, const std::vector<MeshOfPack>& meshes,
+                      const PictureLimits& limits = {});
+
+} // namespace hearth::report

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "pipelines/report/write_report.h"
+
+#include "cook/tools/whole_file.h"
+#include "pipelines/report/page.h"
+#include "pipelines/report/page_data.h"
+#include "pipelines/report/pictures.h"
+#include "pipelines/report/tables.h"
+
+#include <nlohmann/json.hpp>
+
+namespace hearth::report
+{
+
+Status writeReport(const std::string& json, const std::string& path, const std::string& pack,
+                   const std::string& name)
+{
+    const auto report = nlohmann::ordered_json::parse(json, nullptr, false);
+    if (!report.is_object() || report.value("schema", nlohmann::ordered_json()) != "hearth.report/1")
+        return Error{Issue::json_syntax, name, "", "is no report that hearth cook --report wrote as JSON"};
+    try
+    {
+        if (path.ends_with(".html"))
+        {
+            const std::string data = pageData(json);
+            const Pictures pictures = pack.empty() ? Pictures{} : takePictures(pack, importantMeshes(json));
+            return tools::writeText(path, reportPage(data, picturesData(pictures)));
+        }
+        if (path.ends_with(".xml"))
+            return tools::writeText(path, junitXml(json));
+        if (path.ends_with(".csv"))
+            return tools::writeText(path, assetTable(json));
+    }
+    catch (const nlohmann::json::exception& error)
+    {
+        // a member of another type than the schema gives it
+        return Error{Issue::json_syntax, name, "",
+                     std::string("is no report of hearth cook: ") + error.what()};
+    }
+    return tools::writeText(path, json);
+}
+
+} // namespace hearth::report

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "tests/command/json_schema.h"
+
+#include <algorithm>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <regex>
+
+namespace hearth::test
+{
+
+namespace
+{
+
+using Json = nlohmann::json;
+
+bool isOfType(const Json& value, const std::string& type)
+{
+    if (type == "number")
+        return value.is_number();
+    if (type == "integer")
+        return value.is_number_integer();
+    return type == (value.is_object()    ? "object"
+                    : value.is_array()   ? "array"
+                    : value.is_string()  ? "string"
+                    : value.is_boolean() ? "boolean"
+                    : value.is_null()    ? "null"
+                                         : "");
+}
+
+class Checker
+{
+public:
+    explicit Checker(const Json& root) : root_(root) {}
+
+    std::string fault(const Json& schema, const Json& value, const std::string& place) const
+    {
+        for (const auto& [keyword, rule] : schema.items())
+            if (std::string found = faultOf(keyword, rule, schema, value, place); !found.empty())
+                return found;
+        return "";
+    }
+
+private:
+    std::string faultOf(const std::string& keyword, const Json& rule, const Json& schema, const Json& value,
+                        const std::string& place) const
+    {
+        const auto unless = [&](bool holds)
+        { return holds ? "" : place + ": " + keyword + " " + rule.dump(); };
+        if (keyword == "type")
+            return unless(rule.is_array()
+                              ? std::any_of(rule.begin(), rule.end(),
+                                            [&](const Json& type) { return isOfType(value, type); })
+                              : isOfType(value, rule));
+        if (keyword == "enum")
+            return unless(std::find(rule.begin(), rule.end(), value) != rule.end());
+        if (keyword == "const")
+            return unless(value == rule);
+        if (keyword == "minimum")
+            return unless(!value.is_number() || value >= rule);
+        if (keyword == "pattern")
+            return unless(!value.is_string() ||
+                          std::regex_search(value.get<std::string>(), std::regex(rule.get<std::string>())));
+        if (keyword == "required")
+            return unless(std::all_of(rule.begin(), rule.end(),
+                                      [&](const Json& name)
+                                      { return value.contains(name.get<std::string>()); }));
+        if (keyword == "$ref")
+            return fault(root_.at(Json::json_pointer(rule.get<std::string>().substr(1))), value, place);
+        if (keyword == "properties" || keyword == "additionalProperties")
+            return membersFault(keyword == "properties", rule, schema, value, place);
+        if (keyword == "items" || keyword == "allOf")
+            return listFault(keyword == "items", rule, value, place);
+        const bool is_prose = keyword == "description" || keyword == "title" || keyword == "format" ||
+                              keyword == "$defs" || keyword == "$schema" || keyword == "$id";
+        return is_prose ? "" : place + ": unknown keyword " + keyword;
+    }
+
+    std::string membersFault(bool named, const Json& rule, const Json& schema, const Json& value,
+                             const std::string& place) const
+    {
+        if (!value.is_object())
+            return "";
+        for (const auto& [name, member] : value.items())
+        {
+            const bool is_known = schema.contains("properties") && schema["properties"].contains(name);
+            if (is_known != named)
+                continue;
+            if (std::string found = fault(named ? rule[name] : rule, member, place + "/" + name);
+                !found.empty())
+                return found;
+        }
+        return "";
+    }
+
+    std::string listFault(bool items, const Json& rule, const Json& value, const std::string& place) const
+    {
+        const size_t count = items ? (value.is_array() ? value.size() : 0) : rule.size();
+        for (size_t i = 0; i < count; ++i)
+            if (std::string found = items ? fault(rule, value[i], place + "/" + std::to_string(i))
+                                          : fault(rule[i], value, place);
+                !found.empty())
+                return found;
+        return "";
+    }
+
+    const Json& root_;
+};
+
+} // namespace
+
+std::string faultOfSchema(const std::string& schema_file, const nlohmann::json& value)
+{
+    std::ifstream file(schema_file);
+    const Json schema = Json::parse(file, nullptr, false);
+    if (schema.is_discarded())
+        return schema_file + " is no JSON";
+    return Checker(schema).fault(schema, value, "");
+}
+
+} // namespace hearth::test

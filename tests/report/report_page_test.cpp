@@ -1,0 +1,192 @@
+// The page of a report in a browser: headless Chromium without a network.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "pipelines/report/write_report.h"
+#include "tests/command/sandbox.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <sys/resource.h>
+
+namespace hearth::report
+{
+
+namespace
+{
+
+using Json = nlohmann::ordered_json;
+using test::countOf;
+
+constexpr int kAssets = 4200;
+
+Json meshOf(int number)
+{
+    Json levels = Json::array();
+    uint64_t triangles = 100 + static_cast<uint64_t>(number) * 37;
+    for (double error = 0; triangles > 100; error = error * 2 + 1e-4, triangles /= 2)
+        levels.push_back({{"clusters", triangles / 100},
+                          {"triangles", triangles},
+                          {"max_error", error},
+                          {"mean_error", error / 2}});
+    return {{"name", "mesh " + std::to_string(number)},
+            {"source", {{"triangles", 100 + number * 37}, {"vertices", 50}}},
+            {"clusters", 2 + number},
+            {"bytes", {{"pages_stored", 900 + number * 300}}},
+            {"levels", levels}};
+}
+
+Json stageOf(const char* stage, int number, bool ran)
+{
+    Json json{{"stage", stage}, {"state", ran ? "cooked" : "cached"}, {"seconds", 0.25}, {"bytes", 1000}};
+    if (ran)
+        json.update({{"start_s", number * 0.01},
+                     {"lane", number % 2},
+                     {"why", {"never cooked into this pack before"}}});
+    return json;
+}
+
+/// Of a cook of so many assets, one of which has failed.
+Json reportOf(int assets)
+{
+    Json report{{"schema", "hearth.report/1"},
+                {"tool", {{"name", "hearth"}, {"version", "0"}}},
+                {"started", "2026-01-01T00:00:00Z"},
+                {"status", "failed"},
+                {"exit", 65},
+                {"output", "out/village.hearth"},
+                {"totals",
+                 {{"assets", assets},
+                  {"cooked", 10},
+                  {"cached", assets - 11},
+                  {"failed", 1},
+                  {"wall_s", 42.5},
+                  {"cpu_s", 80.0},
+                  {"peak_rss", 1000000},
+                  {"bytes_in", 5000000},
+                  {"bytes_out", 0},
+                  {"actions", {{"cooked", 40}, {"cached", 4 * assets - 40}}}}},
+                {"failures",
+                 {{{"subject", "asset7.glb"},
+                   {"stage", "import"},
+                   {"code", "E1103"},
+                   {"severity", "error"},
+                   {"text", "points nowhere"},
+                   {"not_made", {{{"subject", "out/village.hearth"}, {"stage", "link"}}}}}}},
+                {"assets", Json::array()}};
+    for (int i = 0; i < assets; ++i)
+    {
+        Json asset{{"source", "props/<b>asset" + std::to_string(i) + ".glb"},
+                   {"state", i % 400 == 7   ? "failed"
+                             : i % 100 == 0 ? "cooked"
+                                            : "cached"},
+                   {"seconds", i % 100 == 0 ? 1.5 : 0.0},
+                   {"bytes_in", 1000 + i},
+                   {"sizes", {{"geometry", 900 + i * 300}, {"textures", 100}}},
+                   {"stages", Json::array()},
+                   {"clusters", {{"meshes", {meshOf(i)}}}},
+                   {"textures",
+                    {{{"name", "bark"},
+                      {"width", 64},
+                      {"height", 64},
+                      {"bytes_stored", 100},
+                      {"error", {{"rms", 0.0}, {"psnr_db", nullptr}}}}}},
+                   {"messages", Json::array()}};
+        for (const char* stage : {"import", "textures", "clusters", "skinning"})
+            asset["stages"].push_back(stageOf(stage, i, i % 100 == 0));
+        report["assets"].push_back(asset);
+    }
+    return report;
+}
+
+/// Of processors, that all children and theirs have taken.
+double childSeconds()
+{
+    struct rusage usage = {};
+    ::getrusage(RUSAGE_CHILDREN, &usage);
+    const auto seconds = [](const timeval& time)
+    { return static_cast<double>(time.tv_sec) + static_cast<double>(time.tv_usec) * 1e-6; };
+    return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+}
+
+class Page : public ::testing::Test
+{
+protected:
+    void SetUp() override
+    {
+#ifndef HEARTH_CHROMIUM
+        GTEST_SKIP() << "there is no Chromium (Debian's package chromium) to open pages in";
+#endif
+    }
+
+    /// What the page is once its script has run.
+    std::string open(const std::string& name)
+    {
+#ifdef HEARTH_CHROMIUM
+        return folder
+            .run({HEARTH_CHROMIUM, "--headless=new", "--no-sandbox", "--disable-gpu", "--no-first-run",
+                  "--disable-background-networking", "--host-resolver-rules=MAP * ~NOTFOUND",
+                  "--user-data-dir=" + (profile / "browser"), "--window-size=1400,900", "--dump-dom",
+                  "file://" + (folder / name)})
+            .out;
+#else
+        return name;
+#endif
+    }
+
+    /// A number that the script has left at the root of the page; -1 where it did not get there.
+    static int numberOf(const std::string& dom, const std::string& attribute)
+    {
+        const size_t at = dom.find("data-" + attribute + "=\"");
+        return at == std::string::npos ? -1 : std::stoi(dom.substr(at + attribute.size() + 7));
+    }
+
+    test::Sandbox folder;
+    test::Sandbox profile; ///< of the browser
+};
+
+} // namespace
+
+TEST_F(Page, showsRowsAreasCurvesAndTheFailureFirst)
+{
+    ASSERT_TRUE(writeReport(reportOf(40).dump(), folder / "page.html", "").ok());
+    const std::string dom = open("page.html");
+    ASSERT_GE(numberOf(dom, "ready"), 0) << dom.substr(0, 2000);
+    EXPECT_EQ(numberOf(dom, "requests"), 0);
+    EXPECT_GT(countOf(dom, "role=\"row\""), 30u);
+    EXPECT_GT(countOf(dom, "class=\"cell\""), 40u) << "the treemap has a cell a mesh";
+    EXPECT_GT(countOf(dom, "class=\"curve\""), 30u);
+    EXPECT_EQ(countOf(dom, "class=\"curve on\""), 1u) << "that of the largest mesh";
+    EXPECT_EQ(numberOf(dom, "bars"), 4) << "of the one asset that ran";
+    EXPECT_LT(dom.find("points nowhere"), dom.find("id=\"assets\""));
+    EXPECT_NE(dom.find("hearth explain E1103"), std::string::npos);
+    EXPECT_EQ(dom.find("<b>asset"), std::string::npos) << "names are text";
+}
+
+TEST_F(Page, ofThousandsOfAssetsOpensAtOnce)
+{
+    const std::string path = folder / "page.html";
+    ASSERT_TRUE(writeReport(reportOf(kAssets).dump(), path, "").ok());
+    EXPECT_LT(folder.read("page.html").size(), 20u << 20);
+    // in seconds of processors, and against a page without anything: a machine that does other work as well is no slower then.
+    // What an idle machine shows is less, since browsers work in parallel
+    folder.write("empty.html", "<!doctype html><title>empty</title>");
+    const auto secondsOf = [&](const std::string& name, std::string& dom)
+    {
+        const double before = childSeconds();
+        dom = open(name);
+        return childSeconds() - before;
+    };
+    std::string dom;
+    secondsOf("empty.html", dom); // the first start of a browser writes its profile
+    const double start = secondsOf("empty.html", dom);
+    const double seconds = secondsOf("page.html", dom) - start;
+    ASSERT_GE(numberOf(dom, "ready"), 0);
+    EXPECT_LT(seconds, 2);
+    EXPECT_EQ(numberOf(dom, "requests"), 0);
+    EXPECT_LT(countOf(dom, "role=\"row\""), 200u) << "only rows that are seen";
+    EXPECT_EQ(numberOf(dom, "bars"), 4 * kAssets / 100);
+    RecordProperty("milliseconds", static_cast<int>(seconds * 1000));
+    RecordProperty("wall_milliseconds", numberOf(dom, "ready"));
+}
+
+} // namespace hearth::report
