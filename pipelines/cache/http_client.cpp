@@ -19,7 +19,7 @@ namespace hearth::cache
 namespace
 {
 
-// Sixteen hide a millisecond of latency behind a server's own work; more gained nothing on loopback.
+// So many hide a millisecond of latency well enough (README, measured), and are no burden to a server.
 constexpr size_t kConnections = 16;
 // The page that comes with an error is read, so that its connection can go on; a longer one costs the connection.
 constexpr uint64_t kMaxErrorPage = 64 * 1024;
@@ -29,7 +29,7 @@ constexpr long kOk = 200;
 
 // ---- the library
 
-// Not linked: hearth starts in 3 ms, and libcurl with all that it needs would take three times that.
+// Not linked: hearth starts in 2.9 ms of a processor's time; with libcurl and the 30 libraries that it needs, in 6.5.
 constexpr const char* kLibrary = "libcurl.so.4";
 
 struct Curl

@@ -64,13 +64,27 @@ Json factsJson(const std::vector<FactChange>& facts)
     return list;
 }
 
+/// In words; numbers that are not there are 0.
+std::string pictureText(const PictureFigures& picture)
+{
+    if (picture.json.empty())
+        return "";
+    const Json figures = Json::parse(picture.json, nullptr, false);
+    const auto number = [&](const char* pointer) { return figures.value(Json::json_pointer(pointer), 0.0); };
+    return fmt::format(
+        "picture  {}: FLIP {:.4f} in the mean, {:.4f} for 99 % of the pixels; RMS {:.2f} of 255; {} "
+        "of {} pixels differ\n",
+        picture.heat_map, number("/flip/mean"), number("/flip/percentile_99"), number("/rms"),
+        number("/different_pixels"), number("/width") * number("/height"));
+}
+
 } // namespace
 
-std::string diffText(const PackDiff& diff)
+std::string diffText(const PackDiff& diff, const PictureFigures& picture)
 {
+    std::string text = pictureText(picture);
     if (diff.isSame())
-        return "the same\n";
-    std::string text;
+        return text + "the same\n";
     for (const ThingChange& change : diff.things)
     {
         text += thingLine(change);
@@ -92,7 +106,8 @@ std::string diffText(const PackDiff& diff)
                               countOf(diff, ThingChange::How::removed));
 }
 
-std::string diffJson(const PackDiff& diff, const std::string& file_a, const std::string& file_b)
+std::string diffJson(const PackDiff& diff, const std::string& file_a, const std::string& file_b,
+                     const PictureFigures& picture)
 {
     Json json{{"schema", "hearth.diff/1"},
               {"a", file_a},
@@ -110,6 +125,9 @@ std::string diffJson(const PackDiff& diff, const std::string& file_a, const std:
     for (const ChunkBytes& kind : diff.chunks)
         json["chunks"].push_back(
             {{"kind", kind.kind}, {"stored_a", kind.a}, {"stored_b", kind.b}, {"same", kind.is_same}});
+    if (!picture.json.empty())
+        json["picture"] = {{"heat_map", picture.heat_map},
+                           {"figures", Json::parse(picture.json, nullptr, false)}};
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

@@ -60,10 +60,18 @@ std::vector<ThingChange> diffThings(std::span<const Thing> a, std::span<const Th
 /// errors: those of thingsOf
 Result<PackDiff> diffPacks(const formats::PackView& a, const formats::PackView& b);
 
+/// What hearth-compare says of a picture of both.
+struct PictureFigures
+{
+    std::string heat_map; ///< the file
+    std::string json;     ///< schema hearth.compare/1; empty: no picture was asked for
+};
+
 /// For people.
-std::string diffText(const PackDiff& diff);
+std::string diffText(const PackDiff& diff, const PictureFigures& picture = {});
 
 /// Schema "hearth.diff/1".
-std::string diffJson(const PackDiff& diff, const std::string& file_a, const std::string& file_b);
+std::string diffJson(const PackDiff& diff, const std::string& file_a, const std::string& file_b,
+                     const PictureFigures& picture = {});
 
 } // namespace hearth::command

@@ -181,19 +181,34 @@ TEST_F(ServerCache, garbageForEntries)
     expectSame(third, third.cookWith(server->url()), 0, 0, "cooked");
 }
 
-TEST_F(ServerCache, aCertificateOfNobodyIsRefused)
+TEST_F(ServerCache, overTlsOnlyWhomTheMachineTrusts)
 {
     const std::string key = server_folder / "key.pem";
     const std::string certificate = server_folder / "certificate.pem";
     if (server_folder
             .run({"/usr/bin/openssl", "req", "-x509", "-newkey", "ec", "-pkeyopt", "ec_paramgen_curve:P-256",
-                  "-nodes", "-keyout", key, "-out", certificate, "-days", "2", "-subj", "/CN=127.0.0.1"})
+                  "-nodes", "-keyout", key, "-out", certificate, "-days", "2", "-subj", "/CN=127.0.0.1",
+                  "-addext", "subjectAltName=IP:127.0.0.1"})
             .exit_code != 0)
         GTEST_SKIP() << "openssl is not installed";
     server->start("", "ssl_certificate " + certificate + "; ssl_certificate_key " + key + ";");
-    Checkout second;
     const std::string url = "https" + server->url().substr(4);
+    Checkout second;
     expectSame(second, second.cookWith(url), kActions, 1, "certificate");
+
+    // in a view of the file system of its own, the machine trusts this certificate alone
+    const std::string trusting = "mount --bind " + certificate + " /etc/ssl/certs/ca-certificates.crt && ";
+    const auto inOwnView = [&](Checkout& checkout, const std::string& command)
+    {
+        return checkout.folder.run({"/usr/bin/unshare", "-rm", "/bin/sh", "-c", trusting + command},
+                                   {"no_proxy=127.0.0.1"});
+    };
+    Checkout third;
+    if (inOwnView(third, "true").exit_code != 0)
+        GTEST_SKIP() << "this machine allows no view of the file system of one's own";
+    expectSame(third,
+               inOwnView(third, HEARTH_BIN "/hearth cook house.obj tree.gltf -o a.hearth --cache " + url), 0,
+               0, "cooked");
 }
 
 TEST_F(ServerCache, theVerbsOfTheCacheNameIt)

@@ -1,18 +1,33 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "tests/reference/flip.h"
+#include "runtime/viewer/compare/flip.h"
 
-#include "tests/reference/double3.h"
+#include "formats/double3.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace hearth::reference
+namespace hearth::viewer
 {
 
 namespace
 {
 
 constexpr double kPi = 3.14159265358979323846;
+
+Double3 operator*(Double3 a, Double3 b)
+{
+    return {a.x * b.x, a.y * b.y, a.z * b.z};
+}
+
+Double3& operator+=(Double3& a, Double3 b)
+{
+    return a = a + b;
+}
+
+Double3 abs(Double3 a)
+{
+    return {std::abs(a.x), std::abs(a.y), std::abs(a.z)};
+}
 
 /// An image of three channels, or of one where only x is used; reading beyond the border repeats it.
 struct Field
@@ -290,4 +305,4 @@ Picture showFlip(const FlipMap& map)
     return picture;
 }
 
-} // namespace hearth::reference
+} // namespace hearth::viewer

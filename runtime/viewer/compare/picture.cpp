@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "tests/reference/png_image.h"
+#include "runtime/viewer/compare/picture.h"
 
 #include <png.h>
 
 #include <cmath>
 
-namespace hearth::reference
+namespace hearth::viewer
 {
 
 Result<Picture> readPng(const std::string& path)
@@ -47,4 +47,4 @@ double srgbFromLinear(double linear)
     return linear <= 0.0031308 ? linear * 12.92 : 1.055 * std::pow(linear, 1 / 2.4) - 0.055;
 }
 
-} // namespace hearth::reference
+} // namespace hearth::viewer

@@ -1,0 +1,37 @@
+// Pictures of 8 bits a channel, read from and written to PNG files.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "formats/math.h"
+#include "formats/result.h"
+
+#include <string>
+#include <vector>
+
+namespace hearth::viewer
+{
+
+/// RGB, sRGB-encoded, rows top to bottom.
+struct Picture
+{
+    uint32_t width = 0;
+    uint32_t height = 0;
+    std::vector<uint8_t> rgb; ///< width * height * 3
+
+    Picture() = default;
+    Picture(uint32_t w, uint32_t h) : width(w), height(h), rgb(size_t{w} * h * 3) {}
+    uint8_t* at(size_t x, size_t y) { return &rgb[(y * width + x) * 3]; }
+    const uint8_t* at(size_t x, size_t y) const { return &rgb[(y * width + x) * 3]; }
+};
+
+/// Alpha is dropped. errors: input_missing, image_malformed.
+Result<Picture> readPng(const std::string& path);
+
+/// errors: cannot_write.
+Status writePng(const std::string& path, const Picture& picture);
+
+/// IEC 61966-2-1, for one channel in 0..1.
+double linearFromSrgb(double encoded);
+double srgbFromLinear(double linear);
+
+} // namespace hearth::viewer
