@@ -114,13 +114,14 @@ std::vector<std::string> launchedCommand(const RunOptions& options, const Opened
     const std::vector<std::string> run{tools::programFolder() + "/hearth",
                                        "run",
                                        opened.file,
-                                       "-C",
-                                       opened.plan.folder,
                                        "--shard",
                                        fmt::format("{}/{}", shard, opened.plan.shards.size()),
                                        "-j",
                                        std::to_string(options.jobs)};
     command.insert(command.end(), run.begin(), run.end());
+    // nothing of the plan itself: launchers as ssh hand their words to a shell
+    if (!opened.directory.empty())
+        command.insert(command.end(), {"-C", opened.directory});
     if (options.memory_bytes > 0)
         command.insert(command.end(), {"--memory", std::to_string(options.memory_bytes)});
     for (const std::string& cache : opened.caches)
