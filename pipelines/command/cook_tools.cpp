@@ -14,6 +14,12 @@ void print(const std::string& line)
     std::fprintf(stderr, "%s\n", line.c_str());
 }
 
+int tell(const Error& error)
+{
+    print(formatMessage(error));
+    return exitCode(error);
+}
+
 void passOn(const std::vector<std::string>& lines, Verbosity verbosity)
 {
     for (const std::string& line : lines)

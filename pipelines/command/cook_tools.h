@@ -17,6 +17,9 @@ inline constexpr int kInterrupted = 130;
 /// A line on stderr.
 void print(const std::string& line);
 
+/// An error or a warning on stderr. returns  its exit code
+int tell(const Error& error);
+
 /// Pass on a child's messages: errors always, the noise of libraries only when everything is asked for.
 void passOn(const std::vector<std::string>& lines, Verbosity verbosity);
 

@@ -26,12 +26,6 @@ using Kind = farm::ShardState::Kind;
 
 constexpr int kNotAll = 1;
 
-int tell(const Error& error)
-{
-    print(formatMessage(error));
-    return exitCode(error);
-}
-
 int tellEnd(const Status& status)
 {
     return status.ok() ? 0 : tell(status.error());
@@ -66,12 +60,6 @@ const char* wordOf(Kind kind)
     return "done";
 }
 
-int64_t countOf(const farm::ShardRecord& record, graph::Ending ending)
-{
-    return std::count_if(record.actions.begin(), record.actions.end(),
-                         [&](const farm::ShardAction& action) { return action.ending == ending; });
-}
-
 std::string statusText(const farm::Plan& plan, const std::vector<farm::ShardState>& states)
 {
     std::string text = fmt::format("{:>5}  {:<9} {:>7} {:>7} {:>7} {:>9}  {}\n", "shard", "state", "sources",
@@ -82,11 +70,11 @@ std::string statusText(const farm::Plan& plan, const std::vector<farm::ShardStat
         const std::string error = record.errors.empty() ? "" : ": " + record.errors.front();
         text +=
             fmt::format("{:>5}  {:<9} {:>7} ", shard, wordOf(states[shard].kind), plan.shards[shard].size());
-        text +=
-            states[shard].kind == Kind::no_record
-                ? "\n"
-                : fmt::format("{:>7} {:>7} {:>9.2f}  {}{}\n", countOf(record, graph::Ending::cooked),
-                              countOf(record, graph::Ending::kept), record.seconds, record.machine, error);
+        text += states[shard].kind == Kind::no_record
+                    ? "\n"
+                    : fmt::format(
+                          "{:>7} {:>7} {:>9.2f}  {}{}\n", farm::countOf(record, graph::Ending::cooked),
+                          farm::countOf(record, graph::Ending::kept), record.seconds, record.machine, error);
     }
     const auto whole = std::count_if(states.begin(), states.end(),
                                      [](const farm::ShardState& state) { return state.kind == Kind::whole; });
@@ -105,8 +93,8 @@ std::string statusJson(const farm::Plan& plan, const std::vector<farm::ShardStat
         const farm::ShardRecord& record = states[shard].record;
         if (states[shard].kind != Kind::no_record)
             entry.update({{"exit", record.exit_code},
-                          {"cooked", countOf(record, graph::Ending::cooked)},
-                          {"kept", countOf(record, graph::Ending::kept)},
+                          {"cooked", farm::countOf(record, graph::Ending::cooked)},
+                          {"kept", farm::countOf(record, graph::Ending::kept)},
                           {"seconds", record.seconds},
                           {"machine", record.machine},
                           {"errors", record.errors}});
@@ -144,8 +132,7 @@ int farmStatus(const PlanOptions& options, const std::string& format)
     const Result<OpenedPlan> opened = openPlan(options);
     if (!opened.ok())
         return tell(opened.error());
-    const auto memory = CookMemory::open(opened->caches, opened->file, opened->plan.folder,
-                                         [](const Error& warning) { print(formatMessage(warning)); });
+    const auto memory = CookMemory::open(opened->caches, opened->file, opened->plan.folder, tell);
     if (!memory.ok())
         return tell(memory.error());
     const auto scratch = tools::PrivateFolder::create(tools::temporaryOr("/tmp"), options.plan_file);

@@ -18,17 +18,6 @@ namespace hearth::command
 namespace
 {
 
-int tell(const Error& error)
-{
-    print(formatMessage(error));
-    return exitCode(error);
-}
-
-void warn(const Error& warning)
-{
-    print(formatMessage(warning));
-}
-
 graph::ExecutorEvents eventsFor(Verbosity verbosity)
 {
     graph::ExecutorEvents events;
@@ -51,19 +40,15 @@ graph::ExecutorEvents eventsFor(Verbosity verbosity)
 Result<std::unique_ptr<CookMemory>> memoryOf(const OpenedPlan& opened, size_t shard)
 {
     return CookMemory::open(opened.caches, fmt::format("{}.{}", opened.file, shard), opened.plan.folder,
-                            warn);
+                            tell);
 }
 
 void printEnd(const farm::ShardRecord& record, const std::string& place)
 {
-    const auto count = [&](graph::Ending ending)
-    {
-        return std::count_if(record.actions.begin(), record.actions.end(),
-                             [&](const farm::ShardAction& action) { return action.ending == ending; });
-    };
     print(fmt::format("{:<10}{:>8.2f} s {:>12}  {} cooked, {} kept",
                       record.exit_code == 0 ? "done" : "failed", record.seconds, place,
-                      count(graph::Ending::cooked), count(graph::Ending::kept)));
+                      farm::countOf(record, graph::Ending::cooked),
+                      farm::countOf(record, graph::Ending::kept)));
 }
 
 int writeRecord(const RunOptions& options, const farm::ShardRecord& record, const farm::Plan& plan,
@@ -114,11 +99,12 @@ std::vector<std::string> launchedCommand(const RunOptions& options, const Opened
     const std::vector<std::string> run{tools::programFolder() + "/hearth",
                                        "run",
                                        opened.file,
-                                       "-C",
-                                       opened.plan.folder,
                                        "--shard",
                                        fmt::format("{}/{}", shard, opened.plan.shards.size())};
     command.insert(command.end(), run.begin(), run.end());
+    // nothing of the plan itself: launchers as ssh hand their words to a shell
+    if (!opened.directory.empty())
+        command.insert(command.end(), {"-C", opened.directory});
     if (options.jobs > 0)
         command.insert(command.end(), {"-j", std::to_string(options.jobs)});
     if (options.memory_bytes > 0)
@@ -198,7 +184,7 @@ int makePlanFile(const MakePlanOptions& options)
 {
     if (options.emits_commands && options.output == "-")
         return tell({Issue::usage, "--emit", "", "needs a plan in a file, not on stdout"});
-    const auto memory = CookMemory::open(options.caches, options.output, graph::workingFolder(), warn);
+    const auto memory = CookMemory::open(options.caches, options.output, graph::workingFolder(), tell);
     if (!memory.ok())
         return tell(memory.error());
     farm::Plan plan;

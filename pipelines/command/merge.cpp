@@ -50,11 +50,11 @@ void printMissing(const OpenedPlan& opened, const std::vector<size_t>& missing, 
     const farm::Plan& plan = opened.plan;
     for (size_t shard = 0; shard < plan.shards.size(); ++shard)
         if (const std::vector<size_t> of_shard = missingOf(plan, shard, missing); !of_shard.empty())
-            print(formatMessage({Issue::shard_incomplete, options.plan_file,
-                                 fmt::format("shard {}/{}", shard, plan.shards.size()),
-                                 fmt::format("{} results are missing{}: {}", of_shard.size(),
-                                             options.cooks_missing ? ", and cooked here" : "",
-                                             reasonOf(opened, shard, cache))}));
+            tell({Issue::shard_incomplete, options.plan_file,
+                  fmt::format("shard {}/{}", shard, plan.shards.size()),
+                  fmt::format("{} results are missing{}: {}", of_shard.size(),
+                              options.cooks_missing ? ", and cooked here" : "",
+                              reasonOf(opened, shard, cache))});
 }
 
 std::string listOf(const farm::Plan& plan, const std::vector<size_t>& missing)
@@ -103,8 +103,7 @@ Result<int> mergePlan(const MergeOptions& options)
 {
     HEARTH_ASSIGN_OR_RETURN(const OpenedPlan opened, openPlan(options));
     HEARTH_ASSIGN_OR_RETURN(const auto memory,
-                            CookMemory::open(opened.caches, opened.file, opened.plan.folder,
-                                             [](const Error& warning) { print(formatMessage(warning)); }));
+                            CookMemory::open(opened.caches, opened.file, opened.plan.folder, tell));
     if (memory->cache().isEmpty())
         return Error{Issue::usage, "--cache", "", "results of shards are in a cache: say which"};
     HEARTH_TRY(enterFolder(opened));
@@ -125,10 +124,7 @@ int merge(const MergeOptions& chosen)
         if (file != "-")
             file = graph::absolutePath(file);
     const Result<int> merged = mergePlan(options);
-    if (merged.ok())
-        return *merged;
-    print(formatMessage(merged.error()));
-    return exitCode(merged.error());
+    return merged.ok() ? *merged : tell(merged.error());
 }
 
 } // namespace hearth::command

@@ -92,6 +92,13 @@ bool namesAll(const ShardRecord& record, const Plan& plan, size_t shard)
 
 } // namespace
 
+size_t countOf(const ShardRecord& record, graph::Ending ending)
+{
+    return static_cast<size_t>(std::count_if(record.actions.begin(), record.actions.end(),
+                                             [&](const ShardAction& action)
+                                             { return action.ending == ending; }));
+}
+
 std::string recordKey(const std::string& plan_hash, size_t shard)
 {
     return tools::sha256Of(fmt::format("shard\n{}\n{}\n", plan_hash, shard));

@@ -29,6 +29,9 @@ struct ShardRecord
     std::vector<ShardAction> actions;
 };
 
+/// Actions that ended so.
+size_t countOf(const ShardRecord& record, graph::Ending ending);
+
 /// plan_hash  SHA-256 of the plan's text
 /// The key under which the record lies: whoever runs the same shard of the same plan writes the same place.
 std::string recordKey(const std::string& plan_hash, size_t shard);

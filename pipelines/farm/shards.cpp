@@ -64,9 +64,9 @@ graph::Graph actionsOf(const graph::Graph& graph, std::span<const size_t> source
     std::vector<size_t> new_from_old(graph.actions.size(), graph::kNoAction);
     for (size_t i = 0; i < graph.actions.size(); ++i)
     {
-        graph::Action action = graph.actions[i];
-        if (std::find(sources.begin(), sources.end(), action.source) == sources.end())
+        if (!std::binary_search(sources.begin(), sources.end(), graph.actions[i].source))
             continue;
+        graph::Action action = graph.actions[i];
         for (graph::Input& input : action.inputs)
             if (input.action != graph::kNoAction)
             {

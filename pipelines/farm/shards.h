@@ -32,6 +32,7 @@ size_t shardCountFor(std::span<const double> seconds_of_source);
 Shards distribute(std::span<const double> seconds_of_source, size_t count);
 
 /// The actions of these sources alone; none of them reads from another source. Sources keep their numbers.
+/// sources    ascending
 /// action_of  [actions of the result] the index that each has in `graph`
 graph::Graph actionsOf(const graph::Graph& graph, std::span<const size_t> sources,
                        std::vector<size_t>& action_of);

@@ -179,7 +179,8 @@ void SlurmCluster::writeConfiguration(int node_count)
             "JobRequeue=1\nMpiDefault=none\nProctrackType=proctrack/linuxproc\nTaskPlugin=task/none\n"
             "JobAcctGatherType=jobacct_gather/none\nSelectType=select/cons_tres\n"
             "SelectTypeParameters=CR_Core_Memory\nSlurmdParameters=config_overrides\n"
-            "JobCompType=jobcomp/none\nMinJobAge=600\nStateSaveLocation="
+            "JobCompType=jobcomp/"
+            "none\nMinJobAge=600\nSchedulerParameters=sched_interval=2,bf_interval=2\nStateSaveLocation="
          << path_ << "/state\nSlurmdSpoolDir=" << path_ << "/spool.%n\nSlurmctldPidFile=" << path_
          << "/slurmctld.pid\nSlurmdPidFile=" << path_ << "/slurmd.%n.pid\n";
     for (int node = 1; node <= node_count; ++node)

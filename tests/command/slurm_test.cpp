@@ -75,6 +75,14 @@ std::string jobIn(const std::string& text, const std::string& before)
     return text.substr(at + before.size(), text.find('\n', at) - at - before.size());
 }
 
+/// Until the job has gone from the queue, as long as that may take on a machine with much else to do.
+void waitFor(const std::string& job, SlurmCluster& cluster)
+{
+    const auto ended_by = std::chrono::steady_clock::now() + std::chrono::seconds(150);
+    while (!cluster.stateOf(job).empty() && std::chrono::steady_clock::now() < ended_by)
+        std::this_thread::sleep_for(std::chrono::milliseconds(500));
+}
+
 } // namespace
 
 TEST_F(Slurm, cooksTheDemoWhateverBecomesOfANode)
@@ -107,9 +115,7 @@ TEST_F(Slurm, cooksTheDemoWhateverBecomesOfANode)
     }
     ASSERT_GT(killed, 0u) << cluster.logs();
 
-    const auto ended_by = now() + std::chrono::seconds(150);
-    while (!cluster.stateOf(merge).empty() && now() < ended_by)
-        std::this_thread::sleep_for(std::chrono::milliseconds(500));
+    waitFor(merge, cluster);
     const ProgramEnd shown = cluster.run({"scontrol", "show", "job", merge});
     const std::string log = folder.read("slurm-" + merge + ".out");
     EXPECT_NE(shown.out.find("JobState=COMPLETED"), std::string::npos) << shown.out << log << cluster.logs();
@@ -149,6 +155,33 @@ TEST_F(Slurm, believesNoLauncher)
     EXPECT_EQ(countOf(list.out, "shard 0/2\n"), 0u) << list.out;
     EXPECT_EQ(folder.run({hearth, "merge", "demo.plan.json", "-o", "a.hearth"}).exit_code, 0);
     EXPECT_TRUE(folder.read("a.hearth") == pack);
+}
+
+TEST_F(Slurm, triesAgainWhereThatMayHelp)
+{
+    if (const std::string why = SlurmCluster::whyNot(); !why.empty())
+        GTEST_SKIP() << why;
+    const std::string pack = samples({"transforms"});
+    ASSERT_FALSE(pack.empty());
+    // a cooker that the first machine has no memory for
+    fs::remove(folder / "bin/hearth-clusters");
+    folder.write("bin/hearth-clusters",
+                 "#!/bin/sh\nif [ ! -e '" + folder / "tried" + "' ]; then touch '" + folder / "tried" +
+                     "'; kill -KILL $$; fi\nexec " HEARTH_BIN "/hearth-clusters \"$@\"\n",
+                 true);
+    SlurmCluster cluster(folder, 1);
+    ASSERT_TRUE(cluster.waitForIdle(1, 30)) << cluster.logs();
+    ASSERT_EQ(folder.run(withSources({hearth, "plan"}, {"-o", "demo.plan.json"})).exit_code, 0);
+    const ProgramEnd submitted =
+        folder.run({hearth, "farm", "slurm", "demo.plan.json", "--max-retries", "1"}, cluster.environment());
+    const std::string shards = jobIn(submitted.out, "shards: job ");
+    const std::string merge = jobIn(submitted.out, "merge: job ");
+    ASSERT_FALSE(merge.empty()) << submitted.err << cluster.logs();
+    waitFor(merge, cluster);
+    const std::string log = folder.read("slurm-" + merge + ".out");
+    EXPECT_NE(cluster.run({"scontrol", "show", "job", shards}).out.find("Restarts=1"), std::string::npos);
+    EXPECT_EQ(log.find("are missing"), std::string::npos) << log;
+    EXPECT_TRUE(folder.read("demo.hearth") == pack) << log << cluster.logs();
 }
 
 } // namespace hearth::test
