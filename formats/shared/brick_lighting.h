@@ -24,9 +24,14 @@ HEARTH_CONSTANT float kBrickMostAlbedo = 0.95f;
 /// Light that is left of a ray below this does not count any more.
 HEARTH_CONSTANT float kBrickLeastThrough = 0.00390625f;
 
-/// Voxels by which rays start off their surface, along its normal and through the air: so far stair-stepped neighbours of a
-/// slanted surface do not hide it from light.
+/// Voxels by which rays start off a slanted surface, along its normal and through the air: so far its stair-stepped neighbours
+/// do not hide it from light.
 HEARTH_CONSTANT float kBrickLift = 1.0f;
+
+/// Sine of the angle to the nearest axis from which on a surface counts as slanted; below, by its share: steps of flatter ones
+/// are too far apart to hide much, and what lies along an axis has none. Rays that started off it would pass by what stands on
+/// it. 0.06 is 3.6 degrees; normals are stored to 0.6.
+HEARTH_CONSTANT float kBrickSlantSine = 0.0625f;
 
 /// Voxels off a face where a ray is in the air beside it for certain: coordinates up to 2^14 round to 2^-11.
 HEARTH_CONSTANT float kBrickFaceMargin = 0.001953125f;
@@ -308,12 +313,21 @@ struct BrickStart
     uint buried; ///< 1: no air was found before a surface; it gets no light
 };
 
-/// Off a place in the air by kBrickLift along the normal, or half of the way to what is before that.
+/// 0 for a surface whose normal lies along an axis, whose voxels are as flat as it is; 1 for one between the axes.
+HEARTH_FUNCTION float brickSlant(Float3 normal)
+{
+    float along = max(max(abs(normal.x), abs(normal.y)), abs(normal.z));
+    return min(sqrt(max(1.0f - along * along, 0.0f)) / kBrickSlantSine, 1.0f);
+}
+
+/// Off a place in the air along the normal, by kBrickLift if the surface is slanted, or half of the way to what is before
+/// that.
 HEARTH_FUNCTION Float3 brickLifted(HEARTH_IN(BrickScene) scene, Float3 place, Float3 normal)
 {
+    float lift = kBrickLift * brickSlant(normal);
     BrickRay ray = brickMarch(brickMasksOf(scene),
-                              brickRayInVoxels(brickGridOf(brickMasksOf(scene)), place, normal, kBrickLift));
-    return place + normal * (ray.inside != 0u ? 0.5f * (ray.start_t + ray.t) : kBrickLift);
+                              brickRayInVoxels(brickGridOf(brickMasksOf(scene)), place, normal, lift));
+    return place + normal * (ray.inside != 0u ? 0.5f * (ray.start_t + ray.t) : lift);
 }
 
 /// surface_normal  that the face stores
@@ -352,6 +366,22 @@ HEARTH_FUNCTION BrickStart brickSurfaceStart(HEARTH_IN(BrickScene) scene, Float3
     start.buried = out_t >= kBrickMostBuried ? 1u : 0u;
     out_t += ray.steps > 0u ? kBrickFaceMargin : 0.0f;
     start.place = start.buried != 0u ? place : brickLifted(scene, place + normal * out_t, normal);
+    return start;
+}
+
+/// For a point of a surface that is seen: in the air before it; where other bricks stand there, as in the corners of rooms, in
+/// the air that it is seen through.
+/// to_eye  unit
+HEARTH_FUNCTION BrickStart brickSeenStart(HEARTH_IN(BrickScene) scene, Float3 place, Float3 normal,
+                                          Float3 to_eye)
+{
+    BrickStart start = brickSurfaceStart(scene, place, normal);
+    Float3 way = start.place - place;
+    // beyond that it was not its own voxel that was left
+    float most = kBrickLift * brickSlant(normal) + 1.25f;
+    if (start.buried != 0u || dot(way, way) > most * most)
+        start = brickSurfaceStart(scene, place, to_eye);
+    start.normal = normal;
     return start;
 }
 
