@@ -57,11 +57,11 @@ Float3 FaceLighting::lit(const Lighting& lighting, uint32_t rays, size_t face) c
     const auto [x, y, z, side] = places_[face];
     const BrickScene scene = this->scene();
     const BrickStart start = brickFaceStart(scene, x, y, z, side, decodeFaceNormal(bricks_.normals[face]));
-    const Float3 middle = brickFaceMiddle(x, y, z, side);
+    const Float3 surface = brickFaceSurface(x, y, z, side, start.normal);
     const BrickSky sky{lighting.sky_zenith, lighting.sky_horizon, lighting.sky_ground};
     Float3 arrived = brickGather(scene, sky, start, rays, brickFaceSeed(x, y, z, side));
     for (uint32_t i = 0; i < lighting.light_count; ++i)
-        arrived += brickDirect(scene, start, middle, lighting.lights[i]);
+        arrived += brickDirect(scene, start, surface, lighting.lights[i]);
     return brickSentOut(decodeRadiance(bricks_.emission[face]), decodeAlbedo(bricks_.albedo[face]), arrived);
 }
 

@@ -381,6 +381,33 @@ TEST(FaceLighting, aLampInsideItsOwnVoxelIsSeen)
         EXPECT_GT(radianceOf(lighting, faceAt(tables, x, 0, 5, kUp)).x, 0) << x;
 }
 
+/// A slanted plane close to a lamp runs through the middle of its voxels, on the mean, not along their sides.
+TEST(FaceLighting, aLampBesideASlopeLightsThePlaneNotItsSteps)
+{
+    constexpr uint32_t kSide = 24;
+    const Float3 normal = normalizeOr({-1, 1, 0}, {0, 1, 0});
+    Voxel slope = makeVoxel({0.5f, 0.5f, 0.5f});
+    for (VoxelSide& side : slope.sides)
+        side.normal = normal;
+    VoxelModel model({kSide, kSide, kSide});
+    for (uint32_t x = 0; x < kSide; ++x)
+        model.fill({x, x, 0}, {x + 1, x + 1, kSide}, slope);
+    const BrickTables tables = model.build();
+    const BrickView view = brickViewOf(tables);
+    FaceLighting lighting(view);
+    Lighting lit = darkness();
+    constexpr float kAway = 3;
+    const Float3 foot{12.5f, 12.5f, 12.5f}, lamp = foot + normal * kAway;
+    addLamp(lit, lamp, {5, 5, 5});
+    lighting.sweep(lit, 1, 1);
+    for (const uint32_t side : {kUp, 0u})
+    {
+        const float light = radianceOf(lighting, faceAt(tables, 12, 12, 12, side)).x;
+        const float expected = 0.5f * 5 / kPi / (kAway * kAway);
+        EXPECT_NEAR(light, expected, 0.01f * expected) << side;
+    }
+}
+
 TEST(FaceLighting, spotsEndAtTheirCone)
 {
     const BrickTables tables = floorOf(21, 12, makeVoxel({0.5f, 0.5f, 0.5f}));
