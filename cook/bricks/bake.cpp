@@ -60,23 +60,23 @@ private:
         const auto [x, y, z, side] = places_[face];
         const BrickStart start =
             brickFaceStart(scene(), x, y, z, side, decodeFaceNormal(bricks_.normals[face]));
-        const Float3 middle = brickFaceMiddle(x, y, z, side);
+        const Float3 surface = brickFaceSurface(x, y, z, side, start.normal);
         const uint32_t seed = brickFaceSeed(x, y, z, side);
         Float3 arrived;
         for (uint32_t i = 0; i < rays; ++i)
             arrived += radianceAlong(start.place, brickRayDirection(start.normal, i, rays, seed)) *
                        (1.0f / static_cast<float>(rays));
         for (uint32_t i = 0; i < lighting_.light_count; ++i)
-            arrived += direct(start, middle, lighting_.lights[i]);
+            arrived += direct(start, surface, lighting_.lights[i]);
         return brickSentOut(decodeRadiance(bricks_.emission[face]), decodeAlbedo(bricks_.albedo[face]),
                             arrived);
     }
 
-    Float3 direct(const BrickStart& start, Float3 middle, const Light& light) const
+    Float3 direct(const BrickStart& start, Float3 surface, const Light& light) const
     {
         const BrickGrid& grid = bricks_.masks.grid;
         const Float3 lamp = (light.position - grid.origin) / grid.voxel_size;
-        const BrickIncident incident = brickIncident(grid, start, middle, light, lamp);
+        const BrickIncident incident = brickIncident(grid, start, surface, light, lamp);
         if (incident.arrived == Float3{} || rays_.occluded(start.place, incident.way, incident.far))
             return {};
         return incident.arrived * throughHoles(start.place, incident.way, incident.far);

@@ -92,8 +92,9 @@ void FaceLighting::light(const Lighting& lighting, uint32_t rays, size_t first, 
             sum += brickLightAlong(scene, sky, marched[(face - first) * rays + i]).radiance;
         Float3 arrived = start.buried != 0 ? Float3{} : sum * (1.0f / static_cast<float>(rays));
         const auto [x, y, z, side] = places_[face];
+        const Float3 surface = brickFaceSurface(x, y, z, side, start.normal);
         for (uint32_t i = 0; i < lighting.light_count; ++i)
-            arrived += brickDirect(scene, start, brickFaceMiddle(x, y, z, side), lighting.lights[i]);
+            arrived += brickDirect(scene, start, surface, lighting.lights[i]);
         next_[face] = encodeBrickLight(brickSentOut(decodeRadiance(bricks_.emission[face]),
                                                     decodeAlbedo(bricks_.albedo[face]), arrived));
     }

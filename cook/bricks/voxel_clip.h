@@ -20,9 +20,18 @@ namespace hearth::bricks
 /// Corners of triangles are rounded to so many steps a voxel.
 inline constexpr double kSnap = 65536;
 
+/// Corners so near to a plane between voxels, in voxels, are put into it. Walls are built on planes, but meshes keep them to a
+/// hundred-thousandth of their size: a ceiling that is lower by that would fill the voxels of the room under it. A quarter
+/// of a voxel is what clusters may be off in any case.
+inline constexpr double kPlaneReach = 1.0 / 64;
+
 inline Double3 snapped(Double3 p)
 {
-    const auto snap = [](double value) { return std::floor(value * kSnap + 0.5) / kSnap; };
+    const auto snap = [](double value)
+    {
+        const double plane = std::floor(value + 0.5);
+        return std::abs(value - plane) <= kPlaneReach ? plane : std::floor(value * kSnap + 0.5) / kSnap;
+    };
     return {snap(p.x), snap(p.y), snap(p.z)};
 }
 

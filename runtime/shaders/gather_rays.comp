@@ -155,21 +155,6 @@ GatherPoint goOn(GatherPoint fresh, GatherPoint known)
     return fresh;
 }
 
-// Voxels from a point of a surface to where its rays start, beyond which it was not its own voxel that was left.
-const float kFarStart = kBrickLift + 1.25;
-
-// In the air before the surface; where other bricks stand there, as in corners of rooms, in the air that it is seen through.
-BrickStart startOf(GatherPoint point)
-{
-    BrickGrid grid = brick_view.grid;
-    vec3 place = (gather.eye + point.position) / grid.voxel_size;
-    BrickStart start = brickSurfaceStart(grid, place, point.normal);
-    if (start.buried != 0u || distance(start.place, place) > kFarStart)
-        start = brickSurfaceStart(grid, place, -normalize(point.position));
-    start.normal = point.normal;
-    return start;
-}
-
 // Which tile of its block one is, so that neighbours are far apart in the order: bits of a Bayer matrix.
 uint placeInBlock(uvec2 tile)
 {
@@ -192,7 +177,8 @@ void main()
         point = gather_points[number];
     bool seen = point.seen > 0.0;
     if (seen && index == 0u)
-        starts[row] = startOf(point);
+        starts[row] = brickSeenStart(brick_view.grid, (gather.eye + point.position) / brick_view.grid.voxel_size, point.normal,
+                                     -normalize(point.position));
     barrier();
     bool open = seen && starts[row].buried == 0u;
     if (open)

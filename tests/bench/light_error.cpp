@@ -143,11 +143,8 @@ Double3 BrickGather::at(const SeenPoint& seen, uint32_t rays, uint32_t seed) con
     const shared::BrickScene scene{tables_.masks(), tables_.opacity, faces_};
     const Float3 place =
         (narrowed(seen.point.surface.position) - tables_.grid.origin) / tables_.grid.voxel_size;
-    const Float3 normal = narrowed(litNormal(seen.point));
-    shared::BrickStart start = shared::brickSurfaceStart(scene, place, normal);
-    if (start.buried != 0)
-        start = shared::brickSurfaceStart(scene, place, narrowed(seen.to_eye));
-    start.normal = normal;
+    const shared::BrickStart start =
+        shared::brickSeenStart(scene, place, narrowed(litNormal(seen.point)), narrowed(seen.to_eye));
     return Double3(shared::brickGather(scene, sky_, start, rays, shared::brickHash(seed)));
 }
 

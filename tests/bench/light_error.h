@@ -48,8 +48,7 @@ public:
     /// rays  of each face
     BrickGather(const bricks::BrickTables& tables, const shared::Lighting& lighting, uint32_t rays);
 
-    /// Irradiance over pi of all but the lights, as the runtime gathers it: where the way along the normal leads through
-    /// walls, as in the corners of rooms, rays start from the air that the point is seen through. rays  of the point
+    /// Irradiance over pi of all but the lights, as the runtime gathers it. rays  of the point
     reference::Double3 at(const SeenPoint& point, uint32_t rays, uint32_t seed) const;
 
 private:

@@ -381,6 +381,33 @@ TEST(FaceLighting, aLampInsideItsOwnVoxelIsSeen)
         EXPECT_GT(radianceOf(lighting, faceAt(tables, x, 0, 5, kUp)).x, 0) << x;
 }
 
+/// A slanted plane close to a lamp runs through the middle of its voxels, on the mean, not along their sides.
+TEST(FaceLighting, aLampBesideASlopeLightsThePlaneNotItsSteps)
+{
+    constexpr uint32_t kSide = 24;
+    const Float3 normal = normalizeOr({-1, 1, 0}, {0, 1, 0});
+    Voxel slope = makeVoxel({0.5f, 0.5f, 0.5f});
+    for (VoxelSide& side : slope.sides)
+        side.normal = normal;
+    VoxelModel model({kSide, kSide, kSide});
+    for (uint32_t x = 0; x < kSide; ++x)
+        model.fill({x, x, 0}, {x + 1, x + 1, kSide}, slope);
+    const BrickTables tables = model.build();
+    const BrickView view = brickViewOf(tables);
+    FaceLighting lighting(view);
+    Lighting lit = darkness();
+    constexpr float kAway = 3;
+    const Float3 foot{12.5f, 12.5f, 12.5f}, lamp = foot + normal * kAway;
+    addLamp(lit, lamp, {5, 5, 5});
+    lighting.sweep(lit, 1, 1);
+    for (const uint32_t side : {kUp, 0u})
+    {
+        const float light = radianceOf(lighting, faceAt(tables, 12, 12, 12, side)).x;
+        const float expected = 0.5f * 5 / kPi / (kAway * kAway);
+        EXPECT_NEAR(light, expected, 0.01f * expected) << side;
+    }
+}
+
 TEST(FaceLighting, spotsEndAtTheirCone)
 {
     const BrickTables tables = floorOf(21, 12, makeVoxel({0.5f, 0.5f, 0.5f}));
@@ -458,8 +485,7 @@ TEST(FaceLighting, parallelPlatesExchangeByTheirFormFactor)
     lighting.sweep(darkness(), 4096, 2);
     const uint32_t face = faceAt(tables, 8, 0, 8, kUp);
     const float albedo = decodeAlbedo(tables.albedo[face]).x;
-    // rays start a voxel above the face
-    const double expected = 2 * toSquare(0.5 * kSide / (kGap - kBrickLift));
+    const double expected = 2 * toSquare(0.5 * kSide / kGap);
     EXPECT_NEAR(radianceOf(lighting, face).x / albedo, expected, 0.01 * expected);
 }
 
@@ -540,13 +566,58 @@ TEST(BrickSurfaceStart, leavesItsOwnVoxelsAndSaysWhereThereIsNoAir)
     const BrickView view = brickViewOf(tables);
     const FaceLighting lighting(view);
     const BrickScene scene = lighting.scene();
-    EXPECT_NEAR(brickSurfaceStart(scene, {4.5f, 0.7f, 4.5f}, {0, 1, 0}).place.y, 2 + kBrickLift, 0.01f);
-    EXPECT_NEAR(brickSurfaceStart(scene, {4.5f, 8.2f, 4.5f}, {0, -1, 0}).place.y, 8 - kBrickLift, 0.01f);
-    EXPECT_NEAR(brickSurfaceStart(scene, {4.5f, 3, 4.5f}, {0, 1, 0}).place.y, 4, 0.01f)
+    EXPECT_NEAR(brickSurfaceStart(scene, {4.5f, 0.7f, 4.5f}, {0, 1, 0}).place.y, 2, 0.01f);
+    EXPECT_NEAR(brickSurfaceStart(scene, {4.5f, 8.2f, 4.5f}, {0, -1, 0}).place.y, 8, 0.01f);
+    EXPECT_NEAR(brickSurfaceStart(scene, {4.5f, 3, 4.5f}, {0, 1, 0}).place.y, 3, 0.01f)
         << "in the air already";
+    EXPECT_NEAR(brickSurfaceStart(scene, {4.5f, 1.7f, 4.5f}, {0.6f, 0.8f, 0}).place.y, 2 + 0.8f * kBrickLift,
+                0.01f)
+        << "slanted: off its steps";
     EXPECT_EQ(brickSurfaceStart(scene, {4.5f, 9, 4.5f}, {0, 1, 0}).buried, 1u);
     EXPECT_EQ(brickSurfaceStart(scene, {4.5f, 15.5f, 4.5f}, {0, 1, 0}).buried, 0u) << "above the grid is air";
     EXPECT_EQ(brickSurfaceStart(scene, {40, 90, 4}, {0, 1, 0}).buried, 0u) << "as is what lies outside";
+}
+
+/// Of a wall, just below a ceiling that fills its voxels only in part: neither along its normal nor far along the way to the eye
+/// is it in the air, but there it is first.
+TEST(BrickSeenStart, takesTheAirThatAPointIsSeenThrough)
+{
+    VoxelModel model({12, 12, 12});
+    model.fill({0, 0, 0}, {12, 12, 1}, makeVoxel({0.5f, 0.5f, 0.5f})); // the wall
+    model.fill({0, 8, 0}, {12, 9, 12}, makeVoxel({0.5f, 0.5f, 0.5f})); // the ceiling
+    const BrickTables tables = model.build();
+    const BrickView view = brickViewOf(tables);
+    const FaceLighting lighting(view);
+    const Float3 to_eye = normalizeOr({0, -0.6f, 0.8f}, {0, 0, 1});
+    const BrickStart start = brickSeenStart(lighting.scene(), {6.5f, 8.3f, 1}, {0, 0, 1}, to_eye);
+    EXPECT_EQ(start.buried, 0u);
+    EXPECT_EQ(start.normal, (Float3{0, 0, 1}));
+    EXPECT_NEAR(start.place.y, 8, 0.7f);
+    EXPECT_LT(start.place.y, 8);
+    const BrickStart open = brickSeenStart(lighting.scene(), {6.5f, 4.5f, 0.9f}, {0, 0, 1}, to_eye);
+    EXPECT_NEAR(open.place.y, 4.5f, 1e-5f) << "before it, where nothing is in the way";
+    EXPECT_NEAR(open.place.z, 1, 0.01f);
+}
+
+/// A strip of one voxel that shines, on a wall: rays that started off the wall would pass by it.
+TEST(BrickFaceStart, seesWhatStandsBesideItOnAWall)
+{
+    VoxelModel model({65, 10, 6});
+    model.fill({0, 0, 0}, {65, 10, 1}, makeVoxel({0, 0, 0}));
+    model.fill({0, 8, 1}, {65, 9, 2}, makeVoxel({0, 0, 0}, {2, 2, 2}));
+    const BrickTables tables = model.build();
+    const BrickView view = brickViewOf(tables);
+    FaceLighting lighting(view);
+    lighting.sweep(darkness(), 1, 1);
+    for (uint32_t below = 1; below <= 4; ++below)
+    {
+        const BrickStart start = brickFaceStart(lighting.scene(), 32, 8 - below, 0, 5, {0, 0, 1});
+        const float light = brickGather(lighting.scene(), {}, start, 4096, below).x;
+        // an endless strip of the height 1 hides this of the plane that it stands on
+        const double distance = below - 0.5;
+        const double expected = 2 * 0.5 * (1 - distance / std::sqrt(distance * distance + 1));
+        EXPECT_NEAR(light, expected, 0.03 * expected) << below;
+    }
 }
 
 TEST(FaceLighting, isTheSameForAnyNumberOfThreads)

@@ -210,12 +210,14 @@ TEST(ForEachPiece, isTheSameHoweverTheGridIsDivided)
 TEST(ForEachPiece, givesWhatLiesBetweenVoxelsToTheOneBehind)
 {
     for (int axis = 0; axis < 3; ++axis)
-        for (const double plane : {0.0, 3.0, 8.0})
+        for (const double place : {0.0, 3.0, 8.0, 0.01, 2.99, 3.01, 7.99})
             for (const bool up : {false, true})
             {
+                // what nearly lies in the plane does
+                const double plane = std::round(place);
                 const auto at = [&](double u, double v)
                 {
-                    const std::array<double, 3> values{plane, u, v};
+                    const std::array<double, 3> values{place, u, v};
                     const auto value = [&](int which)
                     { return values[static_cast<size_t>((which - axis + 3) % 3)]; };
                     return Double3{value(0), value(1), value(2)};
