@@ -303,6 +303,20 @@ bool placePack(const graph::Executor& executor, const std::optional<std::string>
     return false;
 }
 
+std::vector<std::string> filesLookedFor(const graph::Graph& graph, const graph::Executor& executor)
+{
+    std::vector<std::string> files;
+    for (size_t i = 0; i < graph.actions.size(); ++i)
+    {
+        for (const graph::Input& input : graph.actions[i].inputs)
+            if (input.action == graph::kNoAction)
+                files.push_back(input.path);
+        const std::vector<std::string> found = executor.filesLookedFor(i);
+        files.insert(files.end(), found.begin(), found.end());
+    }
+    return files;
+}
+
 /// Cook, with what is known of cooks before (null: nothing).
 void cookGraph(const graph::Graph& graph, CookMemory* memory, const CookOptions& options, EventLog* log,
                CookOutcome& outcome)
@@ -316,9 +330,11 @@ void cookGraph(const graph::Graph& graph, CookMemory* memory, const CookOptions&
         options.force);
     graph::Executor executor(
         graph, resolver, cache, actions,
-        {limitsFor(options), !options.fail_fast, !options.depfile.empty(), programFolder(), options.output},
+        {limitsFor(options), !options.fail_fast, options.lists_files, programFolder(), options.output},
         eventsFor(options, log));
     const bool interrupted = !executor.run(hash_there);
+    if (options.lists_files)
+        outcome.looked_for = filesLookedFor(graph, executor);
     std::string output_cause;
     if (interrupted)
     {
@@ -379,10 +395,11 @@ void cookInto(const CookOptions& options, EventLog* log, CookOutcome& outcome)
 
 } // namespace
 
-int cook(const CookOptions& chosen)
+int cook(const CookOptions& chosen, std::vector<std::string>* looked_for)
 {
     CookOptions options = chosen;
     options.statistics = !options.report_file.empty();
+    options.lists_files = looked_for != nullptr || !options.depfile.empty();
     if (options.dry_run)
         return dryRun(options);
     const auto start = std::chrono::steady_clock::now();
@@ -399,6 +416,8 @@ int cook(const CookOptions& chosen)
         log.emplace(std::move(created).value());
     }
     cookInto(options, log ? &*log : nullptr, outcome);
+    if (looked_for != nullptr)
+        *looked_for = outcome.looked_for;
     outcome.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     if (log)
         log->done(outcome.exit_code, outcome.seconds);

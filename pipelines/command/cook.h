@@ -30,9 +30,10 @@ struct CookOptions : graph::CookSettings
     bool dry_run = false;                ///< only say what would run
     std::string dry_run_format = "text"; ///< or "json": the plan
     Verbosity verbosity = Verbosity::normal;
-    std::string report_file; ///< empty: none
-    std::string depfile;     ///< what was read, as depfileOf writes it; empty: none
-    std::string events_file; ///< empty: none
+    std::string report_file;  ///< empty: none
+    std::string depfile;      ///< what was read, as depfileOf writes it; empty: none
+    std::string events_file;  ///< empty: none
+    bool lists_files = false; ///< has cookers list what they look for, without a cache too
 };
 
 /// One cooker's run.
@@ -65,14 +66,16 @@ struct CookOutcome
     std::vector<std::string> cluster_statistics; ///< of each source, JSON of hearth-clusters; for the report
     std::vector<VisibilityReport> visibility;    ///< of each source, where visibility was baked
     std::string brick_statistics;                ///< JSON of hearth-bricks; for the report
+    std::vector<std::string> looked_for;         ///< files, there or not
     double seconds = 0;
     uint64_t output_bytes = 0;
 };
 
 /// Cook all sources into one pack, their scenes side by side: run what the cache has no result of. The output appears whole
 /// or not at all; on failure or interruption an output that was there before is as it was, and nothing else is left behind.
-/// returns    the exit code; every problem has been told on stderr
-int cook(const CookOptions& options);
+/// looked_for  gets the files that it has read, or has looked for in vain; null: does not
+/// returns     the exit code; every problem has been told on stderr
+int cook(const CookOptions& options, std::vector<std::string>* looked_for = nullptr);
 
 /// Schema "hearth.report/1". `meta` is the pack's META, empty on failure.
 std::string reportJson(const CookOptions& options, const CookOutcome& outcome, std::string_view meta);

@@ -3,6 +3,7 @@
 #include "pipelines/command/cook.h"
 #include "pipelines/command/verb_tools.h"
 #include "pipelines/command/verbs.h"
+#include "pipelines/command/watch.h"
 
 #include <CLI/CLI.hpp>
 #include <cmath>
@@ -20,6 +21,7 @@ void addCook(CLI::App& app, Work& run)
         bool makes_bricks = false;
         BrickOptions bricked;
         std::string memory;
+        bool watches = false;
         bool quiet = false;
         bool verbose = false;
     };
@@ -98,6 +100,9 @@ void addCook(CLI::App& app, Work& run)
     verb->add_option("--format", options->dry_run_format, "of --dry-run; json: the whole plan")
         ->check(CLI::IsMember({"text", "json"}))
         ->needs(dry_run);
+    verb->add_flag("--watch", options->watches,
+                   "cook, and again whenever a file changes that it reads or looks for; Ctrl-C ends it")
+        ->excludes(dry_run);
     verb->add_flag("--explain", options->explain, "say why each cooker runs");
     auto* quiet = verb->add_flag("-q,--quiet", options->quiet, "print errors only");
     verb->add_flag("-v,--verbose", options->verbose, "print the command line of every stage")
@@ -117,7 +122,7 @@ void addCook(CLI::App& app, Work& run)
                 options->bricks = options->bricked;
             if (!options->memory.empty())
                 options->memory_bytes = cache::parseSize(options->memory, "").value();
-            run = [options] { return cook(*options); };
+            run = [options] { return options->watches ? watch(*options) : cook(*options); };
         });
 }
 

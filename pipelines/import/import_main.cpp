@@ -74,10 +74,13 @@ Status run(const Arguments& arguments)
                             import::PartBuilder::create(arguments.output, arguments.source));
     const Status read = readAll(arguments, lods, reads, part);
     printWarnings(part);
-    HEARTH_TRY(read);
-    import::compressClips(part, stated_error);
-    HEARTH_TRY(part.finish());
-    return arguments.depfile.empty() ? success() : tools::writeText(arguments.depfile, reads.text());
+    if (read.ok())
+        import::compressClips(part, stated_error);
+    const Status finished = read.ok() ? part.finish() : read;
+    // of a failure too: who mends it changes one of these
+    const Status listed =
+        arguments.depfile.empty() ? success() : tools::writeText(arguments.depfile, reads.text());
+    return finished.ok() ? listed : finished;
 }
 
 int program(int argc, char** argv)
