@@ -231,9 +231,11 @@ void cookGraph(const graph::Graph& graph, CookMemory* memory, const CookOptions&
         options.force);
     graph::Executor executor(graph, resolver, cache, actions,
                              {limitsOf(options.jobs, options.memory_bytes), !options.fail_fast,
-                              !options.depfile.empty(), programFolder(), options.output},
+                              options.lists_files, programFolder(), options.output},
                              eventsFor(options, log, recorder));
     const bool interrupted = !executor.run(hash_there);
+    if (options.lists_files)
+        recorder.takeFiles(executor);
     std::string output_cause;
     if (interrupted)
     {
@@ -314,8 +316,10 @@ int writeReports(const CookOptions& options, CookOutcome& outcome)
 
 } // namespace
 
-int cook(const CookOptions& options)
+int cook(const CookOptions& chosen, std::vector<std::string>* looked_for)
 {
+    CookOptions options = chosen;
+    options.lists_files = looked_for != nullptr || !options.depfile.empty();
     if (options.dry_run)
         return dryRun(options);
     std::optional<graph::Graph> graph;
@@ -336,6 +340,8 @@ int cook(const CookOptions& options)
         log.emplace(std::move(created).value());
     }
     cookInto(options, log ? &*log : nullptr, graph, recorder);
+    if (looked_for != nullptr)
+        *looked_for = recorder.lookedFor();
     outcome.seconds = recorder.seconds();
     if (log)
         log->done(outcome.exit_code, outcome.seconds);

@@ -33,12 +33,14 @@ struct CookOptions : graph::CookSettings
     std::string depfile; ///< what was read, as depfileOf writes it; empty: none
     /// Written whatever the end: .html is the page, .xml JUnit's, .csv a table, all else JSON.
     std::vector<std::string> report_files;
-    std::string events_file; ///< empty: none
+    std::string events_file;  ///< empty: none
+    bool lists_files = false; ///< has cookers list what they look for, without a cache too
 };
 
 /// Cook all sources into one pack, their scenes side by side: run what the cache has no result of. The output appears whole
 /// or not at all; on failure or interruption an output that was there before is as it was, and nothing else is left behind.
-/// returns    the exit code; every problem has been told on stderr
-int cook(const CookOptions& options);
+/// looked_for  gets the files that it has read, or has looked for in vain; null: does not
+/// returns     the exit code; every problem has been told on stderr
+int cook(const CookOptions& options, std::vector<std::string>* looked_for = nullptr);
 
 } // namespace hearth::command

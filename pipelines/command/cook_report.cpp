@@ -73,6 +73,18 @@ void CookRecorder::takeOutcomes(graph::Executor& executor)
     }
 }
 
+void CookRecorder::takeFiles(const graph::Executor& executor)
+{
+    for (size_t i = 0; i < report_.graph->actions.size(); ++i)
+    {
+        for (const graph::Input& input : report_.graph->actions[i].inputs)
+            if (input.action == graph::kNoAction)
+                looked_for_.push_back(input.path);
+        const std::vector<std::string> found = executor.filesLookedFor(i);
+        looked_for_.insert(looked_for_.end(), found.begin(), found.end());
+    }
+}
+
 std::map<std::string, uint64_t> bytesOfChunks(const std::string& pack)
 {
     std::map<std::string, uint64_t> bytes;

@@ -24,15 +24,20 @@ public:
     void failed(const graph::Failure& failure);
     /// While the executor still has its files.
     void takeOutcomes(graph::Executor& executor);
+    /// What was read or looked for; the same.
+    void takeFiles(const graph::Executor& executor);
 
     double seconds() const;
     report::CookReport& report() { return report_; }
+    /// Paths of files, there or not.
+    const std::vector<std::string>& lookedFor() const { return looked_for_; }
 
 private:
     size_t indexOf(const graph::Action& action) const;
 
     std::chrono::steady_clock::time_point start_;
     report::CookReport report_;
+    std::vector<std::string> looked_for_;
     std::vector<bool> lane_is_busy_;
     size_t last_failed_ = graph::kNoAction;
 };

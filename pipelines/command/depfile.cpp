@@ -81,8 +81,9 @@ Result<std::string> depfileOf(const graph::Graph& graph, const graph::Executor& 
                 files.add(input.path);
     const std::vector<std::string> named = files.takeNew();
     for (size_t i = 0; i < graph.actions.size(); ++i)
-        for (const std::string& path : executor.filesFound(i))
-            files.add(path);
+        for (const std::string& path : executor.filesLookedFor(i))
+            if (std::error_code error; std::filesystem::exists(path, error))
+                files.add(path);
     return depfileText(output, named, files.takeNew());
 }
 

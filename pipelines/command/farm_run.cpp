@@ -96,10 +96,7 @@ std::vector<std::string> launchedCommand(const RunOptions& options, const Opened
             command.push_back(options.launcher.substr(at, end - at));
         at = end + 1;
     }
-    const std::vector<std::string> run{tools::programFolder() + "/hearth",
-                                       "run",
-                                       opened.file,
-                                       "--shard",
+    const std::vector<std::string> run{tools::programFolder() + "/hearth", "run", opened.file, "--shard",
                                        fmt::format("{}/{}", shard, opened.plan.shards.size())};
     command.insert(command.end(), run.begin(), run.end());
     // nothing of the plan itself: launchers as ssh hand their words to a shell

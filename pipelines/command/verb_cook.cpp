@@ -3,6 +3,7 @@
 #include "pipelines/command/setting_options.h"
 #include "pipelines/command/verb_tools.h"
 #include "pipelines/command/verbs.h"
+#include "pipelines/command/watch.h"
 
 #include <CLI/CLI.hpp>
 
@@ -12,16 +13,30 @@ namespace hearth::command
 namespace
 {
 
-int cookConfigured(CookOptions options, const SettingOptions& settings)
+/// The options with what the configuration adds.
+/// files    gets those of the configuration
+Result<CookOptions> configured(const CookOptions& options, const SettingOptions& settings,
+                               std::vector<std::string>& files)
 {
-    auto given = settings.given();
-    if (!given.ok())
-        return fail(given.error());
-    const auto configuration = loadConfiguration(std::move(given).value());
-    if (!configuration.ok())
-        return fail(configuration.error());
-    const Status configured = configure(*configuration, options);
-    return configured.ok() ? cook(options) : fail(configured.error());
+    HEARTH_ASSIGN_OR_RETURN(profiles::Given given, settings.given());
+    HEARTH_ASSIGN_OR_RETURN(const profiles::Configuration configuration, loadConfiguration(std::move(given)));
+    for (const profiles::ConfigFile& file : configuration.files())
+        files.push_back(file.path);
+    CookOptions all = options;
+    HEARTH_TRY(configure(configuration, all));
+    return all;
+}
+
+int cookConfigured(const CookOptions& options, const SettingOptions& settings)
+{
+    std::vector<std::string> files;
+    const Result<CookOptions> all = configured(options, settings, files);
+    return all.ok() ? cook(*all) : fail(all.error());
+}
+
+int watchConfigured(const CookOptions& options, const SettingOptions& settings)
+{
+    return watch([&](std::vector<std::string>& files) { return configured(options, settings, files); });
 }
 
 } // namespace
@@ -32,6 +47,7 @@ void addCook(CLI::App& app, Work& run)
     struct Options : CookOptions
     {
         SettingOptions settings;
+        bool watches = false;
         bool quiet = false;
         bool verbose = false;
     };
@@ -63,6 +79,9 @@ void addCook(CLI::App& app, Work& run)
     verb->add_option("--format", options->dry_run_format, "of --dry-run; json: the whole plan")
         ->check(CLI::IsMember({"text", "json"}))
         ->needs(dry_run);
+    verb->add_flag("--watch", options->watches,
+                   "cook, and again whenever a file changes that it reads or looks for; Ctrl-C ends it")
+        ->excludes(dry_run);
     verb->add_flag("--explain", options->explain, "say why each cooker runs");
     auto* quiet = verb->add_flag("-q,--quiet", options->quiet, "print errors only");
     verb->add_flag("-v,--verbose", options->verbose, "print the command line of every stage")
@@ -76,7 +95,11 @@ void addCook(CLI::App& app, Work& run)
         [options, &run]
         {
             options->verbosity = verbosityOf(options->quiet, options->verbose);
-            run = [options] { return cookConfigured(*options, options->settings); };
+            run = [options]
+            {
+                return options->watches ? watchConfigured(*options, options->settings)
+                                        : cookConfigured(*options, options->settings);
+            };
         });
 }
 

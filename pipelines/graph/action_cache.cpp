@@ -154,11 +154,11 @@ std::string ActionCache::hashNow(const Action& action, const std::string& found)
     return path.empty() ? std::string(kAbsent) : hashes_.hashOf(path).value_or(std::string(kAbsent));
 }
 
-std::vector<std::string> ActionCache::filesFound(const Action& action, const Record& record)
+std::vector<std::string> ActionCache::filesLookedFor(const Action& action, const Record& record)
 {
     std::vector<std::string> paths;
     for (const auto& [name, hash] : record)
-        if (name.starts_with(kFound) && hash != kAbsent)
+        if (name.starts_with(kFound))
             paths.push_back(pathOfFound(action, name));
     return paths;
 }

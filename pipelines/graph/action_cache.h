@@ -63,8 +63,8 @@ public:
     /// What the files are now that a record of before says were found.
     Record refreshed(const Action& action, const Record& record);
 
-    /// Paths of the files that a record of the action says were found and read.
-    std::vector<std::string> filesFound(const Action& action, const Record& record);
+    /// Paths of the files that a record of the action says were found, or looked for in vain.
+    std::vector<std::string> filesLookedFor(const Action& action, const Record& record);
 
 private:
     std::optional<Record> wholeRecord(const Action& action, const Record& record,

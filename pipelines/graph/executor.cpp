@@ -141,21 +141,19 @@ void Executor::materialize(std::span<const size_t> actions)
     }
 }
 
-std::vector<std::string> Executor::filesFound(size_t index) const
+std::vector<std::string> Executor::filesLookedFor(size_t index) const
 {
     const Action& action = graph_.actions[index];
     if (!action.finds_files)
         return {};
     if (outcomes_[index].ending == Ending::kept)
-        return actions_->filesFound(action, outcomes_[index].record);
+        return actions_->filesLookedFor(action, outcomes_[index].record);
     const std::optional<std::string> text = cache::readText(readListOf(index));
     const auto reads = text ? tools::ReadList::parse(*text) : std::nullopt;
     std::vector<std::string> paths;
     if (reads)
         for (const auto& [path, hash] : reads->files())
-            // a file that changed between two reads has no hash, and is there
-            if (hash || sizeOf(path))
-                paths.push_back(path);
+            paths.push_back(path);
     return paths;
 }
 

@@ -20,7 +20,7 @@ struct ExecutorOptions
 {
     CrewLimits limits;
     bool keeps_going = true;  ///< after a failure, with what does not depend on it
-    bool lists_files = false; ///< has cookers list what they find without a cache, too: for filesFound()
+    bool lists_files = false; ///< has cookers list what they find without a cache, too: for filesLookedFor()
     std::string programs;     ///< folder of the cookers
     std::string output;       ///< the pack: temporary files are made beside it, or in TMPDIR
     /// The last action makes the pack. Else all that is made is for the cache alone, and `output` only what messages call it.
@@ -69,8 +69,9 @@ public:
     /// The whole pack, to be moved into its place; empty where it has failed, or is there already.
     const std::string& packPath() const { return pack_path_; }
 
-    /// Paths of the files that an action which went well has found by itself and read.
-    std::vector<std::string> filesFound(size_t action) const;
+    /// Paths of the files that an action has read, or has looked for in vain, without being told of them. Of one that
+    /// failed those that it got to.
+    std::vector<std::string> filesLookedFor(size_t action) const;
 
     /// Have the outputs of an action that was taken from the cache as files; false where the cache has lost them.
     bool materialize(size_t action);

@@ -66,6 +66,14 @@ Result<clips::StatedError> statedError(const Arguments& arguments)
     return clips::parseStatedError(tools::joinedLines(arguments.settings), "--set");
 }
 
+Status finish(const Arguments& arguments, const clips::StatedError& stated_error, import::PartBuilder& part)
+{
+    import::compressClips(part, stated_error);
+    HEARTH_TRY(part.finish());
+    return arguments.statistics.empty() ? success()
+                                        : tools::writeText(arguments.statistics, part.report() + "\n");
+}
+
 Status run(const Arguments& arguments)
 {
     tools::ReadList reads;
@@ -77,12 +85,11 @@ Status run(const Arguments& arguments)
                             import::PartBuilder::create(arguments.output, arguments.source));
     const Status read = readAll(arguments, lods, reads, part);
     printWarnings(part);
-    HEARTH_TRY(read);
-    import::compressClips(part, stated_error);
-    HEARTH_TRY(part.finish());
-    if (!arguments.statistics.empty())
-        HEARTH_TRY(tools::writeText(arguments.statistics, part.report() + "\n"));
-    return arguments.depfile.empty() ? success() : tools::writeText(arguments.depfile, reads.text());
+    const Status finished = read.ok() ? finish(arguments, stated_error, part) : read;
+    // of a failure too: who mends it changes one of these
+    const Status listed =
+        arguments.depfile.empty() ? success() : tools::writeText(arguments.depfile, reads.text());
+    return finished.ok() ? listed : finished;
 }
 
 int program(int argc, char** argv)

@@ -96,6 +96,11 @@ pid_t Sandbox::start(const std::vector<std::string>& command, const std::vector<
     ::_exit(127);
 }
 
+std::string Sandbox::errSoFar() const
+{
+    return readFile(output_path_ + "/err");
+}
+
 ProgramEnd Sandbox::finish(pid_t process) const
 {
     int status = 0;

@@ -40,6 +40,8 @@ public:
 
     /// Start a program in this folder; its output goes to files outside of it.
     pid_t start(const std::vector<std::string>& command, const std::vector<std::string>& environment = {});
+    /// What it has written to stderr so far.
+    std::string errSoFar() const;
     /// Wait for what start() started.
     ProgramEnd finish(pid_t process) const;
     ProgramEnd run(const std::vector<std::string>& command, const std::vector<std::string>& environment = {})

@@ -1,0 +1,166 @@
+// hearth cook --watch, with the real cookers: every change of what a cook reads makes a cook, and nothing else does.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "pipelines/command/file_watch.h"
+#include "tests/command/sandbox.h"
+#include "tests/command/small_sources.h"
+
+#include <chrono>
+#include <csignal>
+#include <filesystem>
+#include <functional>
+#include <gtest/gtest.h>
+#include <thread>
+
+namespace hearth::test
+{
+
+namespace
+{
+
+namespace fs = std::filesystem;
+
+bool comes(const std::function<bool()>& condition)
+{
+    // long, for a busy machine; on success it takes as long as it takes
+    for (int i = 0; i < 3000; ++i, std::this_thread::sleep_for(std::chrono::milliseconds(20)))
+        if (condition())
+            return true;
+    return false;
+}
+
+class Watch : public ::testing::Test
+{
+protected:
+    Watch() { writeObj(folder, "house"); }
+    ~Watch() override
+    {
+        if (process > 0)
+            end(SIGKILL);
+    }
+
+    void start(std::vector<std::string> sources)
+    {
+        sources.insert(sources.begin(), {std::string(HEARTH_BIN) + "/hearth", "cook"});
+        sources.insert(sources.end(), {"-o", "a.hearth", "--watch"});
+        process = folder.start(sources);
+    }
+
+    ProgramEnd end(int signal)
+    {
+        ::kill(process, signal);
+        const ProgramEnd ended = folder.finish(process);
+        process = 0;
+        return ended;
+    }
+
+    size_t cooks() const { return countOf(folder.errSoFar(), "watching "); }
+    bool waitsAfter(size_t cooks_before)
+    {
+        return comes([&] { return cooks() == cooks_before + 1; });
+    }
+
+    Sandbox folder;
+    pid_t process = 0;
+};
+
+} // namespace
+
+TEST_F(Watch, cooksWhatHasChangedAndNothingElse)
+{
+    folder.write("tree.txt", "is not read");
+    start({"house.obj"});
+    ASSERT_TRUE(waitsAfter(0)) << folder.errSoFar();
+    const std::string first = folder.read("a.hearth");
+
+    folder.write("house.tga", tgaImage(7));
+    ASSERT_TRUE(waitsAfter(1)) << folder.errSoFar();
+    EXPECT_NE(folder.errSoFar().find("house.tga has changed"), std::string::npos) << folder.errSoFar();
+    const std::string second = folder.read("a.hearth");
+    EXPECT_NE(second, first);
+
+    // as editors save: another file takes the place
+    folder.write("house.tga.new", tgaImage(8));
+    fs::rename(folder / "house.tga.new", folder / "house.tga");
+    ASSERT_TRUE(waitsAfter(2)) << folder.errSoFar();
+    EXPECT_NE(folder.read("a.hearth"), second);
+
+    folder.write("tree.txt", "is still not read");
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));
+    EXPECT_EQ(cooks(), 3u) << folder.errSoFar();
+    EXPECT_EQ(end(SIGINT).exit_code, 130);
+}
+
+TEST_F(Watch, aFailureWaitsForItsMend)
+{
+    writeGltf(folder, "tree");
+    fs::remove(folder / "tree.bin");
+    start({"house.obj", "tree.gltf"});
+    ASSERT_TRUE(waitsAfter(0)) << folder.errSoFar();
+    EXPECT_EQ(countOf(folder.errSoFar(), ": error: "), 1u) << folder.errSoFar();
+    EXPECT_FALSE(folder.has("a.hearth"));
+    writeGltf(folder, "tree");
+    ASSERT_TRUE(comes([&] { return folder.has("a.hearth"); })) << folder.errSoFar();
+    const auto waits = [&] { return folder.errSoFar().ends_with("Ctrl-C ends\n"); };
+    ASSERT_TRUE(comes(waits)) << folder.errSoFar();
+    // an image that was looked for in vain
+    folder.write("tree.tga", tgaImage(7));
+    EXPECT_TRUE(comes([&] { return countOf(folder.errSoFar(), "tree.tga has changed") > 0; }))
+        << folder.errSoFar();
+    EXPECT_TRUE(comes(waits)) << folder.errSoFar();
+    EXPECT_EQ(end(SIGTERM).exit_code, 130);
+}
+
+TEST_F(Watch, aWrongCommandLineEnds)
+{
+    start({"house.obj", "house.obj", "--lod", "1=house.obj"});
+    EXPECT_EQ(folder.finish(process).exit_code, 2);
+    process = 0;
+}
+
+TEST(FileWatch, tellsOfFilesInFoldersThatComeLater)
+{
+    const Sandbox folder;
+    auto files = command::FileWatch::create();
+    ASSERT_TRUE(files.ok());
+    const std::string path = folder / "textures/wood/oak.tga";
+    ASSERT_TRUE(files->watch({path, path}, fs::file_time_type::clock::now()).ok());
+    EXPECT_EQ(files->size(), 1u);
+    fs::create_directories(folder / "textures/wood");
+    EXPECT_EQ(files->wait(), path);
+    ASSERT_TRUE(files->watch({path}, fs::file_time_type::clock::now()).ok());
+    folder.write("textures/wood/oak.tga", "oak");
+    EXPECT_EQ(files->wait(), path);
+    fs::remove_all(folder / "textures");
+    ASSERT_TRUE(files->watch({path}, fs::file_time_type::clock::now()).ok());
+    EXPECT_EQ(files->wait(), path);
+}
+
+TEST(FileWatch, looksAtTimesInNewFoldersOnly)
+{
+    const Sandbox folder;
+    folder.write("here.obj", "");
+    auto files = command::FileWatch::create();
+    ASSERT_TRUE(files.ok());
+    const auto long_ago = fs::file_time_type::min();
+    ASSERT_TRUE(files->watch({folder / "here.obj"}, long_ago).ok());
+    EXPECT_EQ(files->wait(), folder / "here.obj") << "written before anybody looked";
+    // a folder that was watched tells by itself
+    ASSERT_TRUE(files->watch({folder / "here.obj", folder / "later.obj"}, long_ago).ok());
+    folder.write("later.obj", "");
+    EXPECT_EQ(files->wait(), folder / "later.obj");
+}
+
+TEST(FileWatch, tellsOfFilesBehindLinks)
+{
+    const Sandbox folder;
+    fs::create_directory(folder / "store");
+    folder.write("store/oak.tga", "oak");
+    fs::create_symlink("store/oak.tga", folder / "oak.tga");
+    auto files = command::FileWatch::create();
+    ASSERT_TRUE(files.ok());
+    ASSERT_TRUE(files->watch({folder / "oak.tga"}, fs::file_time_type::clock::now()).ok());
+    folder.write("store/oak.tga", "another");
+    EXPECT_EQ(files->wait(), fs::canonical(folder / "store/oak.tga").string());
+}
+
+} // namespace hearth::test
