@@ -7,6 +7,8 @@
 #include "pipelines/command/cook_memory.h"
 #include "pipelines/command/dry_run.h"
 #include "pipelines/command/event_log.h"
+#include "pipelines/command/messages.h"
+#include "pipelines/command/progress.h"
 #include "pipelines/graph/causes.h"
 #include "pipelines/graph/executor.h"
 
@@ -36,16 +38,32 @@ constexpr int kSomeFailed = 1;
 
 void print(const std::string& line)
 {
-    std::fprintf(stderr, "%s\n", line.c_str());
+    tell(line);
+}
+
+bool isFatalWarning(const std::string& line, const CookOptions& options)
+{
+    if (!options.fatal_warnings || !graph::isWarning(line))
+        return false;
+    const std::vector<std::string>& codes = *options.fatal_warnings;
+    return codes.empty() || std::find(codes.begin(), codes.end(), partsOf(line).code) != codes.end();
 }
 
 /// Pass on a child's messages: errors always, the noise of libraries only when everything is asked for.
-void passOn(const std::vector<std::string>& lines, Verbosity verbosity)
+/// returns  how many warnings among them count as errors
+size_t passOn(const std::vector<std::string>& lines, const CookOptions& options)
 {
+    size_t fatal_count = 0;
     for (const std::string& line : lines)
-        if (graph::isError(line) || (graph::isWarning(line) && verbosity != Verbosity::quiet) ||
-            verbosity == Verbosity::all)
+    {
+        const bool is_fatal = isFatalWarning(line, options);
+        fatal_count += is_fatal ? 1 : 0;
+        if (graph::isError(line) || is_fatal ||
+            (graph::isWarning(line) && options.verbosity != Verbosity::quiet) ||
+            options.verbosity == Verbosity::all)
             print(line);
+    }
+    return fatal_count;
 }
 
 std::string joined(const std::vector<std::string>& words, const char* between)
@@ -62,12 +80,23 @@ void printStage(const graph::Action& action, const graph::ActionOutcome& outcome
                             readableSize(outcome.result.outputs.front().bytes), action.subject)));
 }
 
-/// log  null: none
-graph::ExecutorEvents eventsFor(const CookOptions& options, EventLog* log)
+/// What the events of a cook go to.
+struct Listeners
 {
+    EventLog* log = nullptr; ///< null: none
+    ProgressStyle style = ProgressStyle::plain;
+    ProgressBar bar;
+    size_t fatal_warnings = 0;
+};
+
+/// The listeners live as long as the events.
+graph::ExecutorEvents eventsFor(const CookOptions& options, Listeners& listeners)
+{
+    EventLog* const log = listeners.log;
     graph::ExecutorEvents events;
-    events.starting = [&options, log](const graph::Action& action, const graph::ActionOutcome& outcome,
-                                      const std::vector<std::string>& command)
+    events.starting = [&options, &listeners, log](const graph::Action& action,
+                                                  const graph::ActionOutcome& outcome,
+                                                  const std::vector<std::string>& command)
     {
         if (log != nullptr)
             log->start(action, outcome);
@@ -75,15 +104,19 @@ graph::ExecutorEvents eventsFor(const CookOptions& options, EventLog* log)
             print(fmt::format("{:<11}{}: {}", action.cooker, action.subject, joined(outcome.causes, "; ")));
         if (options.verbosity == Verbosity::all)
             print(faint(joined(command, " ")));
+        listeners.bar.started(action.cooker + " " + action.subject);
     };
-    events.ended = [&options, log](const graph::Action& action, const graph::ActionOutcome& outcome,
-                                   const std::vector<std::string>& messages)
+    events.ended = [&options, &listeners, log](const graph::Action& action,
+                                               const graph::ActionOutcome& outcome,
+                                               const std::vector<std::string>& messages)
     {
         if (log != nullptr)
             log->end(action, outcome);
-        passOn(messages, options.verbosity);
-        if (outcome.ending == Ending::cooked && options.verbosity != Verbosity::quiet)
+        listeners.fatal_warnings += passOn(messages, options);
+        if (outcome.ending == Ending::cooked && options.verbosity != Verbosity::quiet &&
+            listeners.style == ProgressStyle::plain)
             printStage(action, outcome);
+        listeners.bar.ended();
     };
     events.failed = [log](const Failure& failure)
     {
@@ -219,6 +252,16 @@ void fail(const Error& error, size_t source, CookOutcome& outcome)
     outcome.failed_sources = {source};
 }
 
+/// The results are kept, and warn again in the next cook; the pack does not appear.
+void failByWarnings(size_t count, const CookOptions& options, CookOutcome& outcome)
+{
+    outcome.exit_code = kSomeFailed;
+    outcome.error =
+        fmt::format("{}: error: not written, because warnings count as errors: {}", options.output, count);
+    outcome.failed_sources = {options.sources.size()};
+    print(outcome.error);
+}
+
 /// What failed, as the outcome: one exit code where all have the same.
 void takeFailures(const std::vector<Failure>& failures, CookOutcome& outcome)
 {
@@ -276,11 +319,15 @@ void cookGraph(const graph::Graph& graph, CookMemory* memory, const CookOptions&
     graph::Resolver resolver(
         graph, cache, actions, [&]() -> const std::optional<graph::Journal>& { return memory->journal(); },
         options.force);
+    const ProgressStyle style =
+        options.verbosity == Verbosity::quiet ? ProgressStyle::none : progressStyle(options.progress);
+    Listeners listeners{log, style, {style, graph.actions.size()}, 0};
     graph::Executor executor(
         graph, resolver, cache, actions,
         {options.jobs, memoryFor(options), !options.fail_fast, programFolder(), options.output},
-        eventsFor(options, log));
+        eventsFor(options, listeners));
     const bool interrupted = !executor.run(hash_there);
+    clearBar();
     std::string output_cause;
     if (interrupted)
     {
@@ -293,6 +340,8 @@ void cookGraph(const graph::Graph& graph, CookMemory* memory, const CookOptions&
         takeFailures(executor.failures(), outcome);
         printLeftOut(graph, executor, options);
     }
+    else if (listeners.fatal_warnings > 0)
+        failByWarnings(listeners.fatal_warnings, options, outcome);
     else if (placePack(executor, hash_there, options, outcome))
     {
         if (!options.report_file.empty())
