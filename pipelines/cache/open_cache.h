@@ -22,7 +22,8 @@ struct FolderSpec
 /// "dir:PATH[,ro][,size=20G]"; several, nearest first.
 ///
 /// options   of --cache; where there is none, HEARTH_CACHE counts, with ';' between them, or "off" for none; where that is
-///           not set either, $XDG_CACHE_HOME/hearth or ~/.cache/hearth
+///           not set either, $XDG_CACHE_HOME/hearth or ~/.cache/hearth. HEARTH_CACHE_MODE goes over all: "ro", none is
+///           written; "off", none is used
 /// errors    usage
 Result<std::vector<FolderSpec>> cacheSpecs(std::span<const std::string> options);
 
