@@ -23,7 +23,8 @@ struct LevelSpec
 /// "dir:PATH[,ro][,size=20G]" or "http(s)://HOST/PATH[,ro]"; several, nearest first.
 ///
 /// options   of --cache; where there is none, HEARTH_CACHE counts, with ';' between them, or "off" for none; where that is
-///           not set either, $XDG_CACHE_HOME/hearth or ~/.cache/hearth
+///           not set either, $XDG_CACHE_HOME/hearth or ~/.cache/hearth. HEARTH_CACHE_MODE goes over all: "ro", none is
+///           written; "off", none is used
 /// errors    usage
 Result<std::vector<LevelSpec>> cacheSpecs(std::span<const std::string> options);
 

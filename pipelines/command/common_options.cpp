@@ -2,6 +2,8 @@
 #include "pipelines/command/common_options.h"
 
 #include "pipelines/cache/folder_level.h"
+#include "pipelines/command/messages.h"
+#include "pipelines/command/terminal.h"
 
 #include <CLI/CLI.hpp>
 #include <sstream>
@@ -17,6 +19,8 @@ struct CommonOptions
 {
     std::string directory;
     std::string config_file;
+    std::string color = "auto";
+    std::string log_format = "text";
 };
 
 /// One process has one command line.
@@ -35,10 +39,21 @@ void addCommonOptions(CLI::App& app)
     app.add_option("--config", common().config_file,
                    "file of settings, instead of hearth.toml here or above; off: none")
         ->type_name("FILE");
+    app.add_option("--color", common().color,
+                   "of messages; auto: on a terminal, as NO_COLOR, CLICOLOR_FORCE and CI say")
+        ->check(CLI::IsMember({"auto", "always", "never"}).description(""))
+        ->type_name("auto|always|never");
+    app.add_option("--log-format", common().log_format, "of messages; json: an object a line")
+        ->check(CLI::IsMember({"text", "json"}).description(""))
+        ->type_name("text|json");
 }
 
 Status applyCommonOptions()
 {
+    if (common().color != "auto")
+        setColor(common().color == "always" ? ColorWish::always : ColorWish::never);
+    if (common().log_format == "json")
+        setMessageForm(MessageForm::json);
     const std::string& directory = common().directory;
     if (!directory.empty() && ::chdir(directory.c_str()) != 0)
         return Error{Issue::input_missing, directory, "", "is no folder that can be entered"};

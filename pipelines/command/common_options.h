@@ -1,4 +1,4 @@
-// Options of every verb: -C, --config, and how messages look.
+// Options of every verb: -C, --config, --color, --log-format.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 

@@ -11,6 +11,8 @@
 #include "pipelines/command/depfile.h"
 #include "pipelines/command/dry_run.h"
 #include "pipelines/command/event_log.h"
+#include "pipelines/command/messages.h"
+#include "pipelines/command/progress.h"
 #include "pipelines/graph/causes.h"
 #include "pipelines/graph/executor.h"
 #include "pipelines/report/write_report.h"
@@ -41,6 +43,31 @@ using CookOutcome = report::CookReport;
 
 // ---- messages
 
+bool isFatalWarning(const std::string& line, const CookOptions& options)
+{
+    if (!options.fatal_warnings || !graph::isWarning(line))
+        return false;
+    const std::vector<std::string>& codes = *options.fatal_warnings;
+    return codes.empty() || std::find(codes.begin(), codes.end(), partsOf(line).code) != codes.end();
+}
+
+/// Pass on a child's messages: errors always, the noise of libraries only when everything is asked for.
+/// returns  how many warnings among them count as errors
+size_t passOn(const std::vector<std::string>& lines, const CookOptions& options)
+{
+    size_t fatal_count = 0;
+    for (const std::string& line : lines)
+    {
+        const bool is_fatal = isFatalWarning(line, options);
+        fatal_count += is_fatal ? 1 : 0;
+        if (graph::isError(line) || is_fatal ||
+            (graph::isWarning(line) && options.verbosity != Verbosity::quiet) ||
+            options.verbosity == Verbosity::all)
+            print(line);
+    }
+    return fatal_count;
+}
+
 std::string joined(const std::vector<std::string>& words, const char* between)
 {
     std::string text;
@@ -49,13 +76,23 @@ std::string joined(const std::vector<std::string>& words, const char* between)
     return text;
 }
 
-/// log  null: none
-graph::ExecutorEvents eventsFor(const CookOptions& options, EventLog* log, CookRecorder& recorder)
+/// What the events of a cook go to.
+struct Listeners
 {
+    EventLog* log = nullptr; ///< null: none
+    ProgressStyle style = ProgressStyle::plain;
+    ProgressBar bar;
+    size_t fatal_warnings = 0;
+};
+
+/// The listeners live as long as the events.
+graph::ExecutorEvents eventsFor(const CookOptions& options, Listeners& listeners, CookRecorder& recorder)
+{
+    EventLog* const log = listeners.log;
     graph::ExecutorEvents events;
-    events.starting = [&options, log, &recorder](const graph::Action& action,
-                                                 const graph::ActionOutcome& outcome,
-                                                 const std::vector<std::string>& command)
+    events.starting = [&options, &listeners, log, &recorder](const graph::Action& action,
+                                                             const graph::ActionOutcome& outcome,
+                                                             const std::vector<std::string>& command)
     {
         recorder.starting(action);
         if (log != nullptr)
@@ -64,17 +101,20 @@ graph::ExecutorEvents eventsFor(const CookOptions& options, EventLog* log, CookR
             print(fmt::format("{:<11}{}: {}", action.cooker, action.subject, joined(outcome.causes, "; ")));
         if (options.verbosity == Verbosity::all)
             print(faint(joined(command, " ")));
+        listeners.bar.started(action.cooker + " " + action.subject);
     };
-    events.ended = [&options, log, &recorder](const graph::Action& action,
-                                              const graph::ActionOutcome& outcome,
-                                              const std::vector<std::string>& messages)
+    events.ended = [&options, &listeners, log, &recorder](const graph::Action& action,
+                                                          const graph::ActionOutcome& outcome,
+                                                          const std::vector<std::string>& messages)
     {
         recorder.ended(action, outcome);
         if (log != nullptr)
             log->end(action, outcome);
-        passOn(messages, options.verbosity);
-        if (outcome.ending == Ending::cooked && options.verbosity != Verbosity::quiet)
+        listeners.fatal_warnings += passOn(messages, options);
+        if (outcome.ending == Ending::cooked && options.verbosity != Verbosity::quiet &&
+            listeners.style == ProgressStyle::plain)
             printStage(action, outcome);
+        listeners.bar.ended();
     };
     events.failed = [log, &recorder](const Failure& failure)
     {
@@ -154,6 +194,15 @@ void fail(const Error& error, CookOutcome& outcome)
     outcome.error = formatMessage(error);
 }
 
+/// The results are kept, and warn again in the next cook; the pack does not appear.
+void failByWarnings(size_t count, const CookOptions& options, CookOutcome& outcome)
+{
+    outcome.exit_code = kSomeFailed;
+    outcome.error =
+        fmt::format("{}: error: not written, because warnings count as errors: {}", options.output, count);
+    print(outcome.error);
+}
+
 /// What failed, as the outcome: one exit code where all have the same.
 void takeFailures(const std::vector<Failure>& failures, CookOutcome& outcome)
 {
@@ -229,11 +278,15 @@ void cookGraph(const graph::Graph& graph, CookMemory* memory, const CookOptions&
     graph::Resolver resolver(
         graph, cache, actions, [&]() -> const std::optional<graph::Journal>& { return memory->journal(); },
         options.force);
+    const ProgressStyle style =
+        options.verbosity == Verbosity::quiet ? ProgressStyle::none : progressStyle(options.progress);
+    Listeners listeners{log, style, {style, graph.actions.size()}, 0};
     graph::Executor executor(graph, resolver, cache, actions,
                              {limitsOf(options.jobs, options.memory_bytes), !options.fail_fast,
                               options.lists_files, programFolder(), options.output},
-                             eventsFor(options, log, recorder));
+                             eventsFor(options, listeners, recorder));
     const bool interrupted = !executor.run(hash_there);
+    clearBar();
     if (options.lists_files)
         recorder.takeFiles(executor);
     std::string output_cause;
@@ -247,6 +300,8 @@ void cookGraph(const graph::Graph& graph, CookMemory* memory, const CookOptions&
         takeFailures(executor.failures(), outcome);
         printLeftOut(graph, executor, options);
     }
+    else if (listeners.fatal_warnings > 0)
+        failByWarnings(listeners.fatal_warnings, options, outcome);
     // before the pack: who finds a new pack finds what it is made of
     else if (writeDepfile(graph, executor, options, outcome) &&
              placePack(executor, hash_there, options, outcome))

@@ -6,6 +6,7 @@
 #include "pipelines/graph/cook_graph.h"
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,9 @@ struct CookOptions : graph::CookSettings
     bool dry_run = false;                ///< only say what would run
     std::string dry_run_format = "text"; ///< or "json": the plan
     Verbosity verbosity = Verbosity::normal;
+    std::string progress = "auto"; ///< see progressStyle
+    /// Warnings that count as errors, as "W1302"; nothing: none does, an empty list: all do.
+    std::optional<std::vector<std::string>> fatal_warnings;
     std::string depfile; ///< what was read, as depfileOf writes it; empty: none
     /// Written whatever the end: .html is the page, .xml JUnit's, .csv a table, all else JSON.
     std::vector<std::string> report_files;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/command/cook_tools.h"
+#include "pipelines/command/messages.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -11,7 +12,7 @@ namespace hearth::command
 
 void print(const std::string& line)
 {
-    std::fprintf(stderr, "%s\n", line.c_str());
+    tell(line);
 }
 
 int tell(const Error& error)

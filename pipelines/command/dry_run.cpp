@@ -3,6 +3,7 @@
 
 #include "cook/tools/whole_file.h"
 #include "pipelines/command/cook_memory.h"
+#include "pipelines/command/messages.h"
 #include "pipelines/graph/plan_json.h"
 
 #include <algorithm>
@@ -21,9 +22,7 @@ Result<std::string> dryRunText(const CookOptions& options)
         return graph::planJson(graph);
     HEARTH_ASSIGN_OR_RETURN(const auto memory,
                             CookMemory::open(options.caches, options.output, graph::workingFolder(),
-                                             [](const Error& warning) {
-                                                 std::fprintf(stderr, "%s\n", formatMessage(warning).c_str());
-                                             }));
+                                             [](const Error& warning) { tell(formatMessage(warning)); }));
     memory->expect(graph);
     const bool has_cache = !options.no_cache && !memory->cache().isEmpty();
     graph::Resolver resolver(
@@ -69,7 +68,7 @@ int dryRun(const CookOptions& options)
     const Status printed = text.ok() ? tools::writeText("-", *text) : Status(text.error());
     if (printed.ok())
         return 0;
-    std::fprintf(stderr, "%s\n", formatMessage(printed.error()).c_str());
+    tell(formatMessage(printed.error()));
     return exitCode(printed.error());
 }
 

@@ -40,7 +40,7 @@ Result<std::vector<std::string>> filesBelow(const fs::path& folder,
         if (is_hidden && entry->is_directory(ignored))
             entry.disable_recursion_pending();
         else if (!is_hidden && entry->is_regular_file(ignored) && takes(entry->path()))
-            files.push_back(entry->path().string());
+            files.push_back(entry->path().lexically_normal().string());
     }
     if (error)
         return Error{Issue::input_missing, folder.string(), "", error.message()};
@@ -59,12 +59,8 @@ Result<std::vector<std::string>> filesOfPattern(const std::string& pattern)
     const std::string in_folder = pattern.substr(folder.size());
     // paths of "." start with "./", those of "props/" with "props/"
     const size_t prefix = folder.empty() ? 2 : folder.size();
-    auto files = filesBelow(folder.empty() ? "." : folder, [&](const fs::path& path)
-                            { return profiles::matchesPath(in_folder, path.string().substr(prefix)); });
-    if (files.ok() && folder.empty())
-        for (std::string& file : *files)
-            file.erase(0, prefix);
-    return files;
+    return filesBelow(folder.empty() ? "." : folder, [&](const fs::path& path)
+                      { return profiles::matchesPath(in_folder, path.string().substr(prefix)); });
 }
 
 } // namespace

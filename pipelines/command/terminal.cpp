@@ -18,8 +18,16 @@ bool isSet(const char* name)
     return value != nullptr && *value != '\0' && std::string_view(value) != "0";
 }
 
+ColorWish& wish()
+{
+    static ColorWish wish = ColorWish::automatic;
+    return wish;
+}
+
 bool decideColor()
 {
+    if (wish() != ColorWish::automatic)
+        return wish() == ColorWish::always;
     if (isSet("NO_COLOR"))
         return false;
     if (isSet("CLICOLOR_FORCE"))
@@ -30,6 +38,11 @@ bool decideColor()
 }
 
 } // namespace
+
+void setColor(ColorWish chosen)
+{
+    wish() = chosen;
+}
 
 bool colorOnStderr()
 {

@@ -22,7 +22,17 @@ inline Verbosity verbosityOf(bool quiet, bool verbose)
     return quiet ? Verbosity::quiet : verbose ? Verbosity::all : Verbosity::normal;
 }
 
-/// Whether stderr is a terminal that wants colour: NO_COLOR, TERM=dumb and CI say no, CLICOLOR_FORCE says yes.
+enum class ColorWish
+{
+    automatic,
+    always,
+    never,
+};
+
+/// Of --color, which goes over the environment; before anything is printed.
+void setColor(ColorWish wish);
+
+/// Whether stderr is a terminal that wants colour: NO_COLOR, TERM=dumb and CI say no, CLICOLOR_FORCE says yes; --color over all.
 bool colorOnStderr();
 
 /// `text` faint, where stderr shows colours.

@@ -13,6 +13,24 @@ namespace hearth::command
 namespace
 {
 
+/// "W1302,W1303"; none of "all".
+std::vector<std::string> codesOf(const std::string& text)
+{
+    return text == "all" ? std::vector<std::string>() : CLI::detail::split(text, ',');
+}
+
+std::string codesFault(const std::string& text)
+{
+    std::vector<std::string> known;
+    for (const IssueInfo& info : allIssues())
+        if (info.kind == IssueClass::warning)
+            known.push_back("W" + std::to_string(static_cast<unsigned>(info.issue)));
+    for (const std::string& code : codesOf(text))
+        if (std::find(known.begin(), known.end(), code) == known.end())
+            return "'" + code + "' is no warning: they are " + CLI::detail::join(known, ", ");
+    return "";
+}
+
 /// The options with what the configuration adds.
 /// files    gets those of the configuration
 Result<CookOptions> configured(const CookOptions& options, const SettingOptions& settings,
@@ -48,6 +66,7 @@ void addCook(CLI::App& app, Work& run)
     {
         SettingOptions settings;
         bool watches = false;
+        std::string fatal;
         bool quiet = false;
         bool verbose = false;
     };
@@ -68,7 +87,18 @@ void addCook(CLI::App& app, Work& run)
         ->allow_extra_args(false);
     verb->add_option("--events", options->events_file,
                      "write what happens while it happens, a JSON object a line");
-    verb->add_flag("--fail-fast", options->fail_fast, "end at the first failure, not after all sources");
+    verb->add_option("--progress", options->progress,
+                     "what is shown meanwhile; auto: a bar on a terminal, else a line for each cooker")
+        ->check(CLI::IsMember({"auto", "bar", "plain", "none"}).description(""))
+        ->type_name("auto|bar|plain|none");
+    verb->add_flag("--warnings-as-errors{all}", options->fatal,
+                   "warnings keep the pack from being written; =W1302,W1303: these alone")
+        ->check(CLI::Validator(codesFault, ""));
+    auto* fail_fast =
+        verb->add_flag("--fail-fast", options->fail_fast, "end at the first failure, not after all sources");
+    verb->add_flag("-k,--keep-going")
+        ->description("cook the other sources after a failure: the default")
+        ->excludes(fail_fast);
     auto* no_cache = verb->add_flag("--no-cache", options->no_cache, "run every cooker and keep nothing");
     verb->add_flag("-f,--force", options->force, "run every cooker, whatever the cache has")
         ->excludes(no_cache);
@@ -95,6 +125,8 @@ void addCook(CLI::App& app, Work& run)
         [options, &run]
         {
             options->verbosity = verbosityOf(options->quiet, options->verbose);
+            if (!options->fatal.empty())
+                options->fatal_warnings = codesOf(options->fatal);
             run = [options]
             {
                 return options->watches ? watchConfigured(*options, options->settings)

@@ -3,6 +3,7 @@
 
 #include "formats/program.h"
 #include "pipelines/cache/open_cache.h"
+#include "pipelines/command/messages.h"
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
@@ -12,7 +13,7 @@ namespace hearth::command
 
 int fail(const Error& error)
 {
-    std::fprintf(stderr, "%s\n", formatMessage(error).c_str());
+    tell(formatMessage(error));
     return exitCode(error);
 }
 

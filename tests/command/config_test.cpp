@@ -167,6 +167,7 @@ TEST_F(Settings, sourcesMayBeFoldersAndPatterns)
     using Names = std::vector<std::string>;
     EXPECT_EQ(imported({"assets/"}), (Names{"assets/a.gltf", "assets/b/c.GLB"}));
     EXPECT_EQ(imported({"assets"}), (Names{"assets/a.gltf", "assets/b/c.GLB"}));
+    EXPECT_EQ(imported({"."}), (Names{"assets/a.gltf", "assets/b/c.GLB", "d.obj"}));
     EXPECT_EQ(imported({"d.obj", "assets"}), (Names{"d.obj", "assets/a.gltf", "assets/b/c.GLB"}));
     EXPECT_EQ(imported({"assets/**/*.png"}), (Names{"assets/b/wood.png"}));
     EXPECT_EQ(imported({"*.obj", "*/*.gltf"}), (Names{"d.obj", "assets/a.gltf"}));

@@ -10,6 +10,7 @@
 #include <csignal>
 #include <filesystem>
 #include <gtest/gtest.h>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <thread>
@@ -212,6 +213,59 @@ TEST_F(Cook, refusesAProfileThatIsWrong)
                   "HEARTH_JOBS: error:");
     expectFailure(cook({"a.gltf", "-o", "a.hearth", "--visibility-quality", "high"}), 2,
                   "--visibility-quality: error: needs --visibility, or visibility.enabled in the profile");
+}
+
+TEST_F(Cook, warningsMayCountAsErrors)
+{
+    const ProgramEnd fine = cook({"warning.gltf", "-o", "a.hearth", "--warnings-as-errors=W1302"});
+    EXPECT_EQ(fine.exit_code, 0) << fine.err;
+    std::filesystem::remove(folder / "a.hearth");
+    for (const char* flag : {"--warnings-as-errors", "--warnings-as-errors=W1302,W1400"})
+    {
+        const ProgramEnd end = cook({"warning.gltf", "-q", flag, "-o", "a.hearth"});
+        expectFailure(end, 1, "a.hearth: error: not written, because warnings count as errors: 1");
+        EXPECT_NE(end.err.find("warning.gltf|/extras: warning: left out [W1400]"), std::string::npos);
+    }
+    expectFailure(cook({"a.gltf", "-o", "a.hearth", "--warnings-as-errors=W1"}), 2, "'W1' is no warning");
+}
+
+TEST_F(Cook, messagesMayBeJson)
+{
+    const ProgramEnd end = cook(
+        {"malformed.gltf", "warning.gltf", "-o", "a.hearth", "--log-format", "json", "--progress", "none"});
+    EXPECT_EQ(end.exit_code, 65);
+    std::istringstream lines(end.err);
+    std::map<std::string, nlohmann::json> of_severity;
+    for (std::string line; std::getline(lines, line);)
+    {
+        const nlohmann::json message = nlohmann::json::parse(line, nullptr, false);
+        ASSERT_TRUE(message.is_object()) << line;
+        of_severity[message["severity"]] = message;
+    }
+    EXPECT_EQ(of_severity["error"]["code"], "E1101");
+    EXPECT_EQ(of_severity["error"]["file"], "malformed.gltf");
+    EXPECT_EQ(of_severity["error"]["where"], "/meshes/0");
+    EXPECT_EQ(of_severity["error"]["text"], "is bad");
+    EXPECT_EQ(of_severity["error"]["hint"], "mend it");
+    EXPECT_EQ(of_severity["warning"]["code"], "W1400");
+    EXPECT_EQ(of_severity["note"]["text"],
+              "a.hearth: not linked, because a dependency failed: 1 of 2 sources");
+}
+
+TEST_F(Cook, progressIsABarOrLinesOrNothing)
+{
+    const auto err = [&](const char* style) {
+        return cook({"a.gltf", "-o", "a.hearth", "--no-cache", "--progress", style}).err;
+    };
+    EXPECT_EQ(countOf(err("plain"), "import "), 1u);
+    EXPECT_EQ(countOf(err("auto"), "import "), 1u) << "no terminal";
+    EXPECT_EQ(countOf(err("none"), "import "), 0u);
+    const std::string bar = err("bar");
+    EXPECT_NE(bar.find("\r\033[K[                        ] 0/5  import a.gltf"), std::string::npos) << bar;
+    EXPECT_NE(bar.rfind("\r\033[Kcooked"), std::string::npos) << "taken away before the last line: " << bar;
+    EXPECT_NE(cook({"malformed.gltf", "-o", "b.hearth", "--color", "always"}, {"NO_COLOR=1", "TMPDIR="})
+                  .err.find("malformed.gltf|/meshes/0: \033[1;31merror:\033[0m is bad"),
+              std::string::npos);
 }
 
 TEST_F(Cook, severalSourcesMakeOnePack)

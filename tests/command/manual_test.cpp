@@ -229,6 +229,8 @@ TEST_F(Manual, doctorSaysWhatIsWrongAndWhatToDo)
     EXPECT_NE(cache.out.find("/proc/cache cannot be written"), std::string::npos) << cache.out;
     const ProgramEnd mode = hearth({"doctor"}, {"HEARTH_CACHE_MODE=wr"});
     EXPECT_NE(mode.out.find("must be rw, ro or off"), std::string::npos) << mode.out;
+    const ProgramEnd reading = hearth({"doctor"}, {"HEARTH_CACHE_MODE=ro"});
+    EXPECT_NE(reading.out.find(folder.cachePath() + " is not there"), std::string::npos) << reading.out;
     const ProgramEnd off = hearth({"doctor"}, {"HEARTH_CACHE_MODE=off"});
     EXPECT_NE(off.out.find("warning  cache    no cache is used"), std::string::npos) << off.out;
 }
