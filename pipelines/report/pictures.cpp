@@ -26,8 +26,10 @@ using Clock = std::chrono::steady_clock;
 // Of a process, whose start and upload of the scene take seconds: few enough that the limit of time is kept.
 constexpr size_t kMeshesOfRun = 12;
 
-// Scenes larger than this are streamed, so that a report of them needs no more memory than their cook did.
-constexpr const char* kGeometryBudget = "512M";
+// Packs larger than this are streamed, so that their report needs no more memory than their cook did. Pictures do not wait for
+// all pages then, and may be coarser than they would be.
+constexpr uint64_t kLargePack = uint64_t{1} << 30;
+constexpr const char* kGeometryBudget = "1G";
 
 std::optional<std::string> takeFile(const std::string& path)
 {
@@ -67,10 +69,11 @@ public:
                                          "4",
                                          "--gi",
                                          "off",
-                                         "--budget",
-                                         kGeometryBudget,
                                          "--views",
                                          fmt::format("{}", fmt::join(views, ","))};
+        std::error_code error;
+        if (std::filesystem::file_size(pack_, error) > kLargePack)
+            command.insert(command.end(), {"--budget", kGeometryBudget});
         if (!meshes.empty())
             command.insert(command.end(), {"--meshes", fmt::format("{}", fmt::join(meshes, ","))});
         if (!run(command))

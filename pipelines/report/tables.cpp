@@ -91,7 +91,7 @@ std::string junitXml(const std::string& report_text)
     {
         const std::string source = asset.at("source");
         std::string content = failuresXml(failures, source);
-        failed += content.empty() ? 0 : 1;
+        failed += content.empty() ? size_t{0} : size_t{1};
         if (content.empty() && asset.at("state") == "not cooked")
         {
             content = "    <skipped/>\n";
@@ -104,7 +104,7 @@ std::string junitXml(const std::string& report_text)
     std::string content = failuresXml(failures, output);
     if (content.empty() && report.at("exit") != 0)
         content = "    <failure type=\"dependency\" message=\"not made: a source could not be cooked\"/>\n";
-    failed += content.empty() ? 0 : 1;
+    failed += content.empty() ? size_t{0} : size_t{1};
     cases += caseXml(output, report.at("totals").value("wall_s", 0.0), content);
     return fmt::format(
         "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
@@ -127,7 +127,7 @@ std::string assetTable(const std::string& report_text)
         std::string error;
         for (const Json& message : asset.value("messages", Json::array()))
         {
-            warnings += message.value("severity", "") == "warning" ? 1 : 0;
+            warnings += message.value("severity", "") == "warning" ? size_t{1} : size_t{0};
             if (error.empty() && message.value("severity", "") == "error")
                 error = textOf(message);
         }

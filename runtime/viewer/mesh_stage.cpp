@@ -67,19 +67,21 @@ Result<std::vector<gpu::InstanceMove>> MeshStage::show(const gpu::Scene& scene, 
     return moves;
 }
 
-std::span<const gpu::InstancePose> MeshStage::poses(std::span<const gpu::InstancePose> all, size_t number)
+std::span<const gpu::InstancePose> MeshStage::poses(const pack::PosePlayer& player, size_t number)
 {
-    poses_.assign(all.begin(), all.end());
-    palettes_.resize(poses_.size());
-    for (size_t i = 0; i < poses_.size(); ++i)
+    poses_.clear();
+    palettes_.resize(player.posed().size());
+    for (const pack::PosedInstance& posed : player.posed())
     {
-        if (poses_[i].instance == instance_of_mesh_[number])
-            continue;
-        palettes_[i].assign(poses_[i].world_from_bind.begin(), poses_[i].world_from_bind.end());
-        for (Affine3d& joint : palettes_[i])
-            joint.m[1][3] += double{kAway};
-        poses_[i].world_from_bind = palettes_[i];
-        poses_[i].free = true; // no clip goes there
+        const bool goes_away = posed.instance != instance_of_mesh_[number];
+        std::vector<Affine3d>& palette = palettes_[poses_.size()];
+        palette.assign(posed.world_from_bind.begin(), posed.world_from_bind.end());
+        for (Affine3d& joint : palette)
+            joint.m[1][3] += goes_away ? double{kAway} : 0;
+        poses_.push_back({.instance = posed.instance,
+                          .world_from_bind = palette,
+                          .morph_weights = posed.morph_weights,
+                          .free = goes_away}); // no clip goes there
     }
     return poses_;
 }

@@ -29,7 +29,7 @@ public:
     Result<std::vector<gpu::InstanceMove>> show(const gpu::Scene& scene, size_t number);
 
     /// The poses of deformed instances, with all but those of that mesh out of the way. Valid until the next call.
-    std::span<const gpu::InstancePose> poses(std::span<const gpu::InstancePose> all, size_t number);
+    std::span<const gpu::InstancePose> poses(const pack::PosePlayer& player, size_t number);
 
 private:
     std::vector<uint32_t> instance_of_mesh_; ///< of the list

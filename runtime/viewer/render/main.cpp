@@ -151,7 +151,7 @@ public:
         {
             HEARTH_ASSIGN_OR_RETURN(alone, stage_->show(scene_, number));
             frame.moves = alone;
-            frame.poses = stage_->poses(animation_.poses(), number);
+            frame.poses = stage_->poses(animation_.player(), number);
         }
         beginFrame();
         if (options_.pyramid == PyramidStart::none)
