@@ -162,19 +162,20 @@ Result<size_t> ChildProcesses::start(const std::vector<std::string>& command, bo
     return children_.back().id;
 }
 
-ChildProcesses::Child& ChildProcesses::child(size_t id)
+/// null where its end is known, and perhaps not yet told
+ChildProcesses::Child* ChildProcesses::find(size_t id)
 {
     const auto found =
         std::find_if(children_.begin(), children_.end(), [&](const Child& child) { return child.id == id; });
-    HEARTH_ASSERT(found != children_.end());
-    return *found;
+    return found == children_.end() ? nullptr : &*found;
 }
 
 void ChildProcesses::give(size_t id, std::string_view line)
 {
-    while (!line.empty())
+    Child* child = find(id);
+    while (child != nullptr && !line.empty())
     {
-        const ssize_t sent = ::send(child(id).work_socket, line.data(), line.size(), MSG_NOSIGNAL);
+        const ssize_t sent = ::send(child->work_socket, line.data(), line.size(), MSG_NOSIGNAL);
         if (sent < 0 && errno == EINTR)
             continue;
         if (sent < 0)
@@ -185,7 +186,8 @@ void ChildProcesses::give(size_t id, std::string_view line)
 
 void ChildProcesses::close(size_t id)
 {
-    closeFile(child(id).work_socket);
+    if (Child* child = find(id))
+        closeFile(child->work_socket);
 }
 
 /// What a report says becomes an end; what is none was a message.

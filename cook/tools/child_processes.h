@@ -77,7 +77,7 @@ private:
     };
 
     Result<size_t> start(const std::vector<std::string>& command, bool is_batch);
-    Child& child(size_t id);
+    Child* find(size_t id);
     void reap();
     void drain(Child& child);
     void take(Child& child, std::string_view text);

@@ -24,6 +24,8 @@ Failure crashed(const Action& action, const tools::ChildEnd& end, const std::vec
     std::string how = "hearth-" + action.cooker;
     if (end.signal == SIGKILL)
         how += " was killed: perhaps the memory is full";
+    else if (end.signal == SIGBUS)
+        how += " lost a file that it was reading: it was cut short meanwhile, or its disk has failed";
     else if (end.signal != 0)
         how += fmt::format(" was ended by signal {} ({})", end.signal, ::strsignal(end.signal));
     else

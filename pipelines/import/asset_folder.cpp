@@ -6,7 +6,6 @@
 #include <climits>
 #include <cstdlib>
 #include <cstring>
-#include <fcntl.h>
 #include <memory>
 #include <optional>
 #include <sys/stat.h>
@@ -17,19 +16,6 @@ namespace hearth::import
 
 namespace
 {
-
-struct FileDescriptor
-{
-    int number;
-    explicit FileDescriptor(int opened) : number(opened) {}
-    FileDescriptor(const FileDescriptor&) = delete;
-    FileDescriptor& operator=(const FileDescriptor&) = delete;
-    ~FileDescriptor()
-    {
-        if (number >= 0)
-            ::close(number);
-    }
-};
 
 std::optional<std::string> resolved(const std::string& path)
 {
@@ -58,37 +44,13 @@ bool climbs(std::string_view path)
 
 } // namespace
 
-Result<std::vector<std::byte>> readFile(const std::string& path, uint64_t max_bytes)
+void noteRead(tools::ReadList& reads, const std::string& path, const FileBytes& file)
 {
-    const auto failure = [&](Issue issue, std::string detail) {
-        return Error{issue, path, "", std::move(detail)};
-    };
-    // without O_NONBLOCK the open of a pipe waits for a writer
-    const FileDescriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY));
-    if (file.number < 0)
-        return failure(Issue::input_missing, std::strerror(errno));
-    struct stat info = {};
-    if (::fstat(file.number, &info) != 0)
-        return failure(Issue::read_failed, std::strerror(errno));
-    if (!S_ISREG(info.st_mode))
-        return failure(Issue::input_missing, "not a regular file");
-    if (static_cast<uint64_t>(info.st_size) > max_bytes)
-        return failure(Issue::input_too_large, std::to_string(info.st_size) + " bytes");
-
-    std::vector<std::byte> bytes(static_cast<size_t>(info.st_size));
-    size_t filled = 0;
-    while (filled < bytes.size())
-    {
-        const ssize_t count = ::read(file.number, bytes.data() + filled, bytes.size() - filled);
-        if (count < 0 && errno == EINTR)
-            continue;
-        if (count < 0)
-            return failure(Issue::read_failed, std::strerror(errno));
-        if (count == 0)
-            return failure(Issue::read_failed, "the file shrank while it was read");
-        filled += static_cast<size_t>(count);
-    }
-    return bytes;
+    // what is mapped is read anew, a piece at a time; unchanged() says whether it was the same
+    if (file.isMapping())
+        reads.addFile(path);
+    else
+        reads.add(path, file.bytes());
 }
 
 AssetFolder::AssetFolder(const std::string& asset_path, tools::ReadList* reads) : reads_(reads)
@@ -127,19 +89,19 @@ Result<std::string> AssetFolder::locate(std::string_view relative_path) const
     return *real;
 }
 
-Result<std::vector<std::byte>> AssetFolder::read(std::string_view relative_path, uint64_t max_bytes) const
+Result<FileBytes> AssetFolder::read(std::string_view relative_path, uint64_t max_bytes) const
 {
-    const auto readThere = [&]() -> Result<std::vector<std::byte>>
+    const auto readThere = [&]() -> Result<FileBytes>
     {
         HEARTH_ASSIGN_OR_RETURN(const std::string path, locate(relative_path));
-        return readFile(path, max_bytes);
+        return FileBytes::read(path, max_bytes);
     };
-    Result<std::vector<std::byte>> bytes = readThere();
-    if (reads_ != nullptr && bytes.ok())
-        reads_->add(folder_ + std::string(relative_path), *bytes);
+    Result<FileBytes> file = readThere();
+    if (reads_ != nullptr && file.ok())
+        noteRead(*reads_, folder_ + std::string(relative_path), *file);
     else if (reads_ != nullptr)
         reads_->addAbsent(folder_ + std::string(relative_path));
-    return bytes;
+    return file;
 }
 
 } // namespace hearth::import

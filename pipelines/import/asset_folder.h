@@ -4,6 +4,7 @@
 
 #include "cook/tools/read_list.h"
 #include "formats/result.h"
+#include "pipelines/import/file_bytes.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -14,9 +15,8 @@
 namespace hearth::import
 {
 
-/// The bytes of a regular file of at most `max_bytes`; devices, pipes and folders are refused without being read.
-/// errors: input_missing, input_too_large, read_failed.
-Result<std::vector<std::byte>> readFile(const std::string& path, uint64_t max_bytes);
+/// Note what was read under that path.
+void noteRead(tools::ReadList& reads, const std::string& path, const FileBytes& file);
 
 class AssetFolder
 {
@@ -30,8 +30,8 @@ public:
     /// leads out), input_missing (nothing there, or not a regular file).
     Result<std::string> locate(std::string_view relative_path) const;
 
-    /// The content of the file there. errors: those of locate and readFile.
-    Result<std::vector<std::byte>> read(std::string_view relative_path, uint64_t max_bytes) const;
+    /// The content of the file there. errors: those of locate and FileBytes::read.
+    Result<FileBytes> read(std::string_view relative_path, uint64_t max_bytes) const;
 
 private:
     std::string folder_; ///< resolved, ends with '/'

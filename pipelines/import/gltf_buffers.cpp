@@ -35,10 +35,9 @@ std::vector<bool> findNeeded(const GltfModel& model)
     return needed;
 }
 
-Result<std::vector<std::byte>> readBufferUri(const std::string& uri, const std::string& where,
-                                             const GltfContext& context)
+Result<FileBytes> readBufferUri(const std::string& uri, const std::string& where, const GltfContext& context)
 {
-    Result<std::vector<std::byte>> bytes = readUri(uri, where + "/uri", context);
+    Result<FileBytes> bytes = readUri(uri, where + "/uri", context);
     if (!bytes.ok() && bytes.error().issue == Issue::input_missing)
         return context.error(Issue::buffer_missing, where + "/uri", bytes.error().detail);
     return bytes;
@@ -46,32 +45,31 @@ Result<std::vector<std::byte>> readBufferUri(const std::string& uri, const std::
 
 } // namespace
 
-Result<std::vector<std::byte>> readUri(const std::string& uri, const std::string& where,
-                                       const GltfContext& context)
+Result<FileBytes> readUri(const std::string& uri, const std::string& where, const GltfContext& context)
 {
     if (isDataUri(uri))
     {
         std::optional<std::vector<std::byte>> bytes = decodeDataUri(uri);
         if (bytes)
-            return std::move(*bytes);
+            return FileBytes(std::move(*bytes));
         return context.error(Issue::uri_malformed, where, "the data URI is not valid base64");
     }
     const std::optional<std::string> path = percentDecoded(uri);
     if (!path)
         return context.error(Issue::uri_malformed, where,
                              fmt::format("\"{}\" has a '%' without two digits", shortened(uri)));
-    Result<std::vector<std::byte>> bytes = context.folder.read(*path, context.options.limits.max_file_bytes);
-    if (!bytes.ok())
-        return context.error(bytes.error().issue, where,
-                             fmt::format("\"{}\": {}", shortened(uri), bytes.error().detail));
-    context.part.addSource(*path, *bytes);
-    return bytes;
+    Result<FileBytes> file = context.folder.read(*path, context.options.limits.max_file_bytes);
+    if (!file.ok())
+        return context.error(file.error().issue, where,
+                             fmt::format("\"{}\": {}", shortened(uri), file.error().detail));
+    context.part.addSource(*path, file->bytes().size(), file->hash());
+    return file;
 }
 
-Result<GltfBuffers> GltfBuffers::load(const GltfModel& model, const GltfContainer& container,
-                                      const GltfContext& context)
+Result<GltfBuffers> GltfBuffers::load(const GltfModel& model, const FileBytes& source,
+                                      const GltfContainer& container, const GltfContext& context)
 {
-    GltfBuffers result;
+    GltfBuffers result(source);
     const std::vector<bool> needed = findNeeded(model);
     std::vector<Bytes> buffers(model.buffers.size());
     for (size_t i = 0; i < buffers.size(); ++i)
@@ -82,9 +80,9 @@ Result<GltfBuffers> GltfBuffers::load(const GltfModel& model, const GltfContaine
             continue;
         if (buffer.uri)
         {
-            HEARTH_ASSIGN_OR_RETURN(std::vector<std::byte> bytes, readBufferUri(*buffer.uri, where, context));
+            HEARTH_ASSIGN_OR_RETURN(FileBytes bytes, readBufferUri(*buffer.uri, where, context));
             result.owned_.push_back(std::move(bytes));
-            buffers[i] = result.owned_.back();
+            buffers[i] = result.owned_.back().bytes();
         }
         else if (i == 0 && container.binary)
             buffers[i] = *container.binary;
@@ -113,8 +111,8 @@ Result<GltfBuffers> GltfBuffers::load(const GltfModel& model, const GltfContaine
                 return context.error(Issue::gltf_bounds, where,
                                      fmt::format("{} bytes were compressed, but byteLength is {}",
                                                  decoded.size(), view.byte_length));
-            result.owned_.push_back(std::move(decoded));
-            bytes = Bytes(result.owned_.back()).first(view.byte_length);
+            result.owned_.emplace_back(std::move(decoded));
+            bytes = result.owned_.back().bytes().first(view.byte_length);
         }
         else
         {
@@ -125,6 +123,20 @@ Result<GltfBuffers> GltfBuffers::load(const GltfModel& model, const GltfContaine
         result.views_.push_back(bytes);
     }
     return result;
+}
+
+void GltfBuffers::forget() const
+{
+    source_->forget();
+    for (const FileBytes& file : owned_)
+        file.forget();
+}
+
+Status GltfBuffers::unchanged() const
+{
+    for (const FileBytes& file : owned_)
+        HEARTH_TRY(file.unchanged());
+    return success();
 }
 
 } // namespace hearth::import

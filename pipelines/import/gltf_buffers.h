@@ -26,21 +26,30 @@ struct GltfContext
 
 /// The bytes that a URI stands for: those of a data URI, or of a file in the asset's folder, which is noted as a
 /// source. errors: uri_malformed, uri_outside, input_missing, input_too_large, read_failed.
-Result<std::vector<std::byte>> readUri(const std::string& uri, const std::string& where,
-                                       const GltfContext& context);
+Result<FileBytes> readUri(const std::string& uri, const std::string& where, const GltfContext& context);
 
 /// Owns the buffers and the decompressed views. All views are decompressed when it is made, used or not.
 class GltfBuffers
 {
 public:
     /// errors: those of readUri, buffer_missing, buffer_short, codec_failed, gltf_bounds.
-    static Result<GltfBuffers> load(const GltfModel& model, const GltfContainer& container,
-                                    const GltfContext& context);
+    /// source  that the container lies in; it outlives this
+    static Result<GltfBuffers> load(const GltfModel& model, const FileBytes& source,
+                                    const GltfContainer& container, const GltfContext& context);
 
     std::span<const std::byte> view(uint32_t index) const { return views_[index]; }
 
+    /// Whatever lies in mapped files leaves the memory until it is looked at again.
+    void forget() const;
+
+    /// errors: read_failed where a file of the buffers has changed since.
+    Status unchanged() const;
+
 private:
-    std::vector<std::vector<std::byte>> owned_;
+    explicit GltfBuffers(const FileBytes& source) : source_(&source) {}
+
+    const FileBytes* source_;
+    std::vector<FileBytes> owned_;
     std::vector<std::span<const std::byte>> views_;
 };
 

@@ -60,8 +60,8 @@ Result<DecodedImage> GltfImages::read(uint32_t image, const std::string& where)
     const GltfImage& source = model_.images[image];
     if (source.uri)
     {
-        HEARTH_ASSIGN_OR_RETURN(const std::vector<std::byte> bytes, readUri(*source.uri, where, context_));
-        return decodeImage(bytes, nameOf(image), context_.options.limits);
+        HEARTH_ASSIGN_OR_RETURN(const FileBytes file, readUri(*source.uri, where, context_));
+        return decodeImage(file.bytes(), nameOf(image), context_.options.limits);
     }
     if (source.buffer_view == kNone)
         return context_.error(Issue::input_missing, where, "the image has neither a URI nor a buffer view");

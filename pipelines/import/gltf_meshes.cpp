@@ -43,6 +43,8 @@ void keepEmptyTargets(mesh::SourceMesh& mesh)
 Result<mesh::SourceMesh> GltfMeshReader::read(uint32_t mesh_index)
 {
     const GltfMesh& mesh = model_.meshes[mesh_index];
+    // of the mesh before
+    buffers_.forget();
     piece_of_key_.clear();
     pieces_.clear();
     for (size_t i = 0; i < mesh.primitives.size(); ++i)

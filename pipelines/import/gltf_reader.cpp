@@ -30,15 +30,15 @@ uint64_t sourceVertexCount(const GltfModel& model)
 
 } // namespace
 
-Status importGltf(const std::string& path, std::span<const std::byte> bytes, const ImportOptions& options,
+Status importGltf(const std::string& path, const FileBytes& file, const ImportOptions& options,
                   PartBuilder& part)
 {
     const AssetFolder folder(path, options.reads);
     const GltfContext context{path, folder, options, part};
-    HEARTH_ASSIGN_OR_RETURN(const GltfContainer container, splitGltf(bytes, path));
+    HEARTH_ASSIGN_OR_RETURN(const GltfContainer container, splitGltf(file.bytes(), path));
     HEARTH_ASSIGN_OR_RETURN(const JsonDocument document, JsonDocument::parse(container.json, path));
     HEARTH_ASSIGN_OR_RETURN(const GltfModel model, readGltfModel(document, path, part));
-    HEARTH_ASSIGN_OR_RETURN(const GltfBuffers buffers, GltfBuffers::load(model, container, context));
+    HEARTH_ASSIGN_OR_RETURN(const GltfBuffers buffers, GltfBuffers::load(model, file, container, context));
 
     GltfTally tally;
     GltfAccessors accessors(model, buffers, context);
@@ -54,7 +54,7 @@ Status importGltf(const std::string& path, std::span<const std::byte> bytes, con
     HEARTH_TRY(writeAnimations(model, accessors, context, tally));
     HEARTH_TRY(writeScene(model, uses, summaries, lods.hidden, accessors, context, tally));
     tally.report(part);
-    return success();
+    return buffers.unchanged();
 }
 
 } // namespace hearth::import

@@ -91,15 +91,16 @@ private:
         std::replace(name.begin(), name.end(), '\\', '/');
         if (std::find(libraries_read_.begin(), libraries_read_.end(), name) != libraries_read_.end())
             return true;
-        const auto bytes = folder_.read(name, options_.limits.max_file_bytes);
-        if (!bytes)
+        const auto file = folder_.read(name, options_.limits.max_file_bytes);
+        if (!file)
         {
-            failure_ = bytes.error().detail;
+            failure_ = file.error().detail;
             return false;
         }
         libraries_read_.push_back(name);
-        part_.addSource(name, *bytes);
-        readMtl({reinterpret_cast<const char*>(bytes->data()), bytes->size()}, name, library_);
+        const std::span<const std::byte> bytes = file->bytes();
+        part_.addSource(name, bytes);
+        readMtl({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, name, library_);
         return true;
     }
 
@@ -222,12 +223,11 @@ private:
         std::memcpy(ref.uv_transform, transform, sizeof(transform));
     }
 
-    Result<DecodedImage> read(const std::string& file)
+    Result<DecodedImage> read(const std::string& name)
     {
-        HEARTH_ASSIGN_OR_RETURN(const std::vector<std::byte> bytes,
-                                folder_.read(file, options_.limits.max_file_bytes));
-        part_.addSource(file, bytes);
-        return decodeImage(bytes, file, options_.limits);
+        HEARTH_ASSIGN_OR_RETURN(const FileBytes file, folder_.read(name, options_.limits.max_file_bytes));
+        part_.addSource(name, file.bytes());
+        return decodeImage(file.bytes(), name, options_.limits);
     }
 
     /// The image, or the placeholder with a warning.

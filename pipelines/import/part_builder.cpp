@@ -161,7 +161,12 @@ void PartBuilder::warn(Issue issue, std::string where, std::string detail)
 
 void PartBuilder::addSource(std::string name, std::span<const std::byte> content)
 {
-    sources_.push_back({std::move(name), content.size(), hashBytes(content)});
+    addSource(std::move(name), content.size(), hashBytes(content));
+}
+
+void PartBuilder::addSource(std::string name, uint64_t size, uint64_t hash)
+{
+    sources_.push_back({std::move(name), size, hash});
 }
 
 void PartBuilder::adoptReport(const PartBuilder& other)

@@ -71,6 +71,8 @@ public:
 
     /// A source file that was read: name relative to the asset's folder, and its content for the hash.
     void addSource(std::string name, std::span<const std::byte> content);
+    /// The same where the content is not in memory at once; hash of formats::hashBytes.
+    void addSource(std::string name, uint64_t size, uint64_t hash);
 
     Status finish();
 

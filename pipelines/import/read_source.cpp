@@ -32,16 +32,18 @@ bool looksLikeGltf(const std::string& path, std::span<const std::byte> bytes)
 
 Status readSource(const std::string& path, const ImportOptions& options, PartBuilder& part)
 {
-    HEARTH_ASSIGN_OR_RETURN(const std::vector<std::byte> bytes,
-                            readFile(path, options.limits.max_file_bytes));
+    HEARTH_ASSIGN_OR_RETURN(const FileBytes file, FileBytes::read(path, options.limits.max_file_bytes));
     if (options.reads != nullptr)
-        options.reads->add(path, bytes);
-    part.addSource(path.substr(path.rfind('/') + 1), bytes);
+        noteRead(*options.reads, path, file);
+    part.addSource(path.substr(path.rfind('/') + 1), file.bytes().size(), file.hash());
+    const std::span<const std::byte> bytes = file.bytes();
     if (looksLikeGltf(path, bytes))
-        return importGltf(path, bytes, options, part);
-    if (looksLikeImage(path, bytes))
-        return importImage(path, bytes, options, part);
-    return importScan(path, bytes, options, part);
+        HEARTH_TRY(importGltf(path, file, options, part));
+    else if (looksLikeImage(path, bytes))
+        HEARTH_TRY(importImage(path, bytes, options, part));
+    else
+        HEARTH_TRY(importScan(path, bytes, options, part));
+    return file.unchanged();
 }
 
 } // namespace hearth::import

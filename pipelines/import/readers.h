@@ -4,6 +4,7 @@
 #pragma once
 
 #include "cook/tools/read_list.h"
+#include "pipelines/import/file_bytes.h"
 #include "pipelines/import/part_builder.h"
 
 #include <span>
@@ -31,7 +32,7 @@ struct ImportOptions
 };
 
 /// glTF 2.0 and GLB, with what they refer to in the same folder or below.
-Status importGltf(const std::string& path, std::span<const std::byte> bytes, const ImportOptions& options,
+Status importGltf(const std::string& path, const FileBytes& file, const ImportOptions& options,
                   PartBuilder& part);
 
 /// OBJ (+ MTL), PLY, STL, OFF, and bare Draco (.drc): one mesh, one node, one instance.

@@ -69,7 +69,8 @@ Imported importBytes(std::string_view bytes, const TemporaryFolder* folder, cons
     const TemporaryFolder none;
     const std::string path = (folder != nullptr ? *folder : none).path(name);
     std::ofstream(path, std::ios::binary) << bytes;
-    result.status = importGltf(path, std::as_bytes(std::span(bytes)), options, *part);
+    const auto content = std::as_bytes(std::span(bytes));
+    result.status = importGltf(path, FileBytes({content.begin(), content.end()}), options, *part);
     result.warnings = part->warnings();
     result.counts = part->counts;
     if (!result.ok())

@@ -180,12 +180,12 @@ TEST(ReadFile, refusesWhatIsNotARegularFile)
     for (const std::string& path :
          {folder.path("pipe"), folder.path(""), folder.path("absent"), std::string("/dev/zero")})
     {
-        const auto result = readFile(path, 100);
+        const auto result = FileBytes::read(path, 100);
         ASSERT_FALSE(result.ok()) << path;
         EXPECT_EQ(result.error().issue, Issue::input_missing) << path;
     }
-    EXPECT_EQ(readFile(folder.path("file"), 3).error().issue, Issue::input_too_large);
-    EXPECT_EQ(readFile(folder.path("file"), 4)->size(), 4u);
+    EXPECT_EQ(FileBytes::read(folder.path("file"), 3).error().issue, Issue::input_too_large);
+    EXPECT_EQ(FileBytes::read(folder.path("file"), 4)->bytes().size(), 4u);
 }
 
 } // namespace

@@ -162,6 +162,23 @@ TEST(ChildProcesses, tellWhereABatchDies)
     EXPECT_EQ(children.running(), 0u);
 }
 
+TEST(ChildProcesses, giveNothingToTheDead)
+{
+    const BatchScript script("kill -KILL $$");
+    ChildProcesses children;
+    const size_t batches[] = {children.startBatch("./" + script.path).value(),
+                              children.startBatch("./" + script.path).value()};
+    for (const size_t batch : batches)
+        children.give(batch, "bad\n");
+    // both are dead when the end of one is told
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));
+    ASSERT_EQ(children.wait()->id, batches[0]);
+    children.give(batches[1], "late\n");
+    children.close(batches[1]);
+    EXPECT_EQ(children.wait()->signal, SIGKILL);
+    EXPECT_EQ(children.running(), 0u);
+}
+
 TEST(ChildProcesses, takeNoiseForMessages)
 {
     // the separator of an end, but no end behind it; and more than is kept
