@@ -8,10 +8,17 @@ namespace hearth
 [[noreturn]] void assertionFailed(const char* condition, const char* file, int line);
 } // namespace hearth
 
+// Without folders: no path of the machine that built it is in a program that is given away.
+#ifdef __FILE_NAME__
+#define HEARTH_FILE_NAME __FILE_NAME__
+#else
+#define HEARTH_FILE_NAME __FILE__
+#endif
+
 /// A broken contract is a defect of the caller; always checked, in every build.
 #define HEARTH_ASSERT(condition)                                                                             \
     (static_cast<bool>(condition) ? static_cast<void>(0)                                                     \
-                                  : ::hearth::assertionFailed(#condition, __FILE__, __LINE__))
+                                  : ::hearth::assertionFailed(#condition, HEARTH_FILE_NAME, __LINE__))
 
 /// The same, for inner loops of the runtime: checked unless NDEBUG.
 #ifdef NDEBUG

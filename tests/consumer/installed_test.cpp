@@ -63,7 +63,8 @@ TEST_F(Installed, theLibraryShowsTheFunctionsOfItsHeaderAndNoOthers)
 
 TEST_F(Installed, nothingKnowsWhereItWasBuiltOrInstalled)
 {
-    for (const std::string& path : {std::string(HEARTH_BUILD_FOLDER), folder() / "first"})
+    for (const std::string& path :
+         {std::string(HEARTH_BUILD_FOLDER), std::string(HEARTH_SOURCE_FOLDER), folder() / "first"})
     {
         const ProgramEnd found = shell("grep -rlF '" + path + "' prefix");
         EXPECT_EQ(found.exit_code, 1) << path << " is in " << found.out;
