@@ -18,7 +18,19 @@ endif()
 if(window_programs)
   install(TARGETS ${window_programs} RUNTIME COMPONENT window)
 endif()
-# Man pages and completions of the shells belong here, with COMPONENT programs.
+if(programs)
+  # what the command says of itself: see pipelines/command/CMakeLists.txt
+  set(manual ${PROJECT_BINARY_DIR}/manual)
+  foreach(section 1 5)
+    install(DIRECTORY ${manual}/ DESTINATION ${CMAKE_INSTALL_MANDIR}/man${section} COMPONENT programs
+      FILES_MATCHING PATTERN "*.${section}")
+  endforeach()
+  install(FILES ${manual}/hearth.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions
+    RENAME hearth COMPONENT programs)
+  install(FILES ${manual}/_hearth DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/site-functions COMPONENT programs)
+  install(FILES ${manual}/hearth.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d
+    COMPONENT programs)
+endif()
 install(FILES README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT programs)
 
 install(TARGETS ${exports} EXPORT hearthTargets

@@ -23,7 +23,7 @@ set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS_POLICY >=)
 set(CPACK_DEBIAN_PROGRAMS_PACKAGE_NAME hearth)
 set(CPACK_DEBIAN_PROGRAMS_PACKAGE_SECTION graphics)
 set(CPACK_DEBIAN_PROGRAMS_PACKAGE_DEPENDS libvulkan1)
-set(CPACK_DEBIAN_PROGRAMS_PACKAGE_RECOMMENDS mesa-vulkan-drivers)
+set(CPACK_DEBIAN_PROGRAMS_PACKAGE_RECOMMENDS "mesa-vulkan-drivers, libcurl4") # libcurl: caches on servers
 set(CPACK_COMPONENT_PROGRAMS_DESCRIPTION "Cooks 3D assets into packs, and draws them without a window")
 
 set(CPACK_DEBIAN_WINDOW_PACKAGE_NAME hearth-view)
