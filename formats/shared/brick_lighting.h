@@ -30,7 +30,7 @@ HEARTH_CONSTANT float kBrickLift = 1.0f;
 
 /// Sine of the angle to the nearest axis from which on a surface counts as slanted; below, by its share. What lies along an
 /// axis has no steps, and rays that started off it would pass by what stands on it. 0.6 degrees, as finely as normals are
-/// stored: with 3.6 the error of the generated terrain is twice as large.
+/// stored.
 HEARTH_CONSTANT float kBrickSlantSine = 0.01f;
 
 /// Voxels off a face where a ray is in the air beside it for certain: coordinates up to 2^14 round to 2^-11.
