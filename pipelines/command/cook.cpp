@@ -237,7 +237,7 @@ bool writeDepfile(const graph::Graph& graph, const graph::Executor& executor, co
     const Result<std::string> text = depfileOf(graph, executor, options.output);
     const Status written = text.ok() ? writeText(options.depfile, *text) : Status(text.error());
     if (!written.ok())
-        fail(written.error(), options.sources.size(), outcome);
+        fail(written.error(), outcome);
     return written.ok();
 }
 
