@@ -1,0 +1,165 @@
+// Measures a cook without cache, on one core and on all: seconds, CPU seconds and peak memory of each stage, and of all
+// processes together. `./dev bench cook` runs it.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/tools/child_processes.h"
+#include "formats/program.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <spawn.h>
+#include <string>
+#include <sys/wait.h>
+#include <thread>
+#include <unistd.h>
+#include <vector>
+
+namespace
+{
+
+using namespace hearth;
+
+constexpr auto kPollEvery = std::chrono::milliseconds(20);
+constexpr double kMiB = 1 << 20;
+
+/// A process and all that it has started, on Linux.
+std::vector<pid_t> familyOf(pid_t process)
+{
+    std::vector<pid_t> family{process};
+    std::error_code error;
+    const std::string tasks = "/proc/" + std::to_string(process) + "/task";
+    for (auto task = std::filesystem::directory_iterator(tasks, error);
+         !error && task != std::filesystem::directory_iterator(); task.increment(error))
+    {
+        std::ifstream children(task->path() / "children");
+        for (pid_t child = 0; children >> child;)
+        {
+            const std::vector<pid_t> more = familyOf(child);
+            family.insert(family.end(), more.begin(), more.end());
+        }
+    }
+    return family;
+}
+
+/// What the processes take together: what several share counts once (the sum of their PSS, proc(5)).
+uint64_t memoryOf(const std::vector<pid_t>& processes)
+{
+    uint64_t kilobytes = 0;
+    for (const pid_t process : processes)
+    {
+        std::ifstream file("/proc/" + std::to_string(process) + "/smaps_rollup");
+        for (std::string line; std::getline(file, line);)
+            if (line.starts_with("Pss:"))
+                kilobytes += std::stoull(line.substr(4));
+    }
+    return kilobytes * 1024;
+}
+
+struct Cook
+{
+    nlohmann::json report;
+    uint64_t peak_bytes = 0; ///< of all processes together, as often as it was looked at
+};
+
+/// on_one_core  else on all
+std::optional<Cook> cook(const std::string& source, const std::string& output, bool on_one_core)
+{
+    const std::string report = output + ".json";
+    std::vector<std::string> words;
+    if (on_one_core)
+        words = {"/usr/bin/taskset", "--cpu-list", "0"}; // which its children inherit
+    const std::vector<std::string> cooking{tools::programFolder() + "/hearth",
+                                           "cook",
+                                           "-q",
+                                           "--no-cache",
+                                           "-j",
+                                           on_one_core ? "1" : "2",
+                                           "--report",
+                                           report,
+                                           source,
+                                           "-o",
+                                           output};
+    words.insert(words.end(), cooking.begin(), cooking.end());
+    std::vector<char*> arguments;
+    for (std::string& word : words)
+        arguments.push_back(word.data());
+    arguments.push_back(nullptr);
+    pid_t process = 0;
+    if (::posix_spawn(&process, arguments[0], nullptr, nullptr, arguments.data(), environ) != 0)
+        return std::nullopt;
+    Cook result;
+    int status = 0;
+    while (::waitpid(process, &status, WNOHANG) == 0)
+    {
+        result.peak_bytes = std::max(result.peak_bytes, memoryOf(familyOf(process)));
+        std::this_thread::sleep_for(kPollEvery);
+    }
+    if (status != 0)
+        return std::nullopt;
+    result.report = nlohmann::json::parse(std::ifstream(report), nullptr, false);
+    return result;
+}
+
+void print(unsigned cores, const Cook& cook)
+{
+    const auto row = [&](const std::string& stage, double seconds, double cpu, double bytes)
+    {
+        std::printf("| %5u | %-10s | %8.1f | %8.1f | %8.0f |\n", cores, stage.c_str(), seconds, cpu,
+                    bytes / kMiB);
+    };
+    const auto rows = [&](const nlohmann::json& stages)
+    {
+        for (const auto& stage : stages)
+            row(stage["stage"], stage["seconds"], stage["cpu_seconds"], stage["peak_rss_bytes"]);
+    };
+    rows(cook.report["assets"][0]["stages"]);
+    rows(nlohmann::json::array({cook.report["link"]}));
+    const auto& totals = cook.report["totals"];
+    row("all", totals["wall_s"], totals["cpu_s"], static_cast<double>(cook.peak_bytes));
+}
+
+uint64_t trianglesOf(const Cook& cook)
+{
+    uint64_t triangles = 0;
+    for (const auto& mesh : cook.report["assets"][0]["clusters"]["meshes"])
+        triangles += mesh["source"]["triangles"].get<uint64_t>();
+    return triangles;
+}
+
+int measure(const std::string& source, const std::string& output)
+{
+    const unsigned cores = std::thread::hardware_concurrency();
+    const std::optional<Cook> slow = cook(source, output, true);
+    const std::optional<Cook> fast = slow ? cook(source, output, false) : std::nullopt;
+    if (!fast)
+        return 1; // hearth has said why
+    std::printf("| cores | stage      |  seconds |  CPU     | MiB peak |\n|---|---|---|---|---|\n");
+    print(1, *slow);
+    print(cores, *fast);
+    const auto seconds = [](const Cook& cook) { return cook.report["totals"]["wall_s"].get<double>(); };
+    const auto triangles = static_cast<double>(trianglesOf(*fast));
+    std::printf(
+        "%.1f million triangles; %.1f bytes of memory and %.2f of pack a triangle; %u cores are %.2f times "
+        "as fast as one\n",
+        triangles * 1e-6, static_cast<double>(fast->peak_bytes) / triangles,
+        fast->report["totals"]["bytes_out"].get<double>() / triangles, cores,
+        seconds(*slow) / seconds(*fast));
+    return 0;
+}
+
+} // namespace
+
+int main(int argc, char** argv)
+{
+    if (argc != 3)
+    {
+        std::fprintf(stderr, "usage: hearth_measure_cook SOURCE PACK\n");
+        return 2;
+    }
+    return runProgram("hearth_measure_cook", [&] { return measure(argv[1], argv[2]); });
+}
