@@ -84,12 +84,12 @@ std::string usersFolder()
 }
 
 /// As HEARTH_CACHE_MODE says: machines of one team differ in what they may do, not in where the caches are.
-Status obeyMode(std::vector<FolderSpec>& specs)
+Status obeyMode(std::vector<LevelSpec>& specs)
 {
     const std::string mode = variable("HEARTH_CACHE_MODE");
     if (mode == "off")
         specs.clear();
-    for (FolderSpec& spec : specs)
+    for (LevelSpec& spec : specs)
         spec.writable = spec.writable && mode != "ro";
     if (mode.empty() || mode == "rw" || mode == "ro" || mode == "off")
         return success();

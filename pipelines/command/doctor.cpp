@@ -4,6 +4,7 @@
 #include "cook/tools/child_processes.h"
 #include "cook/tools/private_folder.h"
 #include "pipelines/cache/folder_level.h"
+#include "pipelines/cache/http_level.h"
 #include "pipelines/cache/open_cache.h"
 #include "pipelines/cache/upkeep.h"
 #include "pipelines/command/terminal.h"
@@ -106,22 +107,34 @@ bool canWriteInto(const std::string& folder)
     return ::unlink(path.c_str()) == 0;
 }
 
-Check checkCache(const cache::FolderSpec& spec)
+Check checkCache(const cache::LevelSpec& spec)
 {
-    const cache::Occupancy occupancy = cache::occupancyOf(spec.folder);
+    const cache::Occupancy occupancy = cache::occupancyOf(spec.place);
     const std::string text =
-        fmt::format("{}: {} of {} in {} entries{}", spec.folder, readableSize(occupancy.bytes),
+        fmt::format("{}: {} of {} in {} entries{}", spec.place, readableSize(occupancy.bytes),
                     readableSize(spec.limit_bytes), occupancy.entries, spec.writable ? "" : ", read only");
     std::error_code error;
     if (!spec.writable)
-        return fs::is_directory(spec.folder, error)
+        return fs::is_directory(spec.place, error)
                    ? Check{"cache", State::ok, text, ""}
-                   : Check{"cache", State::wrong, spec.folder + " is not there",
+                   : Check{"cache", State::wrong, spec.place + " is not there",
                            "mount it, or take it out of --cache and hearth.toml"};
-    if (!canWriteInto(spec.folder))
-        return {"cache", State::wrong, spec.folder + " cannot be written",
+    if (!canWriteInto(spec.place))
+        return {"cache", State::wrong, spec.place + " cannot be written",
                 "give yourself rights to it, or choose another: --cache dir:FOLDER"};
     return {"cache", State::ok, text, ""};
+}
+
+/// By asking it for what no cook has made.
+Check checkServer(const cache::LevelSpec& spec)
+{
+    cache::HttpLevel server(spec.place, false);
+    std::vector<cache::WantedEntry> wanted{{std::string(64, '0'), std::nullopt}};
+    const Status answered = server.entries(wanted);
+    if (answered.ok())
+        return {"cache", State::ok, server.name() + " answers" + (spec.writable ? "" : ", read only"), ""};
+    return {"cache", State::wrong, server.name() + ": " + answered.error().detail,
+            "start it, or take it out of --cache and hearth.toml: cooks go on without it"};
 }
 
 std::vector<Check> checkCaches(const std::vector<std::string>& caches)
@@ -134,11 +147,11 @@ std::vector<Check> checkCaches(const std::vector<std::string>& caches)
         return {{"cache", State::warning, "no cache is used: every cook runs every cooker",
                  "unset HEARTH_CACHE and HEARTH_CACHE_MODE"}};
     std::vector<Check> checks;
-    for (const cache::FolderSpec& spec : *specs)
+    for (const cache::LevelSpec& spec : *specs)
     {
-        checks.push_back(checkCache(spec));
-        if (spec.writable)
-            checks.push_back(checkSpace("the cache", spec.folder));
+        checks.push_back(spec.is_server ? checkServer(spec) : checkCache(spec));
+        if (spec.writable && !spec.is_server)
+            checks.push_back(checkSpace("the cache", spec.place));
     }
     return checks;
 }
