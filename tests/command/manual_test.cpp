@@ -227,6 +227,10 @@ TEST_F(Manual, doctorSaysWhatIsWrongAndWhatToDo)
     const ProgramEnd cache = hearth({"doctor", "--cache", "dir:/proc/cache"});
     EXPECT_EQ(cache.exit_code, 1);
     EXPECT_NE(cache.out.find("/proc/cache cannot be written"), std::string::npos) << cache.out;
+    // nobody listens on the first port
+    const ProgramEnd server = hearth({"doctor", "--cache", "http://127.0.0.1:1/hearth"});
+    EXPECT_EQ(server.exit_code, 1);
+    EXPECT_NE(server.out.find("http://127.0.0.1:1/hearth: "), std::string::npos) << server.out;
     const ProgramEnd mode = hearth({"doctor"}, {"HEARTH_CACHE_MODE=wr"});
     EXPECT_NE(mode.out.find("must be rw, ro or off"), std::string::npos) << mode.out;
     const ProgramEnd reading = hearth({"doctor"}, {"HEARTH_CACHE_MODE=ro"});
