@@ -84,8 +84,9 @@ Json imageJson(const ImageStatistics& image, size_t index)
               {"content", contentName(contentOf(image.image))},
               {"placeholder", (image.image.flags & kImagePlaceholder) != 0},
               {"bytes", image.bytes},
-              {"bytes_stored", image.stored_bytes},
-              {"error", image.error ? errorJson(*image.error) : Json(nullptr)}};
+              {"bytes_stored", image.stored_bytes}};
+    if (image.error)
+        json["error"] = errorJson(*image.error);
     if (image.half_error)
         json["half_size_error"] = errorJson(*image.half_error);
     return json;

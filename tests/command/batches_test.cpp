@@ -45,8 +45,13 @@ case "$1" in
   *slow*) exec sleep 60 ;;
   *busy*) mkdir busy 2>/dev/null || touch together; sleep 0.05; rmdir busy 2>/dev/null ;;
 esac
-while [ "$1" != -o ]; do shift; done
-cp "PARTS.COOKER.part" "$2"
+while [ $# -gt 0 ]; do
+  case "$1" in
+    -o) cp "PARTS.COOKER.part" "$2" ;;
+    --stats) echo '{}' > "$2" ;;
+  esac
+  shift
+done
 )sh";
 
 void replaceAll(std::string& text, const std::string& what, const std::string& by)

@@ -42,16 +42,18 @@ while [ $# -gt 0 ]; do if [ "$1" = "--stats" ]; then cp "PARTS.import.json" "$2"
 constexpr const char* kTextures = R"(#!/bin/sh
 if [ -e ./textures-fail ]; then echo "$1|chunk IMGD 0: error: is bad [E2009] hint: again" >&2; exit 65; fi
 cp "PARTS.textures.part" "$3"
+while [ "$1" != "--stats" ]; do shift; done
 echo '{"images": [{"name": "bark", "width": 4, "height": 2, "mips": 3, "format": "rgba8-srgb", "bytes": 44,
-                   "bytes_stored": 40, "error": {"rms": 0.0, "psnr_db": null}}]}' > "$5"
+                   "bytes_stored": 40, "error": {"rms": 0.0, "psnr_db": null}}]}' > "$2"
 )";
 
 constexpr const char* kClusters = R"(#!/bin/sh
 if [ "$4" = "--set" ]; then echo "$*" >> asked; fi
 if [ -e ./clusters-lie ]; then exit 0; fi
-echo '{"meshes": [{"name": "strip", "source": {"triangles": 8}, "levels": [], "clusters": 1,
-                   "bytes": {"pages_stored": 70}}], "totals": {"triangles": 8}}' > "$5"
 cp "PARTS.clusters.part" "$3"
+while [ "$1" != "--stats" ]; do shift; done
+echo '{"meshes": [{"name": "strip", "source": {"triangles": 8}, "levels": [], "clusters": 1,
+                   "bytes": {"pages_stored": 70}}], "totals": {"triangles": 8}}' > "$2"
 )";
 
 constexpr const char* kSkinning = R"(#!/bin/sh

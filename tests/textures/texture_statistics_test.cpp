@@ -87,6 +87,7 @@ TEST(TextureStatistics, sayWhatBecameOfAnImage)
     image.image = withMips(recordOf(4, 2, TexelFormat::rgba8_srgb));
     image.bytes = 44;
     image.stored_bytes = 40;
+    image.error = 0;
     image.half_error = 0.01;
     const auto json = nlohmann::json::parse(statisticsJson("tree.part", {&image, 1}));
     EXPECT_EQ(json["schema"], "hearth.textures/1");
