@@ -4,6 +4,7 @@
 #include "cook/textures/texel_codec.h"
 #include "formats/assert.h"
 #include "formats/pack_view.h"
+#include "formats/texel_format_name.h"
 
 #include <algorithm>
 #include <cmath>
@@ -30,20 +31,6 @@ uint64_t squaredDifference(Content content, const uint8_t* a, const uint8_t* b)
         sum += static_cast<uint64_t>(difference * difference);
     }
     return sum;
-}
-
-const char* formatName(uint32_t format)
-{
-    switch (static_cast<TexelFormat>(format))
-    {
-    case TexelFormat::rgba8_srgb:
-        return "rgba8-srgb";
-    case TexelFormat::rgba8_unorm:
-        return "rgba8-unorm";
-    case TexelFormat::rgba16_float:
-        return "rgba16-float";
-    }
-    return "unknown";
 }
 
 const char* contentName(Content content)
@@ -80,7 +67,7 @@ Json imageJson(const ImageStatistics& image, size_t index)
               {"width", image.image.width},
               {"height", image.image.height},
               {"mips", image.image.mip_count},
-              {"format", formatName(image.image.format)},
+              {"format", texelFormatName(image.image.format)},
               {"content", contentName(contentOf(image.image))},
               {"placeholder", (image.image.flags & kImagePlaceholder) != 0},
               {"bytes", image.bytes},

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/cache/open_cache.h"
 
+#include "cook/tools/lines.h"
+
 #include <charconv>
 #include <cstdlib>
 
@@ -11,18 +13,6 @@ namespace
 {
 
 constexpr std::string_view kFolderScheme = "dir:";
-
-std::vector<std::string> split(const std::string& text, char separator)
-{
-    std::vector<std::string> parts;
-    for (size_t at = 0; at <= text.size();)
-    {
-        const size_t end = std::min(text.find(separator, at), text.size());
-        parts.push_back(text.substr(at, end - at));
-        at = end + 1;
-    }
-    return parts;
-}
 
 /// Of a URL that starts with http:// or https://.
 bool namesHost(const std::string& url)
@@ -42,7 +32,8 @@ Result<LevelSpec> specOf(const std::string& text, const std::string& option)
     if (!is_server && !text.starts_with(kFolderScheme))
         return wrong("must be a folder or a server, as in dir:/var/cache/hearth, dir:/mnt/team,ro or "
                      "http://cache:8080/hearth");
-    const std::vector<std::string> parts = split(is_server ? text : text.substr(kFolderScheme.size()), ',');
+    const std::vector<std::string> parts =
+        tools::split(is_server ? text : text.substr(kFolderScheme.size()), ',');
     LevelSpec spec;
     spec.place = parts[0];
     spec.is_server = is_server;
@@ -120,7 +111,7 @@ Result<std::vector<LevelSpec>> cacheSpecs(std::span<const std::string> options)
         if (value == "off")
             return specs;
         option = "HEARTH_CACHE";
-        texts = split(value, ';');
+        texts = tools::split(value, ';');
     }
     for (const std::string& text : texts)
     {

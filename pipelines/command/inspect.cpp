@@ -216,20 +216,6 @@ std::string attributeNames(uint32_t attributes)
     return names;
 }
 
-const char* texelFormatName(uint32_t format)
-{
-    switch (static_cast<TexelFormat>(format))
-    {
-    case TexelFormat::rgba8_srgb:
-        return "rgba8-srgb";
-    case TexelFormat::rgba8_unorm:
-        return "rgba8-unorm";
-    case TexelFormat::rgba16_float:
-        return "rgba16-float";
-    }
-    return "unknown";
-}
-
 const char* alphaModeName(uint32_t mode)
 {
     switch (static_cast<AlphaMode>(mode))

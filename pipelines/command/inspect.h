@@ -114,7 +114,6 @@ std::string inspectJson(const formats::PackView& pack, const PackSummary& summar
 
 /// What a number in a record stands for.
 std::string attributeNames(uint32_t attributes);
-const char* texelFormatName(uint32_t format);
 const char* alphaModeName(uint32_t mode);
 const char* lightTypeName(uint32_t type);
 const char* codecName(uint32_t codec);

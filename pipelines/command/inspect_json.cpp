@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/command/inspect.h"
 
+#include "formats/texel_format_name.h"
+
 #include <nlohmann/json.hpp>
 
 namespace hearth::command

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "formats/texel_format_name.h"
 #include "pipelines/command/inspect.h"
 #include "pipelines/command/terminal.h"
 

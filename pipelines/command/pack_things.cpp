@@ -3,6 +3,7 @@
 
 #include "cook/tools/sha256.h"
 #include "formats/channel_keys.h"
+#include "formats/texel_format_name.h"
 #include "pipelines/command/inspect.h"
 
 #include <fmt/format.h>

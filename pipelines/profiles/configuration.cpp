@@ -2,6 +2,7 @@
 #include "pipelines/profiles/configuration.h"
 
 #include "cook/clusters/profile.h"
+#include "cook/tools/lines.h"
 #include "cook/tools/suggest.h"
 #include "pipelines/cache/folder_level.h"
 #include "pipelines/profiles/built_in.h"
@@ -77,18 +78,6 @@ bool isFileName(const std::string& profile)
     return profile.ends_with(".toml") || profile.find('/') != std::string::npos;
 }
 
-std::vector<std::string> split(const std::string& text, char separator)
-{
-    std::vector<std::string> parts;
-    for (size_t at = 0; at <= text.size();)
-    {
-        const size_t end = std::min(text.find(separator, at), text.size());
-        parts.push_back(text.substr(at, end - at));
-        at = end + 1;
-    }
-    return parts;
-}
-
 } // namespace
 
 std::optional<std::string> processEnvironment(const char* name)
@@ -133,7 +122,7 @@ Status Configuration::readEnvironment(const Environment& environment)
         if (!text)
             continue;
         const std::vector<std::string> words =
-            setting.kind == Kind::texts ? split(*text, ';') : std::vector<std::string>{*text};
+            setting.kind == Kind::texts ? tools::split(*text, ';') : std::vector<std::string>{*text};
         HEARTH_ASSIGN_OR_RETURN(environment_[setting.key], valueOf(setting, words, name));
     }
     return success();
