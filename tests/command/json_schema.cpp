@@ -4,13 +4,24 @@
 #include <algorithm>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <regex>
+#include <regex.h>
 
 namespace hearth::test
 {
 
 namespace
 {
+
+/// Patterns of the schemas are extended regular expressions as well; where one is not, nothing matches.
+bool matches(const std::string& text, const std::string& pattern)
+{
+    regex_t compiled{};
+    if (::regcomp(&compiled, pattern.c_str(), REG_EXTENDED | REG_NOSUB) != 0)
+        return false;
+    const bool found = ::regexec(&compiled, text.c_str(), 0, nullptr, 0) == 0;
+    ::regfree(&compiled);
+    return found;
+}
 
 using Json = nlohmann::json;
 
@@ -59,8 +70,7 @@ private:
         if (keyword == "minimum")
             return unless(!value.is_number() || value >= rule);
         if (keyword == "pattern")
-            return unless(!value.is_string() ||
-                          std::regex_search(value.get<std::string>(), std::regex(rule.get<std::string>())));
+            return unless(!value.is_string() || matches(value.get<std::string>(), rule.get<std::string>()));
         if (keyword == "required")
             return unless(std::all_of(rule.begin(), rule.end(),
                                       [&](const Json& name)

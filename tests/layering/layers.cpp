@@ -103,9 +103,9 @@ const std::vector<Library>& libraries()
 }
 
 // POSIX and Linux: what the standard library does not give
-constexpr std::array<std::string_view, 15> kPosixHeaders{
+constexpr std::array<std::string_view, 16> kPosixHeaders{
     "sys/",     "linux/",   "elf.h",   "malloc.h",  "unistd.h", "fcntl.h",  "poll.h", "spawn.h",
-    "dirent.h", "signal.h", "dlfcn.h", "pthread.h", "arpa/",    "netinet/", "pwd.h"};
+    "dirent.h", "signal.h", "dlfcn.h", "pthread.h", "arpa/",    "netinet/", "pwd.h",  "regex.h"};
 
 bool isIn(std::string_view path, const Folders& folders)
 {
