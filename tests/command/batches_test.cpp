@@ -281,7 +281,7 @@ TEST(RealBatches, sameBytesAndRecordsAsAlone)
         EXPECT_GE(batched.size(), 30u);
         size_t others = 0;
         for (const std::string& name : batched)
-            others += alone.count(name) == 0 ? 1 : 0;
+            others += alone.count(name) == 0 ? 1u : 0u;
         EXPECT_EQ(others, 1u) << kind << ": the pack of all alone is another";
     }
 }
