@@ -15,19 +15,13 @@ namespace
 
 constexpr int kUsage = 2;
 
-int fail(const Error& error)
-{
-    print(formatMessage(error));
-    return exitCode(error);
-}
-
 } // namespace
 
 int watch(const Configure& configure)
 {
     auto files = FileWatch::create();
     if (!files.ok())
-        return fail(files.error());
+        return tell(files.error());
     Verbosity verbosity = Verbosity::normal;
     std::vector<std::string> looked_for;
     for (bool is_first = true;; is_first = false)
@@ -36,7 +30,7 @@ int watch(const Configure& configure)
         std::vector<std::string> settings;
         Result<CookOptions> options = configure(settings);
         if (!options.ok() && is_first)
-            return fail(options.error());
+            return tell(options.error());
         if (options.ok())
         {
             verbosity = options->verbosity;
@@ -49,9 +43,9 @@ int watch(const Configure& configure)
             looked_for.insert(looked_for.end(), settings.begin(), settings.end());
         }
         else
-            fail(options.error());
+            tell(options.error());
         if (const Status status = files->watch(looked_for, start); !status.ok())
-            return fail(status.error());
+            return tell(status.error());
         if (verbosity != Verbosity::quiet)
             print(faint(fmt::format("watching {} files; Ctrl-C ends", files->size())));
         const std::optional<std::string> changed = files->wait();

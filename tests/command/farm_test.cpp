@@ -94,15 +94,6 @@ protected:
 
     void forget() { fs::remove_all(folder.cachePath()); }
 
-    std::vector<std::string> contents() const
-    {
-        std::vector<std::string> paths;
-        for (const auto& file : fs::recursive_directory_iterator(folder.cachePath() + "/cas"))
-            if (file.is_regular_file())
-                paths.push_back(file.path().string());
-        return paths;
-    }
-
     Sandbox folder;
     std::vector<std::string> sources{"house.obj", "tree.gltf", "barn.obj", "bush.gltf"};
 };
@@ -196,7 +187,7 @@ TEST_F(Farm, believesNoByteOfTheCache)
     EXPECT_EQ(hearth({"farm", "status", "plan.json"}).exit_code, 0);
     const auto damage = [&]
     {
-        for (const std::string& path : contents())
+        for (const std::string& path : folder.cacheContents())
         {
             fs::permissions(path, fs::perms::owner_all);
             std::ofstream(path, std::ios::binary | std::ios::in) << "damage";
@@ -348,7 +339,7 @@ TEST_F(Farm, aLauncherIsNotBelieved)
     EXPECT_EQ(nlohmann::json::parse(folder.read("0.json"))["actions"].size(), 8u);
     // it still lies, but all is there
     EXPECT_EQ(run(0, 2, {"--launcher", folder / "liar"}).exit_code, 0);
-    fs::remove(contents().front());
+    fs::remove(folder.cacheContents().front());
     EXPECT_EQ(run(0, 2, {"--launcher", folder / "liar"}).exit_code, 75);
 }
 

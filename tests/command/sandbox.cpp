@@ -70,6 +70,15 @@ std::vector<std::string> Sandbox::list() const
     return names;
 }
 
+std::vector<std::string> Sandbox::cacheContents() const
+{
+    std::vector<std::string> paths;
+    for (const auto& file : std::filesystem::recursive_directory_iterator(cachePath() + "/cas"))
+        if (file.is_regular_file())
+            paths.push_back(file.path().string());
+    return paths;
+}
+
 pid_t Sandbox::start(const std::vector<std::string>& command, const std::vector<std::string>& environment)
 {
     std::vector<char*> arguments;

@@ -37,6 +37,8 @@ public:
     /// Folder of the cache that programs use, outside of this folder.
     std::string cachePath() const { return output_path_ + "/cache"; }
     std::string cacheSpec() const { return "dir:" + cachePath(); }
+    /// Paths of the contents that the cache holds.
+    std::vector<std::string> cacheContents() const;
 
     /// Start a program in this folder; its output goes to files outside of it.
     pid_t start(const std::vector<std::string>& command, const std::vector<std::string>& environment = {});

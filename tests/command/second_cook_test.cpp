@@ -88,16 +88,6 @@ protected:
                            { return name.find(".hearth-") != std::string::npos; });
     }
 
-    /// The contents that the cache holds.
-    std::vector<std::string> contents() const
-    {
-        std::vector<std::string> paths;
-        for (const auto& file : fs::recursive_directory_iterator(folder.cachePath() + "/cas"))
-            if (file.is_regular_file())
-                paths.push_back(file.path().string());
-        return paths;
-    }
-
     Sandbox folder;
     std::string programs = HEARTH_BIN;
 };
@@ -226,7 +216,7 @@ TEST_F(SecondCook, whyNamesTheCause)
     ran(cook(arguments));
     const auto breakContents = [&](const std::function<void(const std::string&)>& change)
     {
-        for (const std::string& path : contents())
+        for (const std::string& path : folder.cacheContents())
             change(path);
         fs::remove(folder / "a.hearth");
     };

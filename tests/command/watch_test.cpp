@@ -110,6 +110,22 @@ TEST_F(Watch, aFailureWaitsForItsMend)
     EXPECT_EQ(end(SIGTERM).exit_code, 130);
 }
 
+TEST_F(Watch, settingsAreReadAnew)
+{
+    folder.write("hearth.toml", "[[rule]]\nmatch = '*'\ntextures.max_size = 2\n");
+    start({"house.obj"});
+    ASSERT_TRUE(waitsAfter(0)) << folder.errSoFar();
+    const std::string first = folder.read("a.hearth");
+    folder.write("hearth.toml", "[[rule]]\nmatch = '*'\ntextures.max_siz = 1\n");
+    ASSERT_TRUE(waitsAfter(1)) << folder.errSoFar();
+    EXPECT_NE(folder.errSoFar().find("did you mean 'max_size'"), std::string::npos) << folder.errSoFar();
+    EXPECT_EQ(folder.read("a.hearth"), first);
+    folder.write("hearth.toml", "[[rule]]\nmatch = '*'\ntextures.max_size = 1\n");
+    ASSERT_TRUE(waitsAfter(2)) << folder.errSoFar();
+    EXPECT_NE(folder.read("a.hearth"), first);
+    EXPECT_EQ(end(SIGINT).exit_code, 130);
+}
+
 TEST_F(Watch, aWrongCommandLineEnds)
 {
     start({"house.obj", "house.obj", "--lod", "1=house.obj"});
