@@ -20,8 +20,8 @@ namespace
 namespace fs = std::filesystem;
 
 constexpr int kQuietMilliseconds = 100;
-constexpr uint32_t kChanges = IN_CLOSE_WRITE | IN_CREATE | IN_DELETE | IN_MOVED_FROM | IN_MOVED_TO |
-                              IN_DELETE_SELF | IN_MOVE_SELF | IN_ONLYDIR;
+constexpr uint32_t kComings = IN_CREATE | IN_DELETE | IN_MOVED_FROM | IN_MOVED_TO;
+constexpr uint32_t kChanges = kComings | IN_CLOSE_WRITE | IN_DELETE_SELF | IN_MOVE_SELF | IN_ONLYDIR;
 
 Error cannotWatch(const std::string& path)
 {
@@ -77,6 +77,7 @@ FileWatch::FileWatch(FileWatch&& other) noexcept
       paths_(std::move(other.paths_)),
       watch_of_folder_(std::move(other.watch_of_folder_)),
       names_(std::move(other.names_)),
+      folder_of_watch_(std::move(other.folder_of_watch_)),
       changed_before_(std::move(other.changed_before_))
 {
 }
@@ -86,6 +87,20 @@ FileWatch::~FileWatch()
     if (events_ >= 0)
         ::close(events_);
 }
+
+namespace
+{
+
+using Change = FileWatch::Change;
+
+/// What of two to tell of: the first, but a file rather than what else is in a folder.
+std::optional<Change> firstOf(std::optional<Change> first, std::optional<Change> second)
+{
+    return !first || (second && first->is_of_folder && !second->is_of_folder) ? std::move(second)
+                                                                              : std::move(first);
+}
+
+} // namespace
 
 /// before  the watches of folders until now
 Status FileWatch::add(const fs::path& path, const std::map<std::string, int>& before,
@@ -107,16 +122,18 @@ Status FileWatch::add(const fs::path& path, const std::map<std::string, int>& be
     names_[watch][name.filename().string()] = path.string();
     const auto written = fs::last_write_time(path, error);
     if ((known == before.end() || known->second != watch) && !error && written >= since)
-        changed_before_ = path.string();
+        changed_before_ = firstOf(changed_before_, Change{path.string()});
     return success();
 }
 
-Status FileWatch::watch(const std::vector<std::string>& paths, fs::file_time_type since)
+Status FileWatch::watch(const std::vector<std::string>& paths, fs::file_time_type since,
+                        const std::vector<std::string>& folders)
 {
     changed_before_ = takeEvents();
     const std::map<std::string, int> before = std::exchange(watch_of_folder_, {});
     names_.clear();
     paths_.clear();
+    folder_of_watch_.clear();
     for (const std::string& path : paths)
     {
         std::error_code error;
@@ -128,6 +145,16 @@ Status FileWatch::watch(const std::vector<std::string>& paths, fs::file_time_typ
         if (const fs::path real = fs::canonical(absolute, error); !error && real != absolute)
             HEARTH_TRY(add(real, before, since));
     }
+    for (const std::string& folder : folders)
+    {
+        // as if of a file in it: where the folder is not there yet, that is waited for
+        std::error_code error;
+        const fs::path absolute = fs::absolute(folder, error).lexically_normal() / "";
+        HEARTH_TRY(add(absolute, before, fs::file_time_type::max()));
+        if (const auto watched = watch_of_folder_.find(absolute.parent_path().string());
+            watched != watch_of_folder_.end())
+            folder_of_watch_[watched->second] = folder;
+    }
     for (const auto& [folder, watch] : before)
         if (!names_.contains(watch))
             ::inotify_rm_watch(events_, watch);
@@ -135,9 +162,9 @@ Status FileWatch::watch(const std::vector<std::string>& paths, fs::file_time_typ
 }
 
 /// What has changed of the files, of all that has happened; nullopt where nothing of interest has.
-std::optional<std::string> FileWatch::takeEvents()
+std::optional<FileWatch::Change> FileWatch::takeEvents()
 {
-    std::optional<std::string> changed;
+    std::optional<Change> changed;
     alignas(inotify_event) std::array<char, 16384> buffer;
     for (;;)
     {
@@ -150,22 +177,25 @@ std::optional<std::string> FileWatch::takeEvents()
             at += static_cast<ssize_t>(sizeof(inotify_event) + event->len);
             const auto names = names_.find(event->wd);
             if ((event->mask & IN_Q_OVERFLOW) != 0)
-                changed = "more than can be told";
-            if (names == names_.end() || changed)
+                changed = firstOf(changed, Change{"more than can be told"});
+            if (names == names_.end())
                 continue;
             const auto name = names->second.find(event->len > 0 ? event->name : "");
             if (name != names->second.end())
-                changed = name->second;
+                changed = firstOf(changed, Change{name->second});
             else if ((event->mask & (IN_DELETE_SELF | IN_MOVE_SELF)) != 0)
-                changed = names->second.begin()->second;
+                changed = firstOf(changed, Change{names->second.begin()->second});
+            else if (const auto folder = folder_of_watch_.find(event->wd);
+                     folder != folder_of_watch_.end() && (event->mask & kComings) != 0)
+                changed = firstOf(changed, Change{folder->second, true});
         }
     }
 }
 
-std::optional<std::string> FileWatch::wait()
+std::optional<FileWatch::Change> FileWatch::wait()
 {
     const Signals signals;
-    std::optional<std::string> changed = std::exchange(changed_before_, std::nullopt);
+    std::optional<Change> changed = std::exchange(changed_before_, std::nullopt);
     for (;;)
     {
         std::array<pollfd, 2> files{{{signals.file(), POLLIN, 0}, {events_, POLLIN, 0}}};
@@ -174,9 +204,7 @@ std::optional<std::string> FileWatch::wait()
             return std::nullopt;
         if (ready == 0)
             return changed;
-        const std::optional<std::string> more = takeEvents();
-        if (!changed)
-            changed = more;
+        changed = firstOf(changed, takeEvents());
     }
 }
 

@@ -17,4 +17,8 @@ namespace hearth::command
 /// errors: no_source where a folder or pattern has none, input_missing where a folder cannot be read.
 Result<std::vector<std::string>> sourcesOf(const std::vector<std::string>& words);
 
+/// The folders in which sourcesOf() has looked for files: another file in one of them may be another source. A pattern's
+/// may not be there yet.
+std::vector<std::string> foldersOf(const std::vector<std::string>& words);
+
 } // namespace hearth::command

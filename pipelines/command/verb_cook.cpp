@@ -54,7 +54,8 @@ int cookConfigured(const CookOptions& options, const SettingOptions& settings)
 
 int watchConfigured(const CookOptions& options, const SettingOptions& settings)
 {
-    return watch([&](std::vector<std::string>& files) { return configured(options, settings, files); });
+    return watch(options.sources,
+                 [&](std::vector<std::string>& files) { return configured(options, settings, files); });
 }
 
 } // namespace
@@ -109,8 +110,10 @@ void addCook(CLI::App& app, Work& run)
     verb->add_option("--format", options->dry_run_format, "of --dry-run; json: the whole plan")
         ->check(CLI::IsMember({"text", "json"}))
         ->needs(dry_run);
-    verb->add_flag("--watch", options->watches,
-                   "cook, and again whenever a file changes that it reads or looks for; Ctrl-C ends it")
+    verb->add_flag(
+            "--watch", options->watches,
+            "cook, and again whenever a file changes that it reads or looks for, or a source comes or goes; "
+            "Ctrl-C ends it")
         ->excludes(dry_run);
     verb->add_flag("--explain", options->explain, "say why each cooker runs");
     auto* quiet = verb->add_flag("-q,--quiet", options->quiet, "print errors only");

@@ -3,7 +3,9 @@
 
 #include "pipelines/command/cook_tools.h"
 #include "pipelines/command/file_watch.h"
+#include "pipelines/command/source_list.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <fmt/format.h>
 
@@ -15,9 +17,45 @@ namespace
 
 constexpr int kUsage = 2;
 
+/// None where one of the words stands for nothing, of which the next cook tells.
+std::vector<std::string> sourcesNow(const std::vector<std::string>& words)
+{
+    const Result<std::vector<std::string>> sources = sourcesOf(words);
+    return sources.ok() ? *sources : std::vector<std::string>();
+}
+
+/// One that only one of two unlike lists has.
+std::string firstChange(const std::vector<std::string>& before, const std::vector<std::string>& now)
+{
+    const auto [old, fresh] = std::mismatch(before.begin(), before.end(), now.begin(), now.end());
+    return now.size() < before.size() ? *old : *fresh;
+}
+
+/// Wait until one of the files changes, or the words stand for other sources; both are watched already.
+/// returns  what has changed; nullopt where a signal came instead
+/// errors   as those of FileWatch::watch()
+Result<std::optional<std::string>> waitForChange(FileWatch& watch, const std::vector<std::string>& files,
+                                                 std::filesystem::file_time_type since,
+                                                 const std::vector<std::string>& words,
+                                                 const std::vector<std::string>& sources)
+{
+    for (;;)
+    {
+        if (const std::vector<std::string> now = sourcesNow(words); now != sources)
+            return std::optional(firstChange(sources, now));
+        const std::optional<FileWatch::Change> change = watch.wait();
+        if (!change)
+            return std::optional<std::string>();
+        if (!change->is_of_folder)
+            return std::optional(change->path);
+        // there may be more folders now
+        HEARTH_TRY(watch.watch(files, since, foldersOf(words)));
+    }
+}
+
 } // namespace
 
-int watch(const Configure& configure)
+int watch(const std::vector<std::string>& words, const Configure& configure)
 {
     auto files = FileWatch::create();
     if (!files.ok())
@@ -27,6 +65,7 @@ int watch(const Configure& configure)
     for (bool is_first = true;; is_first = false)
     {
         const auto start = std::filesystem::file_time_type::clock::now();
+        const std::vector<std::string> sources = sourcesNow(words);
         std::vector<std::string> settings;
         Result<CookOptions> options = configure(settings);
         if (!options.ok() && is_first)
@@ -44,15 +83,17 @@ int watch(const Configure& configure)
         }
         else
             tell(options.error());
-        if (const Status status = files->watch(looked_for, start); !status.ok())
+        if (const Status status = files->watch(looked_for, start, foldersOf(words)); !status.ok())
             return tell(status.error());
         if (verbosity != Verbosity::quiet)
             print(faint(fmt::format("watching {} files; Ctrl-C ends", files->size())));
-        const std::optional<std::string> changed = files->wait();
-        if (!changed)
+        const auto changed = waitForChange(*files, looked_for, start, words, sources);
+        if (!changed.ok())
+            return tell(changed.error());
+        if (!*changed)
             return kInterrupted;
         if (verbosity != Verbosity::quiet)
-            print(faint(*changed + " has changed"));
+            print(faint(**changed + " has changed"));
     }
 }
 

@@ -54,12 +54,6 @@ while [ $# -gt 0 ]; do
 done
 )sh";
 
-void replaceAll(std::string& text, const std::string& what, const std::string& by)
-{
-    for (size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + by.size()))
-        text.replace(at, what.size(), by);
-}
-
 /// Twelve names, "NAME7.gltf".
 std::vector<std::string> crowd(const std::string& name = "a")
 {

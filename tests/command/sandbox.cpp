@@ -126,4 +126,10 @@ size_t countOf(const std::string& text, const std::string& part)
     return count;
 }
 
+void replaceAll(std::string& text, const std::string& what, const std::string& by)
+{
+    for (size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + by.size()))
+        text.replace(at, what.size(), by);
+}
+
 } // namespace hearth::test

@@ -59,4 +59,7 @@ private:
 /// How often `part` occurs in `text`.
 size_t countOf(const std::string& text, const std::string& part);
 
+/// Every `what` in `text` becomes `by`.
+void replaceAll(std::string& text, const std::string& what, const std::string& by);
+
 } // namespace hearth::test

@@ -161,31 +161,6 @@ TEST_F(SecondCook, anEditOfAnOutputHarmsNothing)
     EXPECT_EQ(folder.read("a.hearth"), pack);
 }
 
-TEST_F(SecondCook, sameBytesHoweverTheyComeAbout)
-{
-    ran(cook({"house.obj", "tree.gltf", "-o", "a.hearth", "--no-cache", "-j1"}));
-    const std::string pack = folder.read("a.hearth");
-    Sandbox elsewhere;
-    writeObj(elsewhere, "house");
-    writeGltf(elsewhere, "tree");
-    const mode_t mask = ::umask(077);
-    for (const auto& [arguments, environment] :
-         std::vector<std::pair<std::vector<std::string>, std::vector<std::string>>>{
-             {{"-j2"}, {}},
-             {{"-j1"}, {"LC_ALL=de_DE.UTF-8", "TZ=Asia/Tokyo"}},
-             {{"--force"}, {"TMPDIR=" + elsewhere.path()}},
-             {{"--memory", "1M"}, {}}})
-        for (Sandbox* place : {&folder, &elsewhere})
-        {
-            std::vector<std::string> command{programs + "/hearth", "cook", "house.obj",
-                                             "tree.gltf",          "-o",   "b.hearth"};
-            command.insert(command.end(), arguments.begin(), arguments.end());
-            EXPECT_EQ(place->run(command, environment).exit_code, 0) << arguments[0];
-            EXPECT_EQ(place->read("b.hearth"), pack) << arguments[0];
-        }
-    ::umask(mask);
-}
-
 TEST_F(SecondCook, anotherFolderTakesWhatTheCacheHas)
 {
     ran(cook({"house.obj", "tree.gltf", "-o", "a.hearth"}));

@@ -28,6 +28,11 @@ bool comes(const std::function<bool()>& condition)
     return false;
 }
 
+std::string pathOf(const std::optional<command::FileWatch::Change>& change)
+{
+    return change ? change->path : "";
+}
+
 class Watch : public ::testing::Test
 {
 protected:
@@ -126,6 +131,33 @@ TEST_F(Watch, settingsAreReadAnew)
     EXPECT_EQ(end(SIGINT).exit_code, 130);
 }
 
+TEST_F(Watch, takesSourcesThatComeAndGo)
+{
+    fs::create_directories(folder / "village/old");
+    for (const char* name : {"house.obj", "house.mtl", "house.tga"})
+        fs::copy(folder / name, folder / (std::string("village/") + name));
+    start({"village"});
+    ASSERT_TRUE(waitsAfter(0)) << folder.errSoFar();
+    const std::string first = folder.read("a.hearth");
+
+    // in a folder that was not there, either
+    fs::create_directories(folder / "village/new/trees");
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));
+    EXPECT_EQ(cooks(), 1u) << "folders are no sources: " << folder.errSoFar();
+    writeObj(folder, "tree", 3);
+    fs::rename(folder / "tree.obj", folder / "village/new/trees/tree.obj");
+    ASSERT_TRUE(waitsAfter(1)) << folder.errSoFar();
+    EXPECT_NE(folder.errSoFar().find("village/new/trees/tree.obj has changed"), std::string::npos)
+        << folder.errSoFar();
+    EXPECT_NE(folder.read("a.hearth"), first);
+
+    folder.write("village/notes.txt", "are no source");
+    fs::remove(folder / "village/new/trees/tree.obj");
+    ASSERT_TRUE(waitsAfter(2)) << folder.errSoFar();
+    EXPECT_EQ(folder.read("a.hearth"), first);
+    EXPECT_EQ(end(SIGINT).exit_code, 130);
+}
+
 TEST_F(Watch, aWrongCommandLineEnds)
 {
     start({"house.obj", "house.obj", "--lod", "1=house.obj"});
@@ -142,13 +174,13 @@ TEST(FileWatch, tellsOfFilesInFoldersThatComeLater)
     ASSERT_TRUE(files->watch({path, path}, fs::file_time_type::clock::now()).ok());
     EXPECT_EQ(files->size(), 1u);
     fs::create_directories(folder / "textures/wood");
-    EXPECT_EQ(files->wait(), path);
+    EXPECT_EQ(pathOf(files->wait()), path);
     ASSERT_TRUE(files->watch({path}, fs::file_time_type::clock::now()).ok());
     folder.write("textures/wood/oak.tga", "oak");
-    EXPECT_EQ(files->wait(), path);
+    EXPECT_EQ(pathOf(files->wait()), path);
     fs::remove_all(folder / "textures");
     ASSERT_TRUE(files->watch({path}, fs::file_time_type::clock::now()).ok());
-    EXPECT_EQ(files->wait(), path);
+    EXPECT_EQ(pathOf(files->wait()), path);
 }
 
 TEST(FileWatch, looksAtTimesInNewFoldersOnly)
@@ -159,11 +191,39 @@ TEST(FileWatch, looksAtTimesInNewFoldersOnly)
     ASSERT_TRUE(files.ok());
     const auto long_ago = fs::file_time_type::min();
     ASSERT_TRUE(files->watch({folder / "here.obj"}, long_ago).ok());
-    EXPECT_EQ(files->wait(), folder / "here.obj") << "written before anybody looked";
+    EXPECT_EQ(pathOf(files->wait()), folder / "here.obj") << "written before anybody looked";
     // a folder that was watched tells by itself
     ASSERT_TRUE(files->watch({folder / "here.obj", folder / "later.obj"}, long_ago).ok());
     folder.write("later.obj", "");
-    EXPECT_EQ(files->wait(), folder / "later.obj");
+    EXPECT_EQ(pathOf(files->wait()), folder / "later.obj");
+}
+
+TEST(FileWatch, tellsOfFilesThatComeIntoFolders)
+{
+    const Sandbox folder;
+    folder.write("here.obj", "");
+    auto files = command::FileWatch::create();
+    ASSERT_TRUE(files.ok());
+    const auto watch = [&]
+    {
+        return files->watch({folder / "here.obj"}, fs::file_time_type::clock::now(),
+                            {folder.path(), folder / "later"});
+    };
+    ASSERT_TRUE(watch().ok());
+    EXPECT_EQ(files->size(), 1u);
+    folder.write("there.obj", "");
+    const auto change = files->wait();
+    EXPECT_EQ(pathOf(change), folder.path());
+    EXPECT_TRUE(change->is_of_folder);
+    // a file that is watched goes before others that have come
+    folder.write("elsewhere.obj", "");
+    folder.write("here.obj", "another");
+    EXPECT_EQ(pathOf(files->wait()), folder / "here.obj");
+    fs::create_directory(folder / "later");
+    (void)files->wait();
+    ASSERT_TRUE(watch().ok());
+    folder.write("later/tree.obj", "");
+    EXPECT_EQ(pathOf(files->wait()), folder / "later");
 }
 
 TEST(FileWatch, tellsOfFilesBehindLinks)
@@ -176,7 +236,7 @@ TEST(FileWatch, tellsOfFilesBehindLinks)
     ASSERT_TRUE(files.ok());
     ASSERT_TRUE(files->watch({folder / "oak.tga"}, fs::file_time_type::clock::now()).ok());
     folder.write("store/oak.tga", "another");
-    EXPECT_EQ(files->wait(), fs::canonical(folder / "store/oak.tga").string());
+    EXPECT_EQ(pathOf(files->wait()), fs::canonical(folder / "store/oak.tga").string());
 }
 
 } // namespace hearth::test
