@@ -3,6 +3,7 @@
 #include "runtime/pack/pack.h"
 #include "tests/formats/malformed_packs.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 namespace hearth::test
@@ -95,6 +96,26 @@ TEST(CheckHierarchy, needsOnlyTheMeshes)
     ASSERT_TRUE(view.ok());
     const Status status = checkHierarchy(*view);
     EXPECT_TRUE(status.ok()) << formatMessage(status.error());
+}
+
+TEST(CheckPack, reportsTheFirstWrongVertexAndWhatIsFirstWrongWithIt)
+{
+    // two words of bases, then six a vertex: the third its tangent, the last its visibility
+    const auto spoilTangent = [](PackModel& model, size_t vertex)
+    { model.decoded_pages[0][(2 + vertex * 6 + 2) * 4 + 3] = std::byte{0x80}; };
+    const auto spoilVisibility = [](PackModel& model, size_t vertex)
+    { model.decoded_pages[0][(2 + vertex * 6 + 5) * 4 + 3] = std::byte{0x80}; };
+    const auto refusalOf = [&](size_t tangent, size_t visibility)
+    {
+        PackModel model = smallPack();
+        spoilTangent(model, tangent);
+        spoilVisibility(model, visibility);
+        model.sealPages();
+        return refusal(model);
+    };
+    EXPECT_THAT(refusalOf(1, 3), testing::HasSubstr("vertex 1: its tangent"));
+    EXPECT_THAT(refusalOf(3, 1), testing::HasSubstr("vertex 1: its visibility"));
+    EXPECT_THAT(refusalOf(2, 2), testing::HasSubstr("vertex 2: its tangent"));
 }
 
 class MalformedPackTest : public testing::TestWithParam<MalformedPack>
