@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include "formats/pack_view.h"
+#include "formats/pack_check.h"
 
 #include <cmath>
 
@@ -124,7 +124,7 @@ Status checkLights(const PackView& view);
 Status checkShadowSpheres(const PackView& view);
 Status checkMeshTables(const PackView& view);
 Status checkPageTables(const PackView& view);
-Status checkPageGeometry(const PackView& view);
+Status checkPageGeometry(const PackView& view, const PageLoop& loop);
 Status checkDeformedMeshes(const PackView& view);
 Status checkSpecularTable(const PackView& view);
 Status checkBrickTables(const PackView& view);

@@ -3,6 +3,9 @@
 #include "formats/check_tools.h"
 #include "formats/cone_check.h"
 
+#include <atomic>
+#include <mutex>
+
 namespace hearth::formats::check
 {
 
@@ -214,19 +217,50 @@ std::vector<uint32_t> jointCounts(const PackView& view)
     return counts;
 }
 
+/// Of things that are looked at in any order, the first one that is wrong. Any number of threads may add to it.
+class FirstError
+{
+public:
+    /// Whether a thing before this one is known to be wrong, so that this one does not matter.
+    bool isBefore(uint32_t thing) const { return first_.load(std::memory_order_relaxed) < thing; }
+
+    void add(uint32_t thing, Error error)
+    {
+        const std::lock_guard lock(mutex_);
+        if (isBefore(thing))
+            return;
+        first_.store(thing, std::memory_order_relaxed);
+        status_ = std::move(error);
+    }
+
+    Status take() { return std::move(status_); }
+
+private:
+    std::atomic<uint32_t> first_ = kNone;
+    std::mutex mutex_;
+    Status status_ = success();
+};
+
 } // namespace
 
-Status checkPageGeometry(const PackView& view)
+Status checkPageGeometry(const PackView& view, const PageLoop& loop)
 {
-    std::vector<std::byte> buffer(kPageMaxBytes);
     const std::vector<uint32_t> joint_counts = jointCounts(view);
-    for (uint32_t i = 0; i < view.pages().size(); ++i)
-    {
-        const std::span<std::byte> page = std::span(buffer).first(view.pages()[i].size);
-        HEARTH_TRY(view.decodePage(i, page));
-        HEARTH_TRY(checkPage(view, i, page, joint_counts[view.pages()[i].mesh]));
-    }
-    return success();
+    FirstError error;
+    loop(static_cast<uint32_t>(view.pages().size()),
+         [&](uint32_t i)
+         {
+             if (error.isBefore(i))
+                 return;
+             thread_local std::vector<std::byte> buffer(kPageMaxBytes);
+             const std::span<std::byte> page = std::span(buffer).first(view.pages()[i].size);
+             Status status = view.decodePage(i, page);
+             if (status.ok())
+                 status = checkPage(view, i, page, joint_counts[view.pages()[i].mesh]);
+             if (!status.ok())
+                 error.add(i, std::move(status).error());
+         });
+    return error.take();
 }
 
 } // namespace hearth::formats::check

@@ -89,11 +89,17 @@ Status checkTexts(const PackView& view)
 
 } // namespace check
 
-Status checkHierarchy(const PackView& view)
+void pageByPage(uint32_t count, const std::function<void(uint32_t)>& work)
+{
+    for (uint32_t page = 0; page < count; ++page)
+        work(page);
+}
+
+Status checkHierarchy(const PackView& view, const PageLoop& loop)
 {
     HEARTH_TRY(check::checkMeshTables(view));
     HEARTH_TRY(check::checkPageTables(view));
-    return check::checkPageGeometry(view);
+    return check::checkPageGeometry(view, loop);
 }
 
 Status checkMotion(const PackView& view)
@@ -113,7 +119,7 @@ Status checkBricks(const PackView& view)
     return check::checkBrickTables(view);
 }
 
-Status checkPack(const PackView& view)
+Status checkPack(const PackView& view, const PageLoop& loop)
 {
     if (view.container().kind() != ContainerKind::pack)
         return Error{Issue::container_kind, view.name(), "", "this is a part, not a pack"};
@@ -126,7 +132,7 @@ Status checkPack(const PackView& view)
     HEARTH_TRY(check::checkCameras(view));
     HEARTH_TRY(check::checkLights(view));
     HEARTH_TRY(check::checkShadowSpheres(view));
-    HEARTH_TRY(checkHierarchy(view));
+    HEARTH_TRY(checkHierarchy(view, loop));
     HEARTH_TRY(check::checkMaterialsOfClusters(view));
     HEARTH_TRY(check::checkDeformedMeshes(view));
     HEARTH_TRY(checkSpecular(view));

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "formats/pack_check.h"
+#include "pipelines/verify/verify_pack.h"
 #include "runtime/pack/pack.h"
 #include "tests/formats/malformed_packs.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numeric>
 
 namespace hearth::test
 {
@@ -96,6 +100,45 @@ TEST(CheckHierarchy, needsOnlyTheMeshes)
     ASSERT_TRUE(view.ok());
     const Status status = checkHierarchy(*view);
     EXPECT_TRUE(status.ok()) << formatMessage(status.error());
+}
+
+TEST(CheckPack, reportsTheFirstWrongPageInWhateverOrderPagesAreChecked)
+{
+    PackModel model = smallPack();
+    for (std::vector<std::byte>& page : model.decoded_pages)
+        page.back() ^= std::byte{1};
+    // the first page is right
+    model.decoded_pages[0].back() ^= std::byte{1};
+    model.sealPages();
+    const AlignedBytes bytes = model.bytes();
+    auto reader = ContainerReader::fromBytes(bytes.span(), "small.hearth");
+    ASSERT_TRUE(reader.ok());
+    const auto view = PackView::read(std::move(reader).value());
+    ASSERT_TRUE(view.ok());
+    ASSERT_GE(view->pages().size(), 4u);
+    const Status in_turn = checkPack(*view);
+    ASSERT_FALSE(in_turn.ok());
+    const std::string expected = formatMessage(in_turn.error());
+    const uint32_t first_wrong = view->pages()[1].clusters.first + view->pages()[1].clusters.count - 1;
+    EXPECT_EQ(in_turn.error().where, "cluster " + std::to_string(first_wrong));
+
+    std::vector<uint32_t> order(view->pages().size());
+    std::iota(order.begin(), order.end(), 0u);
+    do
+    {
+        const Status status =
+            checkPack(*view, [&](uint32_t, const std::function<void(uint32_t)>& work)
+                      { std::for_each(order.begin(), order.end(), [&](uint32_t page) { work(page); }); });
+        ASSERT_FALSE(status.ok());
+        EXPECT_EQ(formatMessage(status.error()), expected);
+    } while (std::next_permutation(order.begin(), order.end()));
+
+    for (int i = 0; i < 100; ++i)
+    {
+        const Status status = verify::verifyPack(*view);
+        ASSERT_FALSE(status.ok());
+        EXPECT_EQ(formatMessage(status.error()), expected);
+    }
 }
 
 TEST(CheckPack, reportsTheFirstWrongVertexAndWhatIsFirstWrongWithIt)
