@@ -173,6 +173,41 @@ Status checkTriangles(const PackView& view, size_t i, float grid_step, const Clu
     return success();
 }
 
+/// Of things that are looked at in any order, the first one that is wrong. Any number of threads may add to it.
+class FirstError
+{
+public:
+    /// Whether a thing before this one is known to be wrong, so that this one does not matter.
+    bool isBefore(uint32_t thing) const { return first_.load(std::memory_order_relaxed) < thing; }
+
+    void add(uint32_t thing, Error error)
+    {
+        const std::lock_guard lock(mutex_);
+        if (isBefore(thing))
+            return;
+        first_.store(thing, std::memory_order_relaxed);
+        status_ = std::move(error);
+    }
+
+    Status take() { return std::move(status_); }
+
+private:
+    std::atomic<uint32_t> first_ = kNone;
+    std::mutex mutex_;
+    Status status_ = success();
+};
+
+} // namespace
+
+std::vector<uint32_t> jointCounts(const PackView& view)
+{
+    std::vector<uint32_t> counts(view.meshes().size(), ~0u);
+    for (const NodeRecord& node : view.nodes())
+        if (node.mesh < counts.size() && node.skin < view.skins().size())
+            counts[node.mesh] = std::min(counts[node.mesh], view.skins()[node.skin].joints.count);
+    return counts;
+}
+
 /// Clusters lie in the page in their order; what is between them, behind them and behind their indices is zero.
 Status checkPage(const PackView& view, uint32_t page_index, std::span<const std::byte> page,
                  uint32_t joint_count)
@@ -207,58 +242,19 @@ Status checkPage(const PackView& view, uint32_t page_index, std::span<const std:
     return success();
 }
 
-/// For each mesh, how many joints its skin has; a part that has no nodes does not say.
-std::vector<uint32_t> jointCounts(const PackView& view)
-{
-    std::vector<uint32_t> counts(view.meshes().size(), ~0u);
-    for (const NodeRecord& node : view.nodes())
-        if (node.mesh < counts.size() && node.skin < view.skins().size())
-            counts[node.mesh] = std::min(counts[node.mesh], view.skins()[node.skin].joints.count);
-    return counts;
-}
-
-/// Of things that are looked at in any order, the first one that is wrong. Any number of threads may add to it.
-class FirstError
-{
-public:
-    /// Whether a thing before this one is known to be wrong, so that this one does not matter.
-    bool isBefore(uint32_t thing) const { return first_.load(std::memory_order_relaxed) < thing; }
-
-    void add(uint32_t thing, Error error)
-    {
-        const std::lock_guard lock(mutex_);
-        if (isBefore(thing))
-            return;
-        first_.store(thing, std::memory_order_relaxed);
-        status_ = std::move(error);
-    }
-
-    Status take() { return std::move(status_); }
-
-private:
-    std::atomic<uint32_t> first_ = kNone;
-    std::mutex mutex_;
-    Status status_ = success();
-};
-
-} // namespace
-
 Status checkPageGeometry(const PackView& view, const PageLoop& loop)
 {
-    const std::vector<uint32_t> joint_counts = jointCounts(view);
+    PackView checked = view;
+    checked.checkPagesWhenRead();
     FirstError error;
     loop(static_cast<uint32_t>(view.pages().size()),
-         [&](uint32_t i)
+         [&](uint32_t page)
          {
-             if (error.isBefore(i))
+             if (error.isBefore(page))
                  return;
-             thread_local std::vector<std::byte> buffer(kPageMaxBytes);
-             const std::span<std::byte> page = std::span(buffer).first(view.pages()[i].size);
-             Status status = view.decodePage(i, page);
-             if (status.ok())
-                 status = checkPage(view, i, page, joint_counts[view.pages()[i].mesh]);
+             Status status = checked.checkPage(page);
              if (!status.ok())
-                 error.add(i, std::move(status).error());
+                 error.add(page, std::move(status).error());
          });
     return error.take();
 }

@@ -37,6 +37,10 @@ void pageByPage(uint32_t count, const std::function<void(uint32_t)>& work);
 /// errors: container_kind, chunk_*, page_hash, meaning_*.
 Status checkPack(const PackView& view, const PageLoop& loop = pageByPage);
 
+/// checkPack but for geometry pages and texels, of whose bytes none is read: the pages are right where
+/// PackView::checkPage says so, texels where PackView::imageData hands them out. The first error in the same order.
+Status checkTables(const PackView& view);
+
 /// Check skins, animations and the tree of nodes alone: what an import part already has.
 Status checkMotion(const PackView& view);
 
