@@ -30,10 +30,9 @@ using PageLoop = std::function<void(uint32_t count, const std::function<void(uin
 /// The loop of one thread.
 void pageByPage(uint32_t count, const std::function<void(uint32_t)>& work);
 
-/// Check everything, pages by `loop`. The first error in reading order is returned: texts, materials, images, skins, animations, nodes,
-/// instances, cameras, lights, shadow spheres, then checkHierarchy, then what refers from one to the other.
-/// Of pages it is the first as well, whatever the loop does. Time linear in the size of the tables and decoded pages;
-/// safe on any container.
+/// Check everything, pages by `loop`. The first error in reading order is returned, whatever the loop does: texts, materials,
+/// images, skins, animations, nodes, instances, cameras, lights, shadow spheres, then checkHierarchy, then what refers from
+/// one to the other. Time linear in the size of the tables and decoded pages; safe on any container.
 /// errors: container_kind, chunk_*, page_hash, meaning_*.
 Status checkPack(const PackView& view, const PageLoop& loop = pageByPage);
 
