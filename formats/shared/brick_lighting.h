@@ -319,7 +319,22 @@ struct BrickStart
     Float3 place; ///< in the air, in voxels
     Float3 normal;
     uint buried; ///< 1: no air was found before a surface; it gets no light
+    /// What stands right before a surface, in a voxel that rays start behind: its mean radiance, and its opacity.
+    Float3 close;
+    float close_opacity; ///< [0, 1]; 0: nothing does
 };
+
+/// With nothing right before it.
+HEARTH_FUNCTION BrickStart brickStartAt(Float3 place, Float3 normal)
+{
+    BrickStart start;
+    start.place = place;
+    start.normal = normal;
+    start.buried = 0u;
+    start.close = Float3(0.0f, 0.0f, 0.0f);
+    start.close_opacity = 0.0f;
+    return start;
+}
 
 /// 0 for a surface whose normal lies along an axis, whose voxels are as flat as it is; 1 for one between the axes.
 HEARTH_FUNCTION float brickSlant(Float3 normal)
@@ -350,11 +365,15 @@ HEARTH_FUNCTION Float3 brickLifted(HEARTH_IN(BrickScene) scene, Float3 place, Fl
 HEARTH_FUNCTION BrickStart brickFaceStart(HEARTH_IN(BrickScene) scene, uint x, uint y, uint z, uint face,
                                           Float3 surface_normal)
 {
-    BrickStart start;
-    start.normal = brickFaceNormal(surface_normal, face);
-    start.place = brickLifted(scene, brickFaceMiddle(x, y, z, face), start.normal);
-    start.buried = 0u;
-    return start;
+    Float3 normal = brickFaceNormal(surface_normal, face);
+    return brickStartAt(brickLifted(scene, brickFaceMiddle(x, y, z, face), normal), normal);
+}
+
+/// Whether the voxel that a ray is in is solid: a march that takes no step began in one.
+HEARTH_FUNCTION bool brickIsInSolid(HEARTH_IN(BrickScene) scene, HEARTH_IN(BrickRay) ray)
+{
+    BrickRay met = brickMarch(brickMasksOf(scene), ray);
+    return met.inside != 0u && met.steps == ray.steps;
 }
 
 /// For a point of a surface, which mostly lies in a solid voxel: along its normal out of it.
@@ -362,27 +381,46 @@ HEARTH_FUNCTION BrickStart brickFaceStart(HEARTH_IN(BrickScene) scene, uint x, u
 /// normal  unit, of the side that is lit
 HEARTH_FUNCTION BrickStart brickSurfaceStart(HEARTH_IN(BrickScene) scene, Float3 place, Float3 normal)
 {
-    BrickStart start;
-    start.normal = normal;
     BrickRay ray = brickRayInVoxels(brickGridOf(brickMasksOf(scene)), place, normal, kBrickMostBuried);
-    bool solid = ray.inside != 0u;
-    while (solid)
-    {
-        // a march that takes no step began in a solid voxel
-        BrickRay here = brickMarch(brickMasksOf(scene), ray);
-        solid = here.inside != 0u && here.steps == ray.steps;
-        if (solid)
-        {
-            ray = brickPass(brickMasksOf(scene), ray);
-            solid = ray.inside != 0u;
-        }
-    }
+    while (brickIsInSolid(scene, ray))
+        ray = brickPass(brickMasksOf(scene), ray);
     // where nothing was left, it is in the air already
     float out_t = ray.steps > 0u ? ray.start_t + ray.t : 0.0f;
+    BrickStart start = brickStartAt(place, normal);
     start.buried = out_t >= kBrickMostBuried ? 1u : 0u;
     out_t += ray.steps > 0u ? kBrickFaceMargin : 0.0f;
-    start.place = start.buried != 0u ? place : brickLifted(scene, place + normal * out_t, normal);
+    if (start.buried == 0u)
+        start.place = brickLifted(scene, place + normal * out_t, normal);
     return start;
+}
+
+/// A start with what is in the solid voxel that the ray is in right before it.
+HEARTH_FUNCTION BrickStart brickCloseTo(HEARTH_IN(BrickScene) scene, BrickStart start,
+                                        HEARTH_IN(BrickRay) ray)
+{
+    BrickRay met = brickMarch(brickMasksOf(scene), ray);
+    Brick brick = brickAt(brickMasksOf(scene), met.brick);
+    float count = 0.0f;
+    for (uint side = 0u; side < kVoxelFaces; ++side)
+    {
+        uint face = brickFace(brick, met.bit, side);
+        if (face != kNoFace)
+        {
+            start.close = start.close + brickRadianceAt(scene, face);
+            count += 1.0f;
+        }
+    }
+    start.close = start.close * (1.0f / max(count, 1.0f));
+    start.close_opacity = count > 0.0f ? brickOpacityAt(scene, brickVoxel(brick, met.bit)) : 0.0f;
+    return start;
+}
+
+/// How much of a start's light comes from what is close to it, where rays bring `mean`: nothing where that is darker. Whether
+/// such a thing hides the surface a grid cannot tell; that it shines on it is sure.
+HEARTH_FUNCTION float brickCloseShare(HEARTH_IN(BrickStart) start, Float3 mean)
+{
+    float more = start.close.x + start.close.y + start.close.z - mean.x - mean.y - mean.z;
+    return more > 0.0f ? start.close_opacity : 0.0f;
 }
 
 /// For a point of a surface that is seen: in the air before it; where other bricks stand there, as in the corners of rooms, in
@@ -393,11 +431,20 @@ HEARTH_FUNCTION BrickStart brickSeenStart(HEARTH_IN(BrickScene) scene, Float3 pl
 {
     BrickStart start = brickSurfaceStart(scene, place, normal);
     Float3 way = start.place - place;
+    float slant = brickSlant(normal);
+    BrickRay own =
+        brickRayInVoxels(brickGridOf(brickMasksOf(scene)),
+                         place - normal * (kBrickPlaneReach + kBrickFaceMargin), normal, kBrickMostBuried);
+    BrickRay next = brickPass(brickMasksOf(scene), own);
     // beyond that it was not its own voxel that was left
-    float most = kBrickLift * brickSlant(normal) + 1.25f;
-    if (start.buried != 0u || dot(way, way) > most * most)
-        start = brickSurfaceStart(scene, place, to_eye);
+    float own_way = brickIsInSolid(scene, own) ? next.start_t + next.t : 1.0f;
+    float most = own_way + (1.0f - own_way + kBrickLift) * slant + 0.25f;
+    if (start.buried == 0u && dot(way, way) <= most * most)
+        return start;
+    start = brickSurfaceStart(scene, place, to_eye);
     start.normal = normal;
+    if (brickIsInSolid(scene, next))
+        start = brickCloseTo(scene, start, next);
     return start;
 }
 
@@ -410,7 +457,10 @@ HEARTH_FUNCTION Float3 brickGather(HEARTH_IN(BrickScene) scene, HEARTH_IN(BrickS
         sum =
             sum +
             brickRayLight(scene, sky, start.place, brickRayDirection(start.normal, i, count, seed)).radiance;
-    return start.buried != 0u ? Float3(0.0f, 0.0f, 0.0f) : sum * (1.0f / float(count));
+    if (start.buried != 0u)
+        return Float3(0.0f, 0.0f, 0.0f);
+    Float3 mean = sum * (1.0f / float(count));
+    return mean + (start.close - mean) * brickCloseShare(start, mean);
 }
 
 // ---- lights
