@@ -18,14 +18,17 @@ namespace hearth::command
 namespace
 {
 
-graph::ExecutorEvents eventsFor(Verbosity verbosity)
+/// Shards write logs, which have no bar.
+graph::ExecutorEvents eventsFor(const Effort& effort)
 {
     graph::ExecutorEvents events;
-    events.ended = [verbosity](const graph::Action& action, const graph::ActionOutcome& outcome,
-                               const std::vector<std::string>& messages)
+    const bool shows_stages = effort.verbosity != Verbosity::quiet && effort.progress != "none";
+    events.ended = [verbosity = effort.verbosity, shows_stages](const graph::Action& action,
+                                                                const graph::ActionOutcome& outcome,
+                                                                const std::vector<std::string>& messages)
     {
         passOn(messages, verbosity);
-        if (outcome.ending == graph::Ending::cooked && verbosity != Verbosity::quiet)
+        if (outcome.ending == graph::Ending::cooked && shows_stages)
             printStage(action, outcome);
     };
     events.failed = [](const graph::Failure& failure)
@@ -73,7 +76,7 @@ int runHere(const RunOptions& options, const OpenedPlan& opened, size_t shard)
     const auto record = farm::runShard(
         opened.plan, opened.hash, shard, {(*memory)->cache(), (*memory)->actions(), (*memory)->hashes()},
         {limitsOf(options.jobs, options.memory_bytes), tools::programFolder(), options.plan_file},
-        eventsFor(options.verbosity));
+        eventsFor(options));
     (*memory)->finish();
     if (!record)
         return kInterrupted;

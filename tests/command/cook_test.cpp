@@ -270,6 +270,39 @@ TEST_F(Cook, progressIsABarOrLinesOrNothing)
               std::string::npos);
 }
 
+TEST_F(Cook, whatItTellsIsASetting)
+{
+    using Environment = std::vector<std::string>;
+    const auto err = [&](const Environment& environment, const std::vector<std::string>& flags = {})
+    {
+        std::vector<std::string> arguments{"warning.gltf", "-o", "a.hearth", "--no-cache"};
+        arguments.insert(arguments.end(), flags.begin(), flags.end());
+        const ProgramEnd end = cook(arguments, environment);
+        EXPECT_EQ(end.exit_code, 0) << end.err;
+        return end.err;
+    };
+    EXPECT_EQ(err({"HEARTH_LOG=quiet"}), "");
+    EXPECT_EQ(countOf(err({"HEARTH_LOG=quiet"}, {"-v"}), "noise"), 1u) << "the command line goes over it";
+    EXPECT_EQ(countOf(err({"HEARTH_LOG=verbose"}), "noise"), 1u);
+    EXPECT_EQ(err({"HEARTH_LOG=verbose"}, {"-q"}), "");
+    EXPECT_EQ(countOf(err({"HEARTH_PROGRESS=none"}), "import "), 0u);
+    EXPECT_EQ(countOf(err({"HEARTH_PROGRESS=none"}, {"--progress", "plain"}), "import "), 1u);
+    EXPECT_EQ(cook({"warning.gltf", "-o", "a.hearth"}, {"HEARTH_LOG=loud"}).exit_code, 78);
+
+    folder.write("hearth.toml", "[defaults]\nlog = 'quiet'\ncolor = 'always'\nprogress = 'none'\n");
+    EXPECT_EQ(err({}), "");
+    const std::string in_color = err({"HEARTH_LOG=normal"});
+    EXPECT_EQ(countOf(in_color, "\033[1;33mwarning:\033[0m"), 1u) << in_color;
+    EXPECT_EQ(countOf(in_color, "import "), 0u) << in_color;
+    EXPECT_EQ(err({"HEARTH_LOG=normal", "NO_COLOR=1"}).find('\033'), std::string::npos);
+    // of verbs, too, that need no other setting
+    EXPECT_NE(folder.run({programs / "hearth", "verify", "none"}, {}).err.find("\033[1;31merror:"),
+              std::string::npos);
+    folder.write("hearth.toml", "[defaults]\ncolour = 'always'\n");
+    EXPECT_EQ(folder.run({programs / "hearth", "verify", "a.hearth"}, {}).exit_code, 0)
+        << "a file that is wrong is told of by those that need it";
+}
+
 TEST_F(Cook, severalSourcesMakeOnePack)
 {
     const ProgramEnd end = cook({"a.gltf", "b.gltf", "c.gltf", "-o", "all.hearth", "--jobs", "3"});

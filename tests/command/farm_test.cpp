@@ -179,6 +179,31 @@ TEST_F(Farm, cooksWhatShardsHaveNotLeft)
     EXPECT_EQ(hearth({"merge", "plan.json", "-o", "farm.hearth", "--missing", "list"}).exit_code, 0);
 }
 
+TEST_F(Farm, allStepsGoByTheSettings)
+{
+    const Sandbox elsewhere;
+    folder.write("hearth.toml", "[defaults]\nlog = 'quiet'\ncache = 'dir:" + elsewhere / "cache" + "'\n");
+    const std::vector<std::string> environment{"HEARTH_CACHE="};
+    const auto step = [&](const std::vector<std::string>& words)
+    {
+        const ProgramEnd end = hearth(words, environment);
+        EXPECT_EQ(end.exit_code, 0) << words.front();
+        EXPECT_EQ(end.err, "") << words.front();
+    };
+    step({"plan", "bush.gltf", "-o", "plan.json"});
+    step({"run", "plan.json", "--shard", "0/1"});
+    EXPECT_TRUE(elsewhere.has("cache"));
+    step({"farm", "status", "plan.json"});
+    step({"merge", "plan.json", "-o", "farm.hearth"});
+    for (const char* verb : {"run", "merge"})
+    {
+        std::vector<std::string> words{verb, "plan.json"};
+        if (words.front() == "merge")
+            words.insert(words.end(), {"-o", "farm.hearth"});
+        EXPECT_EQ(hearth(words, {"HEARTH_JOBS=0"}).exit_code, 78);
+    }
+}
+
 TEST_F(Farm, believesNoByteOfTheCache)
 {
     const std::string pack = localPack();
