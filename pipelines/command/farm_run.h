@@ -18,6 +18,7 @@ struct MakePlanOptions
     farm::Request request;
     std::string output;                ///< file, or "-"
     std::optional<size_t> shard_count; ///< nothing: as many as are worth while
+    std::string estimates_file;        ///< a report whose times and memory are gone by; empty: none
     std::vector<std::string> caches;
     bool emits_commands = false; ///< print a command line for each shard
     bool quiet = false;

@@ -75,6 +75,10 @@ void addPlan(CLI::App& app, Work& run)
                      "how many machines may share it; auto: as many as have a minute to do each")
         ->check(CLI::Validator(shardsFault, ""))
         ->capture_default_str();
+    verb->add_option("--estimates", options->estimates_file,
+                     "what hearth cook --report or hearth merge --report wrote as JSON: the times and memory "
+                     "of then, by which shards are made; else sizes of files")
+        ->type_name("REPORT");
     verb->add_option("--emit", options->emitted, "commands: print a command line for each shard")
         ->check(CLI::IsMember({"commands"}));
     verb->add_option("--lod", options->lods,
@@ -85,6 +89,7 @@ void addPlan(CLI::App& app, Work& run)
     options->settings.addLog(*verb, "");
     verb->footer("Examples:\n"
                  "  hearth plan *.glb -o village.plan.json --shards 7\n"
+                 "  hearth plan *.glb -o village.plan.json --estimates report.json\n"
                  "  hearth plan *.glb -o village.plan.json --emit commands | parallel\n"
                  "Then hearth run for each shard, or hearth farm for all, and hearth merge.");
     verb->callback(

@@ -179,6 +179,34 @@ TEST_F(Farm, cooksWhatShardsHaveNotLeft)
     EXPECT_EQ(hearth({"merge", "plan.json", "-o", "farm.hearth", "--missing", "list"}).exit_code, 0);
 }
 
+TEST_F(Farm, isSharedOutByAReportOfBefore)
+{
+    EXPECT_EQ(over("cook", {"-o", "local.hearth", "-q", "--report", "report.json"}).exit_code, 0);
+    const std::string pack = folder.read("local.hearth");
+    // as if one of four had taken as long as the others together
+    auto report = nlohmann::json::parse(folder.read("report.json"));
+    for (auto& asset : report["assets"])
+        for (auto& stage : asset["stages"])
+            stage["seconds"] = asset["source"] == "bush.gltf" ? 30 : 10;
+    folder.write("report.json", report.dump());
+    const ProgramEnd end = over("plan", {"-o", "plan.json", "--estimates", "report.json"});
+    EXPECT_EQ(end.exit_code, 0) << end.err;
+    EXPECT_NE(end.err.find("4 shards of at most about 120 s"), std::string::npos) << end.err;
+    EXPECT_NE(end.err.find("4 of 4 sources have their times from report.json"), std::string::npos) << end.err;
+    const ProgramEnd two =
+        over("plan", {"-o", "plan.json", "-q", "--shards", "2", "--estimates", "report.json"});
+    EXPECT_EQ(two.exit_code, 0);
+    EXPECT_EQ(two.err, "");
+    EXPECT_EQ(nlohmann::json::parse(folder.read("plan.json"))["shards"], nlohmann::json({{3}, {0, 1, 2}}));
+    // no key has changed: all is there, and the pack is the same
+    for (size_t shard = 0; shard < 2; ++shard)
+        EXPECT_NE(run(shard, 2).err.find(" 0 cooked"), std::string::npos);
+    EXPECT_TRUE(merged() == pack);
+    EXPECT_EQ(over("plan", {"-o", "none.json", "--estimates", "plan.json"}).exit_code, 65);
+    EXPECT_EQ(over("plan", {"-o", "none.json", "--estimates", "nowhere.json"}).exit_code, 66);
+    EXPECT_FALSE(folder.has("none.json"));
+}
+
 TEST_F(Farm, allStepsGoByTheSettings)
 {
     const Sandbox elsewhere;
