@@ -88,12 +88,9 @@ std::vector<std::string> cachesOf(const profiles::Configuration& configuration)
                                                                  : profiles::textsOf(*caches);
 }
 
-Result<std::vector<std::string>> configuredCaches(const std::vector<std::string>& caches)
+Result<std::vector<cache::LevelSpec>> levelsOf(const profiles::Configuration& configuration)
 {
-    if (!caches.empty())
-        return caches;
-    HEARTH_ASSIGN_OR_RETURN(const profiles::Configuration configuration, loadConfiguration({}));
-    return cachesOf(configuration);
+    return cache::cacheSpecs(cachesOf(configuration));
 }
 
 Result<std::vector<std::string>> withArgumentFiles(const std::vector<std::string>& words)

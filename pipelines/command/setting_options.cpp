@@ -23,7 +23,7 @@ using profiles::Value;
 std::string describe(const Setting& setting)
 {
     std::string text(setting.what);
-    if (setting.kind != Kind::flag && setting.kind != Kind::texts && !setting.otherwise.empty())
+    if (setting.kind != Kind::flag && setting.otherwise != "[]" && !setting.otherwise.empty())
         text += "; by default " + std::string(setting.otherwise);
     return text;
 }

@@ -224,9 +224,11 @@ std::vector<Setting> makeCommandSettings()
                                 "--memory", "SIZE"),
                      "HEARTH_MEMORY"),
         withVariable(
-            withOption({"cache", Kind::texts, "dir:FOLDER[,ro][,size=20G]; may be repeated, nearest first",
-                        "the user's own"},
-                       "--cache", "SPEC"),
+            withOption(
+                {"cache", Kind::texts,
+                 "dir:FOLDER[,ro][,size=20G] or http(s)://HOST/PATH[,ro]; may be repeated, nearest first",
+                 "the user's own"},
+                "--cache", "SPEC"),
             "HEARTH_CACHE"),
         withVariable(choiceOf("log",
                               "how much is told: errors alone, or all that cookers say as well; -q and -v "
