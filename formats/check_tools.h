@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include "formats/pack_view.h"
+#include "formats/pack_check.h"
 
 #include <cmath>
 
@@ -110,10 +110,24 @@ private:
     size_t at_ = 0;
 };
 
+/// Whether the bulk of a pack is read: texels, geometry pages, and the zeros around these.
+enum class Bulk
+{
+    read,
+    left,
+};
+
+/// For each mesh, how many joints its skin has; a part that has no nodes does not say.
+std::vector<uint32_t> jointCounts(const PackView& view);
+
+/// A decoded page, of a view whose tables have been checked; `joint_count` of its mesh's skin.
+Status checkPage(const PackView& view, uint32_t page_index, std::span<const std::byte> page,
+                 uint32_t joint_count);
+
 // The phases of checkPack, in its order.
 Status checkTexts(const PackView& view);
 Status checkMaterials(const PackView& view);
-Status checkImages(const PackView& view);
+Status checkImages(const PackView& view, Bulk bulk);
 Status checkSkins(const PackView& view);
 Status checkAnimations(const PackView& view);
 Status checkNodeTree(const PackView& view);
@@ -123,8 +137,8 @@ Status checkCameras(const PackView& view);
 Status checkLights(const PackView& view);
 Status checkShadowSpheres(const PackView& view);
 Status checkMeshTables(const PackView& view);
-Status checkPageTables(const PackView& view);
-Status checkPageGeometry(const PackView& view);
+Status checkPageTables(const PackView& view, Bulk bulk);
+Status checkPageGeometry(const PackView& view, const PageLoop& loop);
 Status checkDeformedMeshes(const PackView& view);
 Status checkSpecularTable(const PackView& view);
 Status checkBrickTables(const PackView& view);

@@ -74,8 +74,11 @@ public:
     /// The entry of a chunk, or nullptr. Time O(log chunks).
     const ChunkEntry* find(uint32_t type, uint32_t index = 0) const;
 
-    /// The stored bytes of a chunk as they lie in the file (still compressed, hash not checked again).
+    /// The stored bytes of a chunk as they lie in the file: still compressed, and hashed by open(Check::everything) only.
     std::span<const std::byte> stored(const ChunkEntry& entry) const;
+
+    /// What open(Check::everything) checks beyond the structure. errors: container_padding, chunk_hash.
+    Status checkContents() const;
 
     /// Decompressed content; empty if the chunk does not exist. errors: chunk_hash, chunk_codec.
     Result<ChunkData> read(uint32_t type, uint32_t index = 0) const;
@@ -100,7 +103,6 @@ public:
 
 private:
     Status checkStructure();
-    Status checkContents() const;
     Error sizeError(const ChunkEntry& entry, size_t element_size) const;
 
     std::string name_;

@@ -1,24 +1,16 @@
 // Meaning of geometry pages: every page is decoded and each cluster held against the bounds that its record claims.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "formats/check_tools.h"
-#include "formats/double3.h"
-#include "formats/pack_check.h"
+#include "formats/cone_check.h"
+
+#include <atomic>
+#include <mutex>
 
 namespace hearth::formats::check
 {
 
 namespace
 {
-
-bool legalUv(const ClusterGeometry& geometry, uint32_t vertex, uint32_t set)
-{
-    if (uvFractionBits(geometry.layout(), set) == 0)
-        return finite(geometry.uv(vertex, set));
-    const std::array<int32_t, 2> point = geometry.uvPoint(vertex, set);
-    return std::all_of(point.begin(), point.end(),
-                       [](int32_t coordinate)
-                       { return coordinate >= -kGridMost && coordinate <= kGridMost; });
-}
 
 /// The weights fall and sum to 1; joints are the skin's, and joint 0 where there is no weight.
 bool legalInfluences(const ClusterGeometry& geometry, uint32_t vertex, uint32_t joint_count)
@@ -36,37 +28,89 @@ bool legalInfluences(const ClusterGeometry& geometry, uint32_t vertex, uint32_t 
     return sum == 65535;
 }
 
+/// Finds the first vertex of a cluster that is wrong, and the first thing that is wrong with it, one thing after the other:
+/// where its words lie is the same for all vertices.
+class FirstWrong
+{
+public:
+    explicit FirstWrong(uint32_t vertex_count) : vertex_(vertex_count) {}
+
+    /// legal  of a vertex; things are asked for in the order of their importance
+    template <typename Legal>
+    void look(Issue issue, const char* what, const Legal& legal)
+    {
+        for (uint32_t v = 0; v < vertex_; ++v)
+            if (!legal(v))
+            {
+                vertex_ = v;
+                issue_ = issue;
+                what_ = what;
+            }
+    }
+
+    Status status(const PackView& view, size_t cluster) const
+    {
+        if (what_ == nullptr)
+            return success();
+        return fail(view, issue_, "cluster", cluster, "vertex " + std::to_string(vertex_) + ": " + what_);
+    }
+
+private:
+    uint32_t vertex_; ///< those before it are right so far
+    Issue issue_{};
+    const char* what_ = nullptr;
+};
+
+void lookAtUvs(const ClusterGeometry& geometry, uint32_t set, FirstWrong& wrong)
+{
+    constexpr const char* kWhat = "a UV is not finite, or beyond the grid";
+    const auto onGrid = [](int32_t coordinate)
+    { return coordinate >= -kGridMost && coordinate <= kGridMost; };
+    if (uvFractionBits(geometry.layout(), set) == 0)
+        wrong.look(Issue::meaning_geometry, kWhat, [&](uint32_t v) { return finite(geometry.uv(v, set)); });
+    else
+        wrong.look(Issue::meaning_geometry, kWhat,
+                   [&](uint32_t v)
+                   {
+                       const std::array<int32_t, 2> point = geometry.uvPoint(v, set);
+                       return onGrid(point[0]) && onGrid(point[1]);
+                   });
+}
+
 Status checkVertices(const PackView& view, size_t i, const ClusterGeometry& geometry, uint32_t joint_count)
 {
     const ClusterRecord& cluster = view.clusters()[i];
     const uint32_t layout = geometry.layout();
-    const auto wrong = [&](Issue issue, uint32_t vertex, const char* what)
-    { return fail(view, issue, "cluster", i, "vertex " + std::to_string(vertex) + ": " + what); };
-    for (uint32_t v = 0; v < geometry.vertexCount(); ++v)
-    {
-        const std::array<uint32_t, 3> offset = geometry.gridOffset(v);
-        for (int axis = 0; axis < 3; ++axis)
-            if (offset[static_cast<size_t>(axis)] > boxSteps(cluster, axis))
-                return wrong(Issue::meaning_bounds, v, "it lies outside the cluster's box");
-        if (!geometry.has(kVertexWide) && (!geometry.has(kVertexNormal) || geometry.has(kVertexFineNormal)) &&
-            geometry.word(v, 1) >> 16 != 0)
-            return wrong(Issue::meaning_padding, v, "the unused half of a word is not 0");
-        if (geometry.has(kVertexNormal) && !legalNormal(layout, geometry.normalCode(v)))
-            return wrong(Issue::meaning_geometry, v, "its normal has no legal code");
-        if (geometry.has(kVertexTangent) &&
-            !legalTangent(layout, geometry.word(v, attributeWord(layout, kVertexTangent))))
-            return wrong(Issue::meaning_geometry, v, "its tangent has no legal code");
-        if (geometry.has(kVertexVisibility) && !legalVisibility(geometry.visibilityCode(v)))
-            return wrong(Issue::meaning_geometry, v, "its visibility has no legal code");
-        for (uint32_t set = 0; set < 4; ++set)
-            if (geometry.has(kVertexUv0 << set) && !legalUv(geometry, v, set))
-                return wrong(Issue::meaning_geometry, v, "a UV is not finite, or beyond the grid");
-        if (geometry.has(kVertexInfluences) && !legalInfluences(geometry, v, joint_count))
-            return wrong(
-                Issue::meaning_geometry, v,
-                "its weights do not fall, or sum to 1, or one is that of a joint that its skin has not");
-    }
-    return success();
+    FirstWrong wrong(geometry.vertexCount());
+    const std::array<int64_t, 3> most{boxSteps(cluster, 0), boxSteps(cluster, 1), boxSteps(cluster, 2)};
+    wrong.look(Issue::meaning_bounds, "it lies outside the cluster's box",
+               [&](uint32_t v)
+               {
+                   const std::array<uint32_t, 3> offset = geometry.gridOffset(v);
+                   return offset[0] <= most[0] && offset[1] <= most[1] && offset[2] <= most[2];
+               });
+    if (!geometry.has(kVertexWide) && (!geometry.has(kVertexNormal) || geometry.has(kVertexFineNormal)))
+        wrong.look(Issue::meaning_padding, "the unused half of a word is not 0",
+                   [&](uint32_t v) { return geometry.word(v, 1) >> 16 == 0; });
+    if (geometry.has(kVertexNormal))
+        wrong.look(Issue::meaning_geometry, "its normal has no legal code",
+                   [&](uint32_t v) { return legalNormal(layout, geometry.normalCode(v)); });
+    if (geometry.has(kVertexTangent))
+        wrong.look(Issue::meaning_geometry, "its tangent has no legal code",
+                   [&, word = attributeWord(layout, kVertexTangent)](uint32_t v)
+                   { return legalTangent(layout, geometry.word(v, word)); });
+    if (geometry.has(kVertexVisibility))
+        wrong.look(Issue::meaning_geometry, "its visibility has no legal code",
+                   [&, word = attributeWord(layout, kVertexVisibility)](uint32_t v)
+                   { return legalVisibility(geometry.word(v, word)); });
+    for (uint32_t set = 0; set < 4; ++set)
+        if (geometry.has(kVertexUv0 << set))
+            lookAtUvs(geometry, set, wrong);
+    if (geometry.has(kVertexInfluences))
+        wrong.look(Issue::meaning_geometry,
+                   "its weights do not fall, or sum to 1, or one is that of a joint that its skin has not",
+                   [&](uint32_t v) { return legalInfluences(geometry, v, joint_count); });
+    return wrong.status(view, i);
 }
 
 /// Targets ascend, each moves a vertex; steps are powers of two.
@@ -94,27 +138,14 @@ Status checkMorphs(const PackView& view, size_t i, const MeshRecord& mesh, const
     return success();
 }
 
-/// The normal cone holds the triangle's normal, and its apex is not in front of the triangle.
-Status checkCone(const PackView& view, size_t i, float grid_step, Double3 normal, Double3 corner)
-{
-    const ClusterRecord& cluster = view.clusters()[i];
-    const Double3 axis = widen(coneAxis(cluster));
-    const double sine = length(cross(normal, axis)) / length(axis);
-    if (!(dot(normal, axis) > 0) || !(sine <= coneCutoff(cluster) + kConeSlack))
-        return fail(view, Issue::meaning_bounds, "cluster", i,
-                    "a triangle's normal lies outside its normal cone");
-    const Box3 box = boxOf(cluster, grid_step);
-    const Double3 center = (widen(box.min) + widen(box.max)) * 0.5;
-    const double back = coneBack(cluster, grid_step);
-    const double reach = length(widen(box.max) - center) + back;
-    if (!(dot(normal, center - axis * (back / length(axis)) - corner) <= kApexSlack * reach))
-        return fail(view, Issue::meaning_bounds, "cluster", i,
-                    "the apex of its normal cone is in front of a triangle");
-    return success();
-}
-
 Status checkTriangles(const PackView& view, size_t i, float grid_step, const ClusterGeometry& geometry)
 {
+    const ClusterRecord& cluster = view.clusters()[i];
+    const bool has_cone = cluster.cone_cutoff != kNoCone;
+    const ConeCheck cone(cluster, grid_step);
+    std::array<Double3, kClusterMaxVertices> positions;
+    for (uint32_t v = 0; v < geometry.vertexCount(); ++v)
+        positions[v] = widen(geometry.position(v));
     bool has_area = false;
     for (uint32_t t = 0; t < geometry.triangleCount(); ++t)
     {
@@ -124,20 +155,57 @@ Status checkTriangles(const PackView& view, size_t i, float grid_step, const Clu
                 return fail(view, Issue::meaning_geometry, "cluster", i,
                             "triangle " + std::to_string(t) + " names vertex " + std::to_string(corner) +
                                 " of " + std::to_string(geometry.vertexCount()));
-        const Double3 a = widen(geometry.position(corners[0]));
-        const Double3 b = widen(geometry.position(corners[1]));
-        const Double3 c = widen(geometry.position(corners[2]));
-        const Double3 normal = cross(b - a, c - a);
-        const double area = length(normal);
-        if (!(area > 0))
+        const Double3 a = positions[corners[0]];
+        const Double3 normal = cross(positions[corners[1]] - a, positions[corners[2]] - a);
+        const double length2 = dot(normal, normal);
+        if (!(length2 > 0))
             continue;
         has_area = true;
-        if (view.clusters()[i].cone_cutoff != kNoCone)
-            HEARTH_TRY(checkCone(view, i, grid_step, {normal.x / area, normal.y / area, normal.z / area}, a));
+        if (has_cone && !cone.holds(normal, length2))
+            return fail(view, Issue::meaning_bounds, "cluster", i,
+                        "a triangle's normal lies outside its normal cone");
+        if (has_cone && !cone.isBehind(normal, length2, a))
+            return fail(view, Issue::meaning_bounds, "cluster", i,
+                        "the apex of its normal cone is in front of a triangle");
     }
     if (!has_area)
         return fail(view, Issue::meaning_geometry, "cluster", i, "none of its triangles has an area");
     return success();
+}
+
+/// Of things that are looked at in any order, the first one that is wrong. Any number of threads may add to it.
+class FirstError
+{
+public:
+    /// Whether a thing before this one is known to be wrong, so that this one does not matter.
+    bool isBefore(uint32_t thing) const { return first_.load(std::memory_order_relaxed) < thing; }
+
+    void add(uint32_t thing, Error error)
+    {
+        const std::lock_guard lock(mutex_);
+        if (isBefore(thing))
+            return;
+        first_.store(thing, std::memory_order_relaxed);
+        status_ = std::move(error);
+    }
+
+    Status take() { return std::move(status_); }
+
+private:
+    std::atomic<uint32_t> first_ = kNone;
+    std::mutex mutex_;
+    Status status_ = success();
+};
+
+} // namespace
+
+std::vector<uint32_t> jointCounts(const PackView& view)
+{
+    std::vector<uint32_t> counts(view.meshes().size(), ~0u);
+    for (const NodeRecord& node : view.nodes())
+        if (node.mesh < counts.size() && node.skin < view.skins().size())
+            counts[node.mesh] = std::min(counts[node.mesh], view.skins()[node.skin].joints.count);
+    return counts;
 }
 
 /// Clusters lie in the page in their order; what is between them, behind them and behind their indices is zero.
@@ -174,29 +242,21 @@ Status checkPage(const PackView& view, uint32_t page_index, std::span<const std:
     return success();
 }
 
-/// For each mesh, how many joints its skin has; a part that has no nodes does not say.
-std::vector<uint32_t> jointCounts(const PackView& view)
+Status checkPageGeometry(const PackView& view, const PageLoop& loop)
 {
-    std::vector<uint32_t> counts(view.meshes().size(), ~0u);
-    for (const NodeRecord& node : view.nodes())
-        if (node.mesh < counts.size() && node.skin < view.skins().size())
-            counts[node.mesh] = std::min(counts[node.mesh], view.skins()[node.skin].joints.count);
-    return counts;
-}
-
-} // namespace
-
-Status checkPageGeometry(const PackView& view)
-{
-    std::vector<std::byte> buffer(kPageMaxBytes);
-    const std::vector<uint32_t> joint_counts = jointCounts(view);
-    for (uint32_t i = 0; i < view.pages().size(); ++i)
-    {
-        const std::span<std::byte> page = std::span(buffer).first(view.pages()[i].size);
-        HEARTH_TRY(view.decodePage(i, page));
-        HEARTH_TRY(checkPage(view, i, page, joint_counts[view.pages()[i].mesh]));
-    }
-    return success();
+    PackView checked = view;
+    checked.checkPagesWhenRead();
+    FirstError error;
+    loop(static_cast<uint32_t>(view.pages().size()),
+         [&](uint32_t page)
+         {
+             if (error.isBefore(page))
+                 return;
+             Status status = checked.checkPage(page);
+             if (!status.ok())
+                 error.add(page, std::move(status).error());
+         });
+    return error.take();
 }
 
 } // namespace hearth::formats::check

@@ -260,11 +260,12 @@ Status checkPage(const PackView& view, uint32_t mesh_index, uint32_t i)
 }
 
 /// Pages lie in chunk PAGE one behind the other, each at a multiple of 64, zeros between and behind.
-Status checkPageBytes(const PackView& view)
+Status checkPageBytes(const PackView& view, Bulk bulk)
 {
     const std::span<const std::byte> bytes = view.pageBytes();
     size_t end = 0;
-    const auto zeroUntil = [&](size_t until) { return allZero(bytes.subspan(end, until - end)); };
+    const auto zeroUntil = [&](size_t until)
+    { return bulk == Bulk::left || allZero(bytes.subspan(end, until - end)); };
     for (size_t i = 0; i < view.pages().size(); ++i)
     {
         const PageRecord& page = view.pages()[i];
@@ -374,7 +375,7 @@ Status checkMeshTables(const PackView& view)
     return checkRoots(view);
 }
 
-Status checkPageTables(const PackView& view)
+Status checkPageTables(const PackView& view, Bulk bulk)
 {
     Cursor clusters(view, "page", "cluster", view.clusters().size());
     Cursor parents(view, "page", "parent", view.pageParents().size());
@@ -390,7 +391,7 @@ Status checkPageTables(const PackView& view)
     }
     HEARTH_TRY(clusters.finish());
     HEARTH_TRY(parents.finish());
-    HEARTH_TRY(checkPageBytes(view));
+    HEARTH_TRY(checkPageBytes(view, bulk));
     return checkParents(view);
 }
 

@@ -89,11 +89,17 @@ Status checkTexts(const PackView& view)
 
 } // namespace check
 
-Status checkHierarchy(const PackView& view)
+void pageByPage(uint32_t count, const std::function<void(uint32_t)>& work)
+{
+    for (uint32_t page = 0; page < count; ++page)
+        work(page);
+}
+
+Status checkHierarchy(const PackView& view, const PageLoop& loop)
 {
     HEARTH_TRY(check::checkMeshTables(view));
-    HEARTH_TRY(check::checkPageTables(view));
-    return check::checkPageGeometry(view);
+    HEARTH_TRY(check::checkPageTables(view, check::Bulk::read));
+    return check::checkPageGeometry(view, loop);
 }
 
 Status checkMotion(const PackView& view)
@@ -113,24 +119,46 @@ Status checkBricks(const PackView& view)
     return check::checkBrickTables(view);
 }
 
-Status checkPack(const PackView& view)
+namespace
+{
+
+/// check_hierarchy  of meshes, pages and what belongs to them
+template <typename CheckHierarchy>
+Status checkPackBy(const PackView& view, check::Bulk bulk, const CheckHierarchy& check_hierarchy)
 {
     if (view.container().kind() != ContainerKind::pack)
         return Error{Issue::container_kind, view.name(), "", "this is a part, not a pack"};
     HEARTH_TRY(check::checkTexts(view));
     HEARTH_TRY(check::checkMaterials(view));
-    HEARTH_TRY(check::checkImages(view));
+    HEARTH_TRY(check::checkImages(view, bulk));
     HEARTH_TRY(checkMotion(view));
     HEARTH_TRY(check::checkMeshesOfNodes(view));
     HEARTH_TRY(check::checkInstances(view));
     HEARTH_TRY(check::checkCameras(view));
     HEARTH_TRY(check::checkLights(view));
     HEARTH_TRY(check::checkShadowSpheres(view));
-    HEARTH_TRY(checkHierarchy(view));
+    HEARTH_TRY(check_hierarchy());
     HEARTH_TRY(check::checkMaterialsOfClusters(view));
     HEARTH_TRY(check::checkDeformedMeshes(view));
     HEARTH_TRY(checkSpecular(view));
     return checkBricks(view);
+}
+
+} // namespace
+
+Status checkPack(const PackView& view, const PageLoop& loop)
+{
+    return checkPackBy(view, check::Bulk::read, [&] { return checkHierarchy(view, loop); });
+}
+
+Status checkTables(const PackView& view)
+{
+    return checkPackBy(view, check::Bulk::left,
+                       [&]() -> Status
+                       {
+                           HEARTH_TRY(check::checkMeshTables(view));
+                           return check::checkPageTables(view, check::Bulk::left);
+                       });
 }
 
 } // namespace hearth::formats

@@ -4,6 +4,8 @@
 
 #include "formats/pack_view.h"
 
+#include <functional>
+
 namespace hearth::formats
 {
 
@@ -22,17 +24,27 @@ inline constexpr double kUnitSlack = 1e-3;
 /// Largest width and height of an image.
 inline constexpr uint32_t kImageMaxSize = 16384;
 
-/// Check everything. The first error in reading order is returned: texts, materials, images, skins, animations, nodes,
-/// instances, cameras, lights, shadow spheres, then checkHierarchy, then what refers from one to the other.
-/// Time linear in the size of the tables and decoded pages; safe on any container.
+/// Runs work(0) ... work(count - 1), in any order and on any threads, and returns when all have ended.
+using PageLoop = std::function<void(uint32_t count, const std::function<void(uint32_t)>& work)>;
+
+/// The loop of one thread.
+void pageByPage(uint32_t count, const std::function<void(uint32_t)>& work);
+
+/// Check everything, pages by `loop`. The first error in reading order is returned, whatever the loop does: texts, materials,
+/// images, skins, animations, nodes, instances, cameras, lights, shadow spheres, then checkHierarchy, then what refers from
+/// one to the other. Time linear in the size of the tables and decoded pages; safe on any container.
 /// errors: container_kind, chunk_*, page_hash, meaning_*.
-Status checkPack(const PackView& view);
+Status checkPack(const PackView& view, const PageLoop& loop = pageByPage);
+
+/// checkPack but for geometry pages and texels, of whose bytes none is read: the pages are right where
+/// PackView::checkPage says so, texels where PackView::imageData hands them out. The first error in the same order.
+Status checkTables(const PackView& view);
 
 /// Check skins, animations and the tree of nodes alone: what an import part already has.
 Status checkMotion(const PackView& view);
 
 /// Check meshes, levels, groups, clusters, pages and geometry alone: what a clusters part already has.
-Status checkHierarchy(const PackView& view);
+Status checkHierarchy(const PackView& view, const PageLoop& loop = pageByPage);
 
 /// Check the table of specular occlusion alone: what a specular part has.
 Status checkSpecular(const PackView& view);

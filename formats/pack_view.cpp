@@ -2,6 +2,7 @@
 #include "formats/pack_view.h"
 
 #include "formats/byte_reader.h"
+#include "formats/check_tools.h"
 #include "formats/chunk_list.h"
 #include "formats/page_decode.h"
 
@@ -47,10 +48,10 @@ std::optional<ClusterGeometry> ClusterGeometry::at(std::span<const std::byte> pa
     return geometry;
 }
 
-Result<PackView> PackView::read(ContainerReader reader)
+Result<PackView> PackView::read(ContainerReader reader, PageBytes page_bytes)
 {
     PackView view(std::move(reader));
-    HEARTH_TRY(view.readTables());
+    HEARTH_TRY(view.readTables(page_bytes));
     return view;
 }
 
@@ -92,7 +93,7 @@ Status checkEntry(const ContainerReader& reader, const ChunkEntry& entry)
 
 } // namespace
 
-Status PackView::readTables()
+Status PackView::readTables(PageBytes page_bytes)
 {
     for (const ChunkEntry& entry : reader_.chunks())
         HEARTH_TRY(checkEntry(reader_, entry));
@@ -142,7 +143,12 @@ Status PackView::readTables()
     if (pages != nullptr && pages->codec != static_cast<uint32_t>(Codec::none))
         return Error{Issue::chunk_codec, name(), chunkName(kChunkPages, 0),
                      "the chunk of the pages is compressed"};
-    HEARTH_ASSIGN_OR_RETURN(page_bytes_, reader_.read(kChunkPages));
+    if (page_bytes == PageBytes::hashed)
+    {
+        HEARTH_ASSIGN_OR_RETURN(page_bytes_, reader_.read(kChunkPages));
+    }
+    else if (pages != nullptr)
+        page_bytes_ = ChunkData(reader_.stored(*pages), nullptr); // the reader keeps what it lies in
     return success();
 }
 
@@ -159,45 +165,88 @@ Result<ChunkData> PackView::imageData(uint32_t image) const
     return reader_.read(kChunkImageData, image);
 }
 
-bool PackView::decodeStored(std::span<const std::byte> stored, const PageRecord& page,
-                            std::span<std::byte> out) const
-{
-    switch (static_cast<PageCodec>(page.codec))
-    {
-    case PageCodec::none:
-        if (stored.size() != out.size())
-            return false;
-        std::copy(stored.begin(), stored.end(), out.begin());
-        return true;
-    case PageCodec::zstd:
-        return decompress(stored, out);
-    case PageCodec::clusters:
-        break;
-    default:
-        return false;
-    }
-    if (page.mesh >= meshes().size() || !legalLayout(meshes()[page.mesh].attributes))
-        return false;
-    thread_local PageDecoder decoder;
-    return decoder.decode(stored, recordsOf(clusters(), page.clusters), meshes()[page.mesh].attributes, out);
-}
-
-Status PackView::decodePage(uint32_t page, std::span<std::byte> out) const
+/// The bytes of a page as they lie in the file, their hash checked; `size` is what it shall decode to.
+Result<std::span<const std::byte>> PackView::storedPage(uint32_t page, size_t size) const
 {
     const std::string where = "page " + std::to_string(page);
     if (page >= pages().size())
         return Error{Issue::meaning_reference, name(), where,
                      "there are " + std::to_string(pages().size()) + " pages"};
     const PageRecord& record = pages()[page];
-    if (record.size != out.size() || record.size > kPageMaxBytes)
+    if (record.size != size || record.size > kPageMaxBytes)
         return Error{Issue::meaning_value, name(), where, "a size of " + std::to_string(record.size)};
     const auto stored = checkedPart(pageBytes(), record.offset, record.stored_size);
     if (!stored)
         return Error{Issue::meaning_range, name(), where, "the page lies outside chunk PAGE"};
     if (hashBytes(*stored) != record.hash)
         return Error{Issue::page_hash, name(), where, ""};
-    if (!decodeStored(*stored, record, out))
-        return Error{Issue::chunk_codec, name(), where, ""};
+    return *stored;
+}
+
+Status PackView::decodeStored(std::span<const std::byte> stored, uint32_t page,
+                              std::span<std::byte> out) const
+{
+    const PageRecord& record = pages()[page];
+    const auto decode = [&]
+    {
+        switch (static_cast<PageCodec>(record.codec))
+        {
+        case PageCodec::none:
+            if (stored.size() != out.size())
+                return false;
+            std::copy(stored.begin(), stored.end(), out.begin());
+            return true;
+        case PageCodec::zstd:
+            return decompress(stored, out);
+        case PageCodec::clusters:
+            break;
+        default:
+            return false;
+        }
+        if (record.mesh >= meshes().size() || !legalLayout(meshes()[record.mesh].attributes))
+            return false;
+        thread_local PageDecoder decoder;
+        return decoder.decode(stored, recordsOf(clusters(), record.clusters),
+                              meshes()[record.mesh].attributes, out);
+    };
+    if (!decode())
+        return Error{Issue::chunk_codec, name(), "page " + std::to_string(page), ""};
+    return success();
+}
+
+/// In memory of the thread, until the next call. What is handed out is what was checked, also where the file changes
+/// meanwhile, and memory of a device, which is slow to read, is not read.
+Result<std::span<const std::byte>> PackView::decodeChecked(uint32_t page, size_t size) const
+{
+    HEARTH_ASSIGN_OR_RETURN(const std::span<const std::byte> stored, storedPage(page, size));
+    thread_local std::vector<std::byte> memory(kPageMaxBytes);
+    const std::span<std::byte> decoded = std::span(memory).first(size);
+    HEARTH_TRY(decodeStored(stored, page, decoded));
+    HEARTH_TRY(check::checkPage(*this, page, decoded, (*joint_counts_)[pages()[page].mesh]));
+    return std::span<const std::byte>(decoded);
+}
+
+void PackView::checkPagesWhenRead()
+{
+    joint_counts_ = check::jointCounts(*this);
+}
+
+Status PackView::decodePage(uint32_t page, std::span<std::byte> out) const
+{
+    if (joint_counts_)
+    {
+        HEARTH_ASSIGN_OR_RETURN(const std::span<const std::byte> decoded, decodeChecked(page, out.size()));
+        std::copy(decoded.begin(), decoded.end(), out.begin());
+        return success();
+    }
+    HEARTH_ASSIGN_OR_RETURN(const std::span<const std::byte> stored, storedPage(page, out.size()));
+    return decodeStored(stored, page, out);
+}
+
+Status PackView::checkPage(uint32_t page) const
+{
+    HEARTH_ASSERT(joint_counts_ && page < pages().size());
+    HEARTH_TRY(decodeChecked(page, pages()[page].size));
     return success();
 }
 

@@ -1,5 +1,5 @@
 // All tables of a part or pack as typed spans, and access to its texels and geometry pages.
-// A view is safe on any container, but says nothing about meaning: checkPack (formats/pack_check.h) does.
+// A view is safe on any container, but says nothing about meaning: checkPack and checkTables (formats/pack_check.h) do.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -258,12 +258,23 @@ private:
     size_t morph_first_ = 0; ///< word of the morph section
 };
 
+/// What PackView::read does with chunk PAGE of a container whose chunks have not been hashed.
+enum class PageBytes
+{
+    hashed,
+    left, ///< none of its bytes is read: a page that is decoded has a hash of its own
+};
+
 /// The tables of one container. A chunk that is not there is an empty table. Spans hold as long as the view lives.
 class PackView
 {
 public:
     /// Read and decompress the tables. errors: those of ContainerReader::records; chunk_codec for compressed PAGE.
-    static Result<PackView> read(ContainerReader reader);
+    static Result<PackView> read(ContainerReader reader, PageBytes page_bytes = PageBytes::hashed);
+
+    /// From now on pages are checked when they are decoded, also by copies of the view: each is what checkPack accepts, or an
+    /// error. The tables have been checked, by checkTables or what else checks meshes and pages.
+    void checkPagesWhenRead();
 
     const ContainerReader& container() const { return reader_; }
     const std::string& name() const { return reader_.name(); }
@@ -316,18 +327,23 @@ public:
     /// The texels of an image, all mips, finest first. errors: chunk_missing, and those of ContainerReader::read.
     Result<ChunkData> imageData(uint32_t image) const;
 
-    /// Decode a page into `out`, whose size is the page's. Any number of threads may do so at once.
-    /// errors: meaning_reference, meaning_range, meaning_value, page_hash, chunk_codec.
+    /// Decode a page into `out`, whose size is the page's. Any number of threads may do so at once. Where pages are checked when
+    /// they are read, `out` is only written, from front to back, and is left alone where there is an error.
+    /// errors: meaning_reference, meaning_range, meaning_value, page_hash, chunk_codec; what is wrong with its meaning.
     Status decodePage(uint32_t page, std::span<std::byte> out) const;
 
     /// The same into memory of its own.
     Result<std::vector<std::byte>> decodePage(uint32_t page) const;
 
+    /// What decodePage would say of a page. Only where pages are checked when they are read.
+    Status checkPage(uint32_t page) const;
+
 private:
     explicit PackView(ContainerReader reader) : reader_(std::move(reader)) {}
-    Status readTables();
-    bool decodeStored(std::span<const std::byte> stored, const PageRecord& page,
-                      std::span<std::byte> out) const;
+    Status readTables(PageBytes page_bytes);
+    Result<std::span<const std::byte>> storedPage(uint32_t page, size_t size) const;
+    Status decodeStored(std::span<const std::byte> stored, uint32_t page, std::span<std::byte> out) const;
+    Result<std::span<const std::byte>> decodeChecked(uint32_t page, size_t size) const;
     static std::string_view textOf(const ChunkData& data)
     {
         return {reinterpret_cast<const char*>(data.bytes().data()), data.bytes().size()};
@@ -369,6 +385,8 @@ private:
     Records<uint32_t> brick_emission_;
     Records<uint32_t> brick_lighting_;
     ChunkData page_bytes_;
+    /// For each mesh, what the check of a page needs to know of its skin; none where decoding checks no meaning.
+    std::optional<std::vector<uint32_t>> joint_counts_;
 };
 
 } // namespace hearth::formats

@@ -4,6 +4,7 @@
 #include "formats/pack_check.h"
 #include "pipelines/command/open_pack.h"
 #include "pipelines/command/terminal.h"
+#include "pipelines/verify/verify_pack.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -27,14 +28,14 @@ Result<PackView> readContainer(const std::string& path)
 Result<PackView> openContainer(const std::string& path)
 {
     HEARTH_ASSIGN_OR_RETURN(PackView view, readContainer(path));
-    HEARTH_TRY(view.container().kind() == ContainerKind::pack ? checkPack(view) : checkBricks(view));
+    HEARTH_TRY(view.container().kind() == ContainerKind::pack ? verify::verifyPack(view) : checkBricks(view));
     return view;
 }
 
 Result<PackView> openPack(const std::string& path)
 {
     HEARTH_ASSIGN_OR_RETURN(PackView view, readContainer(path));
-    HEARTH_TRY(checkPack(view));
+    HEARTH_TRY(verify::verifyPack(view));
     return view;
 }
 

@@ -5,6 +5,7 @@
 #include "formats/pack_check.h"
 #include "pipelines/link/merged_meta.h"
 #include "pipelines/link/rebase.h"
+#include "pipelines/verify/verify_pack.h"
 
 #include <algorithm>
 #include <cerrno>
@@ -351,7 +352,7 @@ Status checkWritten(const std::string& path)
 {
     HEARTH_ASSIGN_OR_RETURN(ContainerReader reader, ContainerReader::open(path));
     HEARTH_ASSIGN_OR_RETURN(const PackView pack, PackView::read(std::move(reader)));
-    return checkPack(pack);
+    return verify::verifyPack(pack);
 }
 
 } // namespace

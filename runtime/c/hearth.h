@@ -29,7 +29,7 @@
 #endif
 
 /* Major version << 16 | minor version. A library takes callers of its major version and of no later minor version. */
-#define HEARTH_API_VERSION 0x00010004u
+#define HEARTH_API_VERSION 0x00010005u
 
 typedef int32_t hearth_result;
 enum
@@ -62,7 +62,8 @@ HEARTH_API const char* hearth_result_string(hearth_result result);
 
 /* ---- Packs ---- */
 
-/* Maps the file and checks all of it: one pass over the file.
+/* Maps the file and checks its tables. Geometry and texels are not read: they are checked when they are, so that uploads
+ * and reads of pages of a damaged or hostile file fail, and nothing of it is drawn.
  * errors: USAGE, FILE_MISSING, FILE_MALFORMED, READ, OUT_OF_MEMORY. */
 HEARTH_API hearth_result hearth_pack_open(const char* path, hearth_pack** pack, char* message,
                                           size_t message_size);
@@ -71,8 +72,14 @@ HEARTH_API hearth_result hearth_pack_open(const char* path, hearth_pack** pack, 
 HEARTH_API hearth_result hearth_pack_open_memory(const void* bytes, size_t size, const char* name,
                                                  hearth_pack** pack, char* message, size_t message_size);
 
-/* Decodes a page into `destination`, of at least the page's size. For hearth_read_page; on any thread.
- * errors: USAGE; FILE_MALFORMED where the file changed since it was opened. */
+/* Checks the whole file at once (1.5), as `hearth verify` does: one pass over it. For those who would rather know before they
+ * draw; on any thread, beside everything else.
+ * errors: USAGE, FILE_MALFORMED, OUT_OF_MEMORY. */
+HEARTH_API hearth_result hearth_pack_check(const hearth_pack* pack, char* message, size_t message_size);
+
+/* Decodes a page into `destination`, of at least the page's size, after it was checked. `destination` is written from front
+ * to back and not read. For hearth_read_page; on any thread.
+ * errors: USAGE, OUT_OF_MEMORY; FILE_MALFORMED where the page is not what its pack promises: `destination` is left alone. */
 HEARTH_API hearth_result hearth_pack_read_page(const hearth_pack* pack, uint32_t page, void* destination,
                                                size_t size, char* message, size_t message_size);
 

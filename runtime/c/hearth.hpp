@@ -84,6 +84,12 @@ public:
         return result;
     }
 
+    [[nodiscard]] hearth_result check(std::string* message = nullptr) const
+    {
+        return callWithMessage(message, [&](char* text, size_t text_size)
+                               { return hearth_pack_check(get(), text, text_size); });
+    }
+
     [[nodiscard]] hearth_result readPage(uint32_t page, void* destination, size_t size,
                                          std::string* message = nullptr) const
     {

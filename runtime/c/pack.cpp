@@ -50,6 +50,12 @@ hearth_result hearth_pack_open_memory(const void* bytes, size_t size, const char
         });
 }
 
+hearth_result hearth_pack_check(const hearth_pack* pack, char* message, size_t message_size)
+{
+    return call({message, message_size}, __func__,
+                [&]() -> Status { return pack == nullptr ? usage("pack is NULL") : pack->pack.checkAll(); });
+}
+
 hearth_result hearth_pack_read_page(const hearth_pack* pack, uint32_t page, void* destination, size_t size,
                                     char* message, size_t message_size)
 {

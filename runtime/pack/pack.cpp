@@ -8,22 +8,32 @@ namespace hearth::pack
 
 Result<Pack> Pack::open(const std::string& path)
 {
-    HEARTH_ASSIGN_OR_RETURN(formats::ContainerReader reader, formats::ContainerReader::open(path));
+    HEARTH_ASSIGN_OR_RETURN(formats::ContainerReader reader,
+                            formats::ContainerReader::open(path, formats::Check::structure));
     return check(std::move(reader));
 }
 
 Result<Pack> Pack::fromBytes(std::span<const std::byte> bytes, std::string name)
 {
-    HEARTH_ASSIGN_OR_RETURN(formats::ContainerReader reader,
-                            formats::ContainerReader::fromBytes(bytes, std::move(name)));
+    HEARTH_ASSIGN_OR_RETURN(
+        formats::ContainerReader reader,
+        formats::ContainerReader::fromBytes(bytes, std::move(name), formats::Check::structure));
     return check(std::move(reader));
 }
 
 Result<Pack> Pack::check(formats::ContainerReader reader)
 {
-    HEARTH_ASSIGN_OR_RETURN(formats::PackView view, formats::PackView::read(std::move(reader)));
-    HEARTH_TRY(formats::checkPack(view));
+    HEARTH_ASSIGN_OR_RETURN(formats::PackView view,
+                            formats::PackView::read(std::move(reader), formats::PageBytes::left));
+    HEARTH_TRY(formats::checkTables(view));
+    view.checkPagesWhenRead();
     return Pack(std::move(view));
+}
+
+Status Pack::checkAll() const
+{
+    HEARTH_TRY(view_.container().checkContents());
+    return formats::checkPack(view_);
 }
 
 Result<std::span<const std::byte>> Pack::readPage(uint32_t page, std::span<std::byte> out) const

@@ -82,7 +82,7 @@ TEST_F(Installed, isFoundByPkgConfig)
     const std::string source = HEARTH_SOURCE_FOLDER "/tests/consumer/game/version.c";
     run("cc -std=c99 -Wall -Wextra -Wpedantic -Werror -Wno-missing-field-initializers " + source +
         " -o version $(" + pkg_config + "--cflags --libs hearth)");
-    EXPECT_EQ(run("LD_LIBRARY_PATH=\"$PWD/prefix/" + libraryFolder() + "\" ./version"), "1.4: ok\n");
+    EXPECT_EQ(run("LD_LIBRARY_PATH=\"$PWD/prefix/" + libraryFolder() + "\" ./version"), "1.5: ok\n");
     EXPECT_NE(run(pkg_config + "--static --libs hearth").find("-lzstd"), std::string::npos);
     run(pkg_config + "--exists 'hearth >= 0.1, hearth < 1'");
 }

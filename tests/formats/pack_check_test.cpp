@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "formats/pack_check.h"
+#include "pipelines/verify/verify_pack.h"
 #include "runtime/pack/pack.h"
 #include "tests/formats/malformed_packs.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numeric>
 
 namespace hearth::test
 {
@@ -13,12 +18,41 @@ using namespace formats;
 namespace
 {
 
-/// The error of opening the model as a pack, as "E3002 node 1: ...", or "" where it is accepted.
+/// What checkPack says, in any part of it.
+Status checkWhole(const AlignedBytes& bytes)
+{
+    HEARTH_ASSIGN_OR_RETURN(ContainerReader reader, ContainerReader::fromBytes(bytes.span(), "small.hearth"));
+    HEARTH_ASSIGN_OR_RETURN(const PackView view, PackView::read(std::move(reader)));
+    return checkPack(view);
+}
+
+/// "small.hearth|node 1: ... [E3002] ...", or "".
+std::string messageOf(const Status& status)
+{
+    return status.ok() ? "" : formatMessage(status.error());
+}
+
 std::string refusal(const PackModel& model, bool compressed = false)
 {
-    const AlignedBytes bytes = model.bytes(compressed);
-    const auto pack = pack::Pack::fromBytes(bytes.span(), "small.hearth");
-    return pack.ok() ? "" : formatMessage(pack.error());
+    return messageOf(checkWhole(model.bytes(compressed)));
+}
+
+/// The first error of reading every page and all texels.
+Status readBulk(const pack::Pack& pack)
+{
+    for (uint32_t page = 0; page < pack->pages().size(); ++page)
+    {
+        std::vector<std::byte> buffer(pack.pageSize(page), std::byte{0xCD});
+        const auto read = pack.readPage(page, buffer);
+        if (!read.ok())
+        {
+            EXPECT_EQ(buffer, std::vector<std::byte>(pack.pageSize(page), std::byte{0xCD}));
+            return read.error();
+        }
+    }
+    for (uint32_t image = 0; image < pack->images().size(); ++image)
+        HEARTH_TRY(pack->imageData(image));
+    return success();
 }
 
 } // namespace
@@ -27,6 +61,18 @@ TEST(CheckPack, acceptsASmallCompletePack)
 {
     EXPECT_EQ(refusal(smallPack()), "");
     EXPECT_EQ(refusal(smallPack(), true), "");
+}
+
+TEST(Pack, acceptsWhatTheWholeCheckAccepts)
+{
+    for (const bool compressed : {false, true})
+    {
+        const AlignedBytes bytes = smallPack().bytes(compressed);
+        const auto pack = pack::Pack::fromBytes(bytes.span(), "small.hearth");
+        ASSERT_TRUE(pack.ok()) << formatMessage(pack.error());
+        EXPECT_EQ(messageOf(readBulk(*pack)), "");
+        EXPECT_EQ(messageOf(pack->checkAll()), "");
+    }
 }
 
 TEST(CheckPack, acceptsBricksThatAreAllAlike)
@@ -69,10 +115,15 @@ TEST(CheckPack, refusesTexelsWhoseFrameDoesNotNameItsSize)
         if (chunk.entry.type == kChunkImageData && chunk.entry.index == 1)
             chunk = streamedChunk(kChunkImageData, 1, 1, pack.image_data[1]);
     const AlignedBytes bytes = assemble(ContainerKind::pack, chunks);
-    const auto opened = pack::Pack::fromBytes(bytes.span(), "pack");
-    ASSERT_FALSE(opened.ok());
-    EXPECT_EQ(opened.error().issue, Issue::chunk_codec);
-    EXPECT_EQ(opened.error().where, "chunk IMGD 1");
+    const Status whole = checkWhole(bytes);
+    ASSERT_FALSE(whole.ok());
+    EXPECT_EQ(whole.error().issue, Issue::chunk_codec);
+    EXPECT_EQ(whole.error().where, "chunk IMGD 1");
+    // texels are not read before they are asked for
+    const auto opened = pack::Pack::fromBytes(bytes.span(), "small.hearth");
+    ASSERT_TRUE(opened.ok());
+    EXPECT_EQ(messageOf(readBulk(*opened)), messageOf(whole));
+    EXPECT_EQ(messageOf(opened->checkAll()), messageOf(whole));
 }
 
 TEST(CheckHierarchy, needsOnlyTheMeshes)
@@ -97,6 +148,65 @@ TEST(CheckHierarchy, needsOnlyTheMeshes)
     EXPECT_TRUE(status.ok()) << formatMessage(status.error());
 }
 
+TEST(CheckPack, reportsTheFirstWrongPageInWhateverOrderPagesAreChecked)
+{
+    PackModel model = smallPack();
+    for (std::vector<std::byte>& page : model.decoded_pages)
+        page.back() ^= std::byte{1};
+    // the first page is right
+    model.decoded_pages[0].back() ^= std::byte{1};
+    model.sealPages();
+    const AlignedBytes bytes = model.bytes();
+    auto reader = ContainerReader::fromBytes(bytes.span(), "small.hearth");
+    ASSERT_TRUE(reader.ok());
+    const auto view = PackView::read(std::move(reader).value());
+    ASSERT_TRUE(view.ok());
+    ASSERT_GE(view->pages().size(), 4u);
+    const Status in_turn = checkPack(*view);
+    ASSERT_FALSE(in_turn.ok());
+    const std::string expected = formatMessage(in_turn.error());
+    const uint32_t first_wrong = view->pages()[1].clusters.first + view->pages()[1].clusters.count - 1;
+    EXPECT_EQ(in_turn.error().where, "cluster " + std::to_string(first_wrong));
+
+    std::vector<uint32_t> order(view->pages().size());
+    std::iota(order.begin(), order.end(), 0u);
+    do
+    {
+        const Status status =
+            checkPack(*view, [&](uint32_t, const std::function<void(uint32_t)>& work)
+                      { std::for_each(order.begin(), order.end(), [&](uint32_t page) { work(page); }); });
+        ASSERT_FALSE(status.ok());
+        EXPECT_EQ(formatMessage(status.error()), expected);
+    } while (std::next_permutation(order.begin(), order.end()));
+
+    for (int i = 0; i < 100; ++i)
+    {
+        const Status status = verify::verifyPack(*view);
+        ASSERT_FALSE(status.ok());
+        EXPECT_EQ(formatMessage(status.error()), expected);
+    }
+}
+
+TEST(CheckPack, reportsTheFirstWrongVertexAndWhatIsFirstWrongWithIt)
+{
+    // two words of bases, then six a vertex: the third its tangent, the last its visibility
+    const auto spoilTangent = [](PackModel& model, size_t vertex)
+    { model.decoded_pages[0][(2 + vertex * 6 + 2) * 4 + 3] = std::byte{0x80}; };
+    const auto spoilVisibility = [](PackModel& model, size_t vertex)
+    { model.decoded_pages[0][(2 + vertex * 6 + 5) * 4 + 3] = std::byte{0x80}; };
+    const auto refusalOf = [&](size_t tangent, size_t visibility)
+    {
+        PackModel model = smallPack();
+        spoilTangent(model, tangent);
+        spoilVisibility(model, visibility);
+        model.sealPages();
+        return refusal(model);
+    };
+    EXPECT_THAT(refusalOf(1, 3), testing::HasSubstr("vertex 1: its tangent"));
+    EXPECT_THAT(refusalOf(3, 1), testing::HasSubstr("vertex 1: its visibility"));
+    EXPECT_THAT(refusalOf(2, 2), testing::HasSubstr("vertex 2: its tangent"));
+}
+
 class MalformedPackTest : public testing::TestWithParam<MalformedPack>
 {
 };
@@ -108,10 +218,32 @@ TEST_P(MalformedPackTest, isRefusedAsItsIssue)
     if (GetParam().reseal)
         model.sealPages();
     const AlignedBytes bytes = model.bytes();
+    const Status whole = checkWhole(bytes);
+    ASSERT_FALSE(whole.ok()) << "accepted";
+    EXPECT_EQ(whole.error().issue, GetParam().issue) << formatMessage(whole.error());
+    EXPECT_EQ(whole.error().where, GetParam().where) << formatMessage(whole.error());
+}
+
+TEST_P(MalformedPackTest, isRefusedWhenItIsOpenedOrWhenThatPartIsRead)
+{
+    PackModel model = smallPack();
+    GetParam().spoil(model);
+    if (GetParam().reseal)
+        model.sealPages();
+    const AlignedBytes bytes = model.bytes();
+    const std::string message = messageOf(checkWhole(bytes));
     const auto pack = pack::Pack::fromBytes(bytes.span(), "small.hearth");
-    ASSERT_FALSE(pack.ok()) << "accepted";
-    EXPECT_EQ(pack.error().issue, GetParam().issue) << formatMessage(pack.error());
-    EXPECT_EQ(pack.error().where, GetParam().where) << formatMessage(pack.error());
+    if (!pack.ok())
+    {
+        EXPECT_EQ(formatMessage(pack.error()), message);
+        return;
+    }
+    EXPECT_EQ(messageOf(pack->checkAll()), message);
+    // nobody gets what lies between the pages
+    if (const Status read = readBulk(*pack); !read.ok())
+        EXPECT_EQ(formatMessage(read.error()), message);
+    else
+        EXPECT_EQ(GetParam().issue, Issue::meaning_padding);
 }
 
 constexpr auto kCaseName = [](const testing::TestParamInfo<MalformedPack>& info) { return info.param.name; };

@@ -26,16 +26,15 @@ void use(uint64_t value)
 }
 
 /// Read a page and all its clusters the way a renderer does: without a look at bounds.
-void usePage(const pack::Pack& pack, uint32_t page_index)
+Status usePage(const pack::Pack& pack, uint32_t page_index)
 {
     std::vector<std::byte> buffer(pack.pageSize(page_index));
-    const auto page = pack.readPage(page_index, buffer);
-    HEARTH_ASSERT(page.ok());
+    HEARTH_ASSIGN_OR_RETURN(const std::span<const std::byte> page, pack.readPage(page_index, buffer));
     const PageRecord& record = pack->pages()[page_index];
     for (uint32_t i = record.clusters.first; i < record.clusters.first + record.clusters.count; ++i)
     {
         const ClusterRecord& cluster = pack->clusters()[i];
-        const auto geometry = ClusterGeometry::at(*page, cluster, pack->meshes()[record.mesh]);
+        const auto geometry = ClusterGeometry::at(page, cluster, pack->meshes()[record.mesh]);
         HEARTH_ASSERT(geometry.has_value());
         for (uint32_t t = 0; t < geometry->triangleCount(); ++t)
             for (const uint32_t corner : geometry->triangle(t))
@@ -44,6 +43,7 @@ void usePage(const pack::Pack& pack, uint32_t page_index)
                 use(std::bit_cast<uint32_t>(geometry->position(corner).x));
             }
     }
+    return success();
 }
 
 /// A cut draws something of every mesh that has clusters, and never a cluster with what it was refined from.
@@ -107,14 +107,15 @@ void useScene(const PackView& view)
     }
 }
 
-void useImage(const PackView& view, uint32_t index)
+Status useImage(const PackView& view, uint32_t index)
 {
     const ImageRecord& image = view.images()[index];
     // a huge image of few bytes is legal; unpacking each would only slow the search down
     if (view.container().find(kChunkImageData, index)->size > (1u << 20))
-        return;
-    const auto texels = view.imageData(index);
-    HEARTH_ASSERT(texels.ok() && texels->bytes().size() == mipOffset(image, image.mip_count));
+        return success();
+    HEARTH_ASSIGN_OR_RETURN(const ChunkData texels, view.imageData(index));
+    HEARTH_ASSERT(texels.bytes().size() == mipOffset(image, image.mip_count));
+    return success();
 }
 
 /// March through the bricks from corner to corner, and read what each face has.
@@ -146,19 +147,26 @@ void useBricks(const PackView& view)
 Status exercisePack(std::span<const std::byte> bytes)
 {
     HEARTH_ASSIGN_OR_RETURN(const pack::Pack pack, pack::Pack::fromBytes(bytes, "fuzz"));
+    std::vector<Status> reads;
     for (uint32_t page = 0; page < pack->pages().size(); ++page)
-        usePage(pack, page);
+        reads.push_back(usePage(pack, page));
     for (uint32_t mesh = 0; mesh < pack->meshes().size(); ++mesh)
         useCuts(pack.view(), mesh);
     useCoarsest(pack.view());
     useScene(pack.view());
     for (uint32_t image = 0; image < pack->images().size(); ++image)
-        useImage(pack.view(), image);
+        reads.push_back(useImage(pack.view(), image));
     for (const MaterialRecord& material : pack->materials())
         if (material.base_color_texture.image != kNone)
             use(pack->images()[material.base_color_texture.image].width);
     if (!pack->brickGrid().empty())
         useBricks(pack.view());
+    for (Status& read : reads)
+        if (!read.ok())
+        {
+            HEARTH_ASSERT(!pack.checkAll().ok());
+            return std::move(read);
+        }
     return success();
 }
 

@@ -10,8 +10,9 @@
 namespace hearth::test
 {
 
-/// `bytes` at an address that is a multiple of 64. Returns the error of opening the pack, if there is one; aborts where
-/// a pack that was accepted breaks a promise that code behind the checker relies on.
+/// `bytes` at an address that is a multiple of 64. Returns the first error of opening the pack or reading its pages and texels,
+/// if there is one; aborts where what was handed out breaks a promise that code behind the checker relies on, or where a
+/// read fails that the check of the whole pack knows nothing of.
 Status exercisePack(std::span<const std::byte> bytes);
 
 } // namespace hearth::test

@@ -32,6 +32,7 @@
     X(vkDestroyDevice)                                                                                       \
     X(vkDestroyQueryPool)                                                                                    \
     X(vkEndCommandBuffer)                                                                                    \
+    X(vkResetCommandBuffer)                                                                                  \
     X(vkFreeMemory)                                                                                          \
     X(vkGetBufferMemoryRequirements)                                                                         \
     X(vkGetDeviceQueue)                                                                                      \
@@ -238,6 +239,11 @@ VkResult c_caller_submit(c_caller* caller)
     return result == VK_SUCCESS ? caller->vkQueueWaitIdle(caller->queue) : result;
 }
 
+VkResult c_caller_discard(c_caller* caller)
+{
+    return caller->vkResetCommandBuffer(caller->commands, 0);
+}
+
 static uint32_t memory_type(const c_caller* caller, uint32_t allowed, VkMemoryPropertyFlags wanted)
 {
     VkPhysicalDeviceMemoryProperties memory;
@@ -366,8 +372,8 @@ static hearth_result upload(c_caller* caller, hearth_renderer* renderer, hearth_
                             const c_picture* picture, hearth_scene** scene)
 {
     const VkCommandBuffer commands = c_caller_begin(caller);
-    hearth_result result = hearth_scene_upload(renderer, pack, commands, &picture->scene, scene);
-    if (c_caller_submit(caller) != VK_SUCCESS)
+    const hearth_result result = hearth_scene_upload(renderer, pack, commands, &picture->scene, scene);
+    if ((result == HEARTH_OK ? c_caller_submit(caller) : c_caller_discard(caller)) != VK_SUCCESS)
         return HEARTH_ERROR_DEVICE_FAILED;
     return result == HEARTH_OK ? hearth_scene_uploaded(*scene) : result;
 }

@@ -23,9 +23,10 @@ hearth_memory_hooks c_caller_memory(c_caller* caller);
 unsigned c_caller_live_pieces(const c_caller* caller);
 unsigned c_caller_all_pieces(const c_caller* caller);
 
-/* A command buffer to be recorded into; c_caller_submit submits it and waits. */
+/* A command buffer to be recorded into; c_caller_submit submits it and waits, c_caller_discard throws it away. */
 VkCommandBuffer c_caller_begin(c_caller* caller);
 VkResult c_caller_submit(c_caller* caller);
+VkResult c_caller_discard(c_caller* caller);
 
 /* A picture: what is drawn and, after it, what was. */
 typedef struct c_picture

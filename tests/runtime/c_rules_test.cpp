@@ -73,7 +73,7 @@ TEST_F(CApiTest, aBadPackIsNamedWithWhatToDo)
     EXPECT_THAT(message_, HasSubstr("hint: check the path"));
 
     std::vector<std::byte> damaged(bytes_.span().begin(), bytes_.span().end());
-    damaged[damaged.size() / 2] ^= std::byte{1};
+    damaged[view_->container().find(formats::kChunkClusters)->offset] ^= std::byte{1};
     const std::string path = writeTemporary("c_api_damaged.hearth", damaged);
     EXPECT_EQ(hearth_pack_open(path.c_str(), &pack, message_, sizeof(message_)), HEARTH_ERROR_FILE_MALFORMED);
     EXPECT_THAT(message_, StartsWith(path));
@@ -104,6 +104,65 @@ TEST_F(CApiTest, opensAFileAndReadsItsPages)
               HEARTH_ERROR_USAGE);
     EXPECT_THAT(message_, HasSubstr("no page 1048576"));
     EXPECT_EQ(hearth_pack_close(pack), HEARTH_OK);
+}
+
+TEST_F(CApiTest, aPageThatLiesIsRefusedWhereverItIsRead)
+{
+    // right hashes, and a triangle of a vertex that is not there
+    const uint32_t bad_page = view_->meshes()[0].pages.first + 1;
+    const formats::ClusterRecord& cluster = view_->clusters()[view_->pages()[bad_page].clusters.first];
+    const formats::MeshRecord& mesh = view_->meshes()[0];
+    PackModel model = test_.model();
+    model.decoded_pages.clear();
+    for (uint32_t page = 0; page < view_->pages().size(); ++page)
+        model.decoded_pages.push_back(view_->decodePage(page).value());
+    const uint32_t indices =
+        formats::clusterBytes(formats::layoutOf(cluster, mesh.attributes), cluster.vertex_count, 0);
+    ASSERT_LT(cluster.vertex_count, 255);
+    model.decoded_pages[bad_page][cluster.page_word * 4 + indices] = std::byte{255};
+    model.sealPages();
+    const AlignedBytes bytes = model.bytes();
+    ASSERT_EQ(hearth_pack_close(pack_), HEARTH_OK);
+    pack_ = nullptr;
+    ASSERT_EQ(hearth_pack_open_memory(bytes.span().data(), bytes.size(), "liar", &pack_, message_,
+                                      sizeof(message_)),
+              HEARTH_OK)
+        << message_;
+
+    std::vector<std::byte> page(formats::kPageMaxBytes, std::byte{7});
+    const std::vector<std::byte> before = page;
+    EXPECT_EQ(hearth_pack_read_page(pack_, bad_page, page.data(), page.size(), message_, sizeof(message_)),
+              HEARTH_ERROR_FILE_MALFORMED);
+    EXPECT_THAT(message_, HasSubstr("triangle 0 names vertex 255"));
+    EXPECT_EQ(page, before);
+    EXPECT_EQ(hearth_pack_read_page(pack_, 0, page.data(), page.size(), nullptr, 0), HEARTH_OK);
+    const std::string why = message_;
+    message_[0] = '\0';
+    EXPECT_EQ(hearth_pack_check(pack_, message_, sizeof(message_)), HEARTH_ERROR_FILE_MALFORMED);
+    EXPECT_EQ(message_, why);
+
+    hearth_scene* scene = nullptr;
+    hearth_scene_options options = HEARTH_SCENE_OPTIONS_INIT;
+    const VkCommandBuffer commands = c_caller_begin(caller_);
+    EXPECT_EQ(hearth_scene_upload(renderer_, pack_, commands, &options, &scene), HEARTH_ERROR_FILE_MALFORMED);
+    EXPECT_EQ(hearth_last_error(renderer_), why);
+    EXPECT_EQ(c_caller_discard(caller_), VK_SUCCESS);
+    EXPECT_EQ(scene, nullptr);
+
+    // streamed, what it refines stays coarse
+    Reader reader{.pack = pack_, .threads = {}};
+    hearth_frame frame = makeFrame();
+    frame.error_pixels = 0;
+    const c_picture picture = drawInC(frame, streamedBy(reader));
+    EXPECT_EQ(picture.streaming.failures, 1u);
+    EXPECT_GT(picture.counters.drawn_clusters, 0u);
+}
+
+TEST_F(CApiTest, aWholePackIsCheckedWhenItIsAskedFor)
+{
+    EXPECT_EQ(hearth_pack_check(pack_, message_, sizeof(message_)), HEARTH_OK);
+    EXPECT_EQ(hearth_pack_check(nullptr, message_, sizeof(message_)), HEARTH_ERROR_USAGE);
+    EXPECT_THAT(message_, HasSubstr("pack is NULL"));
 }
 
 TEST_F(CApiTest, nullArgumentsAreRefused)
@@ -163,12 +222,12 @@ TEST_F(CApiTest, otherVersionsAreRefused)
     EXPECT_THAT(message_, HasSubstr("compile with the hearth.h of the library"));
 
     description = c_caller_description(caller_);
-    for (const uint32_t version : {0x00020000u, 0x00010005u, 0u})
+    for (const uint32_t version : {0x00020000u, HEARTH_API_VERSION + 1u, 0u})
     {
         description.api_version = version;
         EXPECT_EQ(hearth_renderer_create(&description, &renderer, message_, sizeof(message_)),
                   HEARTH_ERROR_USAGE);
-        EXPECT_THAT(message_, HasSubstr("the library is 1.4"));
+        EXPECT_THAT(message_, HasSubstr("the library is 1.5"));
     }
     description = c_caller_description(caller_);
     description.features = 1u << 31;

@@ -1,0 +1,138 @@
+// Measures what a game waits for before its first page: opening a pack whose file is not in memory and one whose file is,
+// and what the check of a page adds to its decoding. `./dev bench runtime` runs this.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "formats/program.h"
+#include "runtime/pack/pack.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <fcntl.h>
+#include <fstream>
+#include <string>
+#include <unistd.h>
+#include <vector>
+
+namespace
+{
+
+using namespace hearth;
+
+constexpr double kMebi = 1 << 20;
+constexpr int kWarmRuns = 5;
+
+double secondsOf(const auto& work)
+{
+    const auto start = std::chrono::steady_clock::now();
+    work();
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// That the process had the disk read so far; 0 where the system does not say.
+uint64_t bytesFromDisk()
+{
+    std::ifstream file("/proc/self/io");
+    std::string name;
+    uint64_t value = 0;
+    while (file >> name >> value)
+        if (name == "read_bytes:")
+            return value;
+    return 0;
+}
+
+/// Ask the system to forget what it holds of the file. It may not where others have it open.
+void forget(const std::string& path)
+{
+    const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+    if (file < 0)
+        return;
+    ::posix_fadvise(file, 0, 0, POSIX_FADV_DONTNEED);
+    ::close(file);
+}
+
+Status measureOpening(const std::string& path)
+{
+    forget(path);
+    const uint64_t before = bytesFromDisk();
+    Status opened = success();
+    const auto open = [&]
+    {
+        const auto pack = pack::Pack::open(path);
+        if (!pack.ok())
+            opened = pack.error();
+    };
+    const double cold = secondsOf(open);
+    HEARTH_TRY(std::move(opened));
+    const double read = static_cast<double>(bytesFromDisk() - before);
+    double warm = cold;
+    for (int i = 0; i < kWarmRuns; ++i)
+        warm = std::min(warm, secondsOf(open));
+    std::printf("open, not in memory  %8.3f s, %.1f MiB from the disk\n", cold, read / kMebi);
+    std::printf("open, in memory      %8.3f s\n", warm);
+    return success();
+}
+
+/// Microseconds to decode a page, the mean of every `stride`th.
+Result<double> microsecondsOfAPage(const formats::PackView& pack, uint32_t stride)
+{
+    std::vector<std::byte> buffer(formats::kPageMaxBytes);
+    const auto count = static_cast<uint32_t>(pack.pages().size());
+    Status status = success();
+    const auto readPages = [&]
+    {
+        for (uint32_t page = 0; page < count && status.ok(); page += stride)
+            status = pack.decodePage(page, std::span(buffer).first(pack.pages()[page].size));
+    };
+    readPages(); // the file is in memory afterwards
+    double seconds = secondsOf(readPages);
+    for (int i = 1; i < kWarmRuns; ++i)
+        seconds = std::min(seconds, secondsOf(readPages));
+    HEARTH_TRY(std::move(status));
+    return seconds * 1e6 / ((count + stride - 1) / stride);
+}
+
+Status measure(const std::string& path)
+{
+    HEARTH_TRY(measureOpening(path));
+    HEARTH_ASSIGN_OR_RETURN(const pack::Pack pack, pack::Pack::open(path));
+    HEARTH_ASSIGN_OR_RETURN(formats::ContainerReader reader,
+                            formats::ContainerReader::open(path, formats::Check::structure));
+    HEARTH_ASSIGN_OR_RETURN(const formats::PackView unchecked,
+                            formats::PackView::read(std::move(reader), formats::PageBytes::left));
+    const auto pages = static_cast<uint32_t>(pack->pages().size());
+    if (pages > 0)
+    {
+        const uint32_t stride = pages / 4096 + 1;
+        HEARTH_ASSIGN_OR_RETURN(const double decode, microsecondsOfAPage(unchecked, stride));
+        HEARTH_ASSIGN_OR_RETURN(const double all, microsecondsOfAPage(pack.view(), stride));
+        std::printf("a page               %8.1f us: hash and decode %.1f, check and copy %.1f\n", all, decode,
+                    all - decode);
+    }
+    Status whole = success();
+    const double seconds = secondsOf([&] { whole = pack.checkAll(); });
+    HEARTH_TRY(std::move(whole));
+    std::printf("check all            %8.3f s: %u pages, %.1f MiB, one core\n", seconds, pages,
+                static_cast<double>(pack->container().header().file_size) / kMebi);
+    return success();
+}
+
+int program(int argc, char** argv)
+{
+    CLI::App app("Measures opening a pack and checking its pages.", "hearth_measure_opening");
+    std::string path;
+    app.add_option("PACK", path, "the pack")->required();
+    CLI11_PARSE(app, argc, argv);
+    const Status measured = measure(path);
+    if (measured.ok())
+        return 0;
+    std::fprintf(stderr, "%s\n", formatMessage(measured.error()).c_str());
+    return exitCode(measured.error());
+}
+
+} // namespace
+
+int main(int argc, char** argv)
+{
+    return hearth::runProgram("hearth_measure_opening", [&] { return program(argc, argv); });
+}
