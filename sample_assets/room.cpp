@@ -156,7 +156,7 @@ void addTable(Document& document, int wood, int ceramic, int brass)
             append(table, makeBox({x, 0.357f, z}, {0.035f, 0.357f, 0.035f}, 0.7f));
     TriangleMesh vase = makeLathe({{0.0f, 0.02f},
                                    {0.05f, 0.02f},
-                                   {0.07f, 0.30f},
+                                   {0.042f, 0.30f},
                                    {0.055f, 0.31f},
                                    {0.05f, 0.29f},
                                    {0.065f, 0.24f},

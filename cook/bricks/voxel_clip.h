@@ -10,6 +10,7 @@
 #pragma once
 
 #include "cook/bricks/grid_frame.h"
+#include "formats/shared/bricks.h"
 
 #include <algorithm>
 #include <cmath>
@@ -23,7 +24,7 @@ inline constexpr double kSnap = 65536;
 /// Corners so near to a plane between voxels, in voxels, are put into it. Walls are built on planes, but meshes keep them to a
 /// hundred-thousandth of their size: a ceiling that is lower by that would fill the voxels of the room under it. A quarter
 /// of a voxel is what clusters may be off in any case.
-inline constexpr double kPlaneReach = 1.0 / 64;
+inline constexpr double kPlaneReach = double{shared::kBrickPlaneReach};
 
 inline Double3 snapped(Double3 p)
 {

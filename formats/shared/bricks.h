@@ -48,6 +48,9 @@ struct BrickGrid
     uint reserved;
 };
 
+/// Surfaces so near to a plane between voxels, in voxels, lie in it: in the voxels behind it.
+HEARTH_CONSTANT float kBrickPlaneReach = 0.015625f;
+
 /// Groups along an axis of so many voxels.
 HEARTH_FUNCTION uint brickGroups(uint voxels)
 {

@@ -4,7 +4,7 @@
 #ifndef HEARTH_SHARED_GATHER_LOBE_H
 #define HEARTH_SHARED_GATHER_LOBE_H
 
-#include "formats/shared/brick_lighting.h"
+#include "formats/shared/brick_rays.h"
 
 HEARTH_SHARED_BEGIN
 

@@ -2,7 +2,6 @@
 #include "pipelines/command/cache_verbs.h"
 
 #include "pipelines/cache/http_level.h"
-#include "pipelines/cache/open_cache.h"
 #include "pipelines/cache/upkeep.h"
 #include "pipelines/command/terminal.h"
 
@@ -34,20 +33,18 @@ std::string orNone(const std::string& text)
 
 } // namespace
 
-Result<std::string> cacheStat(const std::vector<std::string>& caches)
+std::string cacheStat(std::span<const cache::LevelSpec> caches)
 {
-    HEARTH_ASSIGN_OR_RETURN(const std::vector<cache::LevelSpec> specs, cache::cacheSpecs(caches));
     std::string text;
-    for (const cache::LevelSpec& spec : specs)
+    for (const cache::LevelSpec& spec : caches)
         text += spec.is_server ? lineOfServer(spec) : lineOf(spec, cache::occupancyOf(spec.place));
     return orNone(text);
 }
 
-Result<std::string> cacheGc(const std::vector<std::string>& caches, std::optional<uint64_t> limit_bytes)
+std::string cacheGc(std::span<const cache::LevelSpec> caches, std::optional<uint64_t> limit_bytes)
 {
-    HEARTH_ASSIGN_OR_RETURN(const std::vector<cache::LevelSpec> specs, cache::cacheSpecs(caches));
     std::string text;
-    for (const cache::LevelSpec& spec : specs)
+    for (const cache::LevelSpec& spec : caches)
         if (spec.is_server)
             text += lineOfServer(spec);
         else if (spec.writable)
@@ -55,11 +52,10 @@ Result<std::string> cacheGc(const std::vector<std::string>& caches, std::optiona
     return orNone(text);
 }
 
-Result<CacheVerification> cacheVerify(const std::vector<std::string>& caches)
+CacheVerification cacheVerify(std::span<const cache::LevelSpec> caches)
 {
-    HEARTH_ASSIGN_OR_RETURN(const std::vector<cache::LevelSpec> specs, cache::cacheSpecs(caches));
     CacheVerification result;
-    for (const cache::LevelSpec& spec : specs)
+    for (const cache::LevelSpec& spec : caches)
     {
         if (spec.is_server)
             result.text += lineOfServer(spec);

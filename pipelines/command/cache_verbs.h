@@ -2,20 +2,19 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include "formats/result.h"
+#include "pipelines/cache/open_cache.h"
 
 #include <optional>
+#include <span>
 #include <string>
-#include <vector>
 
 namespace hearth::command
 {
 
-/// caches  of --cache, here and below
-Result<std::string> cacheStat(const std::vector<std::string>& caches);
+std::string cacheStat(std::span<const cache::LevelSpec> caches);
 
 /// limit_bytes  instead of each cache's own limit
-Result<std::string> cacheGc(const std::vector<std::string>& caches, std::optional<uint64_t> limit_bytes);
+std::string cacheGc(std::span<const cache::LevelSpec> caches, std::optional<uint64_t> limit_bytes);
 
 struct CacheVerification
 {
@@ -24,6 +23,6 @@ struct CacheVerification
 };
 
 /// Read every byte of the caches that may be written, and remove what is damaged.
-Result<CacheVerification> cacheVerify(const std::vector<std::string>& caches);
+CacheVerification cacheVerify(std::span<const cache::LevelSpec> caches);
 
 } // namespace hearth::command

@@ -3,6 +3,7 @@
 
 #include "pipelines/cache/folder_level.h"
 #include "pipelines/command/messages.h"
+#include "pipelines/command/setting_options.h"
 #include "pipelines/command/terminal.h"
 
 #include <CLI/CLI.hpp>
@@ -19,7 +20,7 @@ struct CommonOptions
 {
     std::string directory;
     std::string config_file;
-    std::string color = "auto";
+    SettingOptions settings; ///< --color
     std::string log_format = "text";
 };
 
@@ -28,6 +29,20 @@ CommonOptions& common()
 {
     static CommonOptions options;
     return options;
+}
+
+/// Of the command line, the environment or a file; of a file that is wrong the verbs tell that need it.
+ColorWish colorWish()
+{
+    const Result<profiles::Given> given = common().settings.given();
+    const Result<profiles::Configuration> configuration = loadConfiguration({});
+    const profiles::Value* color = nullptr;
+    if (given.ok() && given->command.contains("color"))
+        color = &given->command.find("color")->second;
+    else if (configuration.ok())
+        color = configuration->command("color");
+    const std::string word = color == nullptr ? "auto" : profiles::textsOf(*color).front();
+    return word == "always" ? ColorWish::always : word == "never" ? ColorWish::never : ColorWish::automatic;
 }
 
 } // namespace
@@ -39,10 +54,7 @@ void addCommonOptions(CLI::App& app)
     app.add_option("--config", common().config_file,
                    "file of settings, instead of hearth.toml here or above; off: none")
         ->type_name("FILE");
-    app.add_option("--color", common().color,
-                   "of messages; auto: on a terminal, as NO_COLOR, CLICOLOR_FORCE and CI say")
-        ->check(CLI::IsMember({"auto", "always", "never"}).description(""))
-        ->type_name("auto|always|never");
+    common().settings.addOfCommand(app, {"color"});
     app.add_option("--log-format", common().log_format, "of messages; json: an object a line")
         ->check(CLI::IsMember({"text", "json"}).description(""))
         ->type_name("text|json");
@@ -50,19 +62,21 @@ void addCommonOptions(CLI::App& app)
 
 Status applyCommonOptions()
 {
-    if (common().color != "auto")
-        setColor(common().color == "always" ? ColorWish::always : ColorWish::never);
     if (common().log_format == "json")
         setMessageForm(MessageForm::json);
     const std::string& directory = common().directory;
     if (!directory.empty() && ::chdir(directory.c_str()) != 0)
         return Error{Issue::input_missing, directory, "", "is no folder that can be entered"};
+    // files of settings are looked for from there
+    setColor(colorWish());
     return success();
 }
 
 Result<profiles::Configuration> loadConfiguration(profiles::Given given)
 {
     given.config_file = common().config_file;
+    HEARTH_ASSIGN_OR_RETURN(profiles::Given of_all_verbs, common().settings.given());
+    given.command.merge(of_all_verbs.command);
     return profiles::Configuration::load(std::move(given));
 }
 
@@ -74,12 +88,9 @@ std::vector<std::string> cachesOf(const profiles::Configuration& configuration)
                                                                  : profiles::textsOf(*caches);
 }
 
-Result<std::vector<std::string>> configuredCaches(const std::vector<std::string>& caches)
+Result<std::vector<cache::LevelSpec>> levelsOf(const profiles::Configuration& configuration)
 {
-    if (!caches.empty())
-        return caches;
-    HEARTH_ASSIGN_OR_RETURN(const profiles::Configuration configuration, loadConfiguration({}));
-    return cachesOf(configuration);
+    return cache::cacheSpecs(cachesOf(configuration));
 }
 
 Result<std::vector<std::string>> withArgumentFiles(const std::vector<std::string>& words)

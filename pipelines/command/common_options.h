@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
+#include "pipelines/cache/open_cache.h"
 #include "pipelines/profiles/configuration.h"
 
 #include <string>
@@ -27,8 +28,8 @@ Result<profiles::Configuration> loadConfiguration(profiles::Given given);
 /// The caches of the configuration; none: as cache::cacheSpecs decides.
 std::vector<std::string> cachesOf(const profiles::Configuration& configuration);
 
-/// The same where the command line has `caches`, of --cache. errors: those of Configuration::load.
-Result<std::vector<std::string>> configuredCaches(const std::vector<std::string>& caches);
+/// The same, read. errors: usage.
+Result<std::vector<cache::LevelSpec>> levelsOf(const profiles::Configuration& configuration);
 
 /// The words of a command line, each "@FILE" replaced by the lines of that file; empty lines and those that start with # are
 /// left out. A file that starts with @ is named as ./@FILE. errors: input_missing.

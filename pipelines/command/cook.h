@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include "pipelines/command/terminal.h"
+#include "pipelines/command/effort.h"
 #include "pipelines/graph/cook_graph.h"
 
 #include <cstdint>
@@ -16,13 +16,8 @@ namespace hearth::command
 using graph::BrickOptions;
 using graph::VisibilityOptions;
 
-struct CookOptions : graph::CookSettings
+struct CookOptions : graph::CookSettings, Effort
 {
-    /// Cookers at once; 0: two, and of small sources as many as there are cores. With large ones they are parallel
-    /// themselves: two are enough to hide their serial parts, and each more costs the memory of another mesh.
-    unsigned jobs = 0;
-    /// What the cookers may take together, by their estimates; 0: three quarters of the machine's memory.
-    uint64_t memory_bytes = 0;
     bool fail_fast = false;          ///< end at the first failure; else cook what does not depend on it
     std::vector<std::string> caches; ///< of --cache, nearest first; none: as cache::cacheSpecs says
     bool no_cache = false;
@@ -30,8 +25,6 @@ struct CookOptions : graph::CookSettings
     bool explain = false;                ///< say why each cooker runs
     bool dry_run = false;                ///< only say what would run
     std::string dry_run_format = "text"; ///< or "json": the plan
-    Verbosity verbosity = Verbosity::normal;
-    std::string progress = "auto"; ///< see progressStyle
     /// Warnings that count as errors, as "W1302"; nothing: none does, an empty list: all do.
     std::optional<std::vector<std::string>> fatal_warnings;
     std::string depfile; ///< what was read, as depfileOf writes it; empty: none

@@ -21,14 +21,13 @@ constexpr const char* kHashesEnding = ".hashes";
 
 } // namespace
 
-Result<std::unique_ptr<CookMemory>> CookMemory::open(const std::vector<std::string>& caches,
-                                                     const std::string& output, const std::string& folder,
-                                                     const std::function<void(const Error&)>& warn)
+std::unique_ptr<CookMemory> CookMemory::over(const std::vector<cache::LevelSpec>& caches,
+                                             const std::string& output, const std::string& folder,
+                                             const std::function<void(const Error&)>& warn)
 {
     std::unique_ptr<CookMemory> memory(new CookMemory(folder));
-    HEARTH_ASSIGN_OR_RETURN(const std::vector<cache::LevelSpec> specs, cache::cacheSpecs(caches));
     std::vector<std::unique_ptr<cache::Level>> levels;
-    for (const cache::LevelSpec& spec : specs)
+    for (const cache::LevelSpec& spec : caches)
     {
         if (spec.is_server)
         {
@@ -47,6 +46,14 @@ Result<std::unique_ptr<CookMemory>> CookMemory::open(const std::vector<std::stri
     memory->actions_ =
         std::make_unique<graph::ActionCache>(*memory->cache_, memory->hashes_, tools::programFolder());
     return memory;
+}
+
+Result<std::unique_ptr<CookMemory>> CookMemory::open(const std::vector<std::string>& caches,
+                                                     const std::string& output, const std::string& folder,
+                                                     const std::function<void(const Error&)>& warn)
+{
+    HEARTH_ASSIGN_OR_RETURN(const std::vector<cache::LevelSpec> levels, cache::cacheSpecs(caches));
+    return over(levels, output, folder, warn);
 }
 
 void CookMemory::expect(const graph::Graph& graph)
@@ -82,11 +89,10 @@ void CookMemory::finish()
             cache::noteAdded(level->name(), level->bytesAdded(), limit_bytes);
 }
 
-std::vector<graph::Journal> allJournals(const std::vector<std::string>& caches)
+std::vector<graph::Journal> allJournals(const std::vector<cache::LevelSpec>& caches)
 {
     std::vector<graph::Journal> journals;
-    const Result<std::vector<cache::LevelSpec>> specs = cache::cacheSpecs(caches);
-    for (const cache::LevelSpec& spec : specs.ok() ? *specs : std::vector<cache::LevelSpec>())
+    for (const cache::LevelSpec& spec : caches)
     {
         if (spec.is_server)
             continue;

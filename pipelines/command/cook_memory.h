@@ -21,10 +21,15 @@ namespace hearth::command
 class CookMemory
 {
 public:
-    /// caches    of --cache; see cache::cacheSpecs
     /// output    the pack
     /// folder    that relative paths of sources start from
     /// warn      is told what goes wrong with a cache
+    static std::unique_ptr<CookMemory> over(const std::vector<cache::LevelSpec>& caches,
+                                            const std::string& output, const std::string& folder,
+                                            const std::function<void(const Error&)>& warn);
+
+    /// The same of what was typed.
+    /// caches    of --cache; see cache::cacheSpecs
     /// errors    usage
     static Result<std::unique_ptr<CookMemory>> open(const std::vector<std::string>& caches,
                                                     const std::string& output, const std::string& folder,
@@ -57,7 +62,7 @@ private:
     std::optional<graph::Journal> journal_;
 };
 
-/// The journals of all packs that a cache knows of.
-std::vector<graph::Journal> allJournals(const std::vector<std::string>& caches);
+/// The journals of all packs that the caches know of.
+std::vector<graph::Journal> allJournals(const std::vector<cache::LevelSpec>& caches);
 
 } // namespace hearth::command

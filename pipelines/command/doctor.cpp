@@ -5,7 +5,6 @@
 #include "cook/tools/private_folder.h"
 #include "pipelines/cache/folder_level.h"
 #include "pipelines/cache/http_level.h"
-#include "pipelines/cache/open_cache.h"
 #include "pipelines/cache/upkeep.h"
 #include "pipelines/command/terminal.h"
 
@@ -137,17 +136,16 @@ Check checkServer(const cache::LevelSpec& spec)
             "start it, or take it out of --cache and hearth.toml: cooks go on without it"};
 }
 
-std::vector<Check> checkCaches(const std::vector<std::string>& caches)
+std::vector<Check> checkCaches(const Result<std::vector<cache::LevelSpec>>& caches)
 {
-    const auto specs = cache::cacheSpecs(caches);
-    if (!specs.ok())
-        return {{"cache", State::wrong, formatMessage(specs.error()),
+    if (!caches.ok())
+        return {{"cache", State::wrong, formatMessage(caches.error()),
                  "correct --cache, HEARTH_CACHE or hearth.toml"}};
-    if (specs->empty())
+    if (caches->empty())
         return {{"cache", State::warning, "no cache is used: every cook runs every cooker",
                  "unset HEARTH_CACHE and HEARTH_CACHE_MODE"}};
     std::vector<Check> checks;
-    for (const cache::LevelSpec& spec : *specs)
+    for (const cache::LevelSpec& spec : *caches)
     {
         checks.push_back(spec.is_server ? checkServer(spec) : checkCache(spec));
         if (spec.writable && !spec.is_server)
@@ -214,7 +212,7 @@ const char* stateName(State state)
 
 } // namespace
 
-std::vector<Check> examine(const std::vector<std::string>& caches)
+std::vector<Check> examine(const Result<std::vector<cache::LevelSpec>>& caches)
 {
     const std::string folder = tools::programFolder();
     std::vector<Check> checks{checkPrograms(folder)};

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
+#include "pipelines/cache/open_cache.h"
+
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -23,8 +25,8 @@ struct Check
     std::string remedy; ///< what to do; empty where all is well
 };
 
-/// caches  of --cache and of the configuration
-std::vector<Check> examine(const std::vector<std::string>& caches);
+/// caches  or what is wrong with how they were named
+std::vector<Check> examine(const Result<std::vector<cache::LevelSpec>>& caches);
 
 bool isWell(const std::vector<Check>& checks);
 std::string checksText(const std::vector<Check>& checks);

@@ -18,14 +18,17 @@ namespace hearth::command
 namespace
 {
 
-graph::ExecutorEvents eventsFor(Verbosity verbosity)
+/// Shards write logs, which have no bar.
+graph::ExecutorEvents eventsFor(const Effort& effort)
 {
     graph::ExecutorEvents events;
-    events.ended = [verbosity](const graph::Action& action, const graph::ActionOutcome& outcome,
-                               const std::vector<std::string>& messages)
+    const bool shows_stages = effort.verbosity != Verbosity::quiet && effort.progress != "none";
+    events.ended = [verbosity = effort.verbosity, shows_stages](const graph::Action& action,
+                                                                const graph::ActionOutcome& outcome,
+                                                                const std::vector<std::string>& messages)
     {
         passOn(messages, verbosity);
-        if (outcome.ending == graph::Ending::cooked && verbosity != Verbosity::quiet)
+        if (outcome.ending == graph::Ending::cooked && shows_stages)
             printStage(action, outcome);
     };
     events.failed = [](const graph::Failure& failure)
@@ -73,7 +76,7 @@ int runHere(const RunOptions& options, const OpenedPlan& opened, size_t shard)
     const auto record = farm::runShard(
         opened.plan, opened.hash, shard, {(*memory)->cache(), (*memory)->actions(), (*memory)->hashes()},
         {limitsOf(options.jobs, options.memory_bytes), tools::programFolder(), options.plan_file},
-        eventsFor(options.verbosity));
+        eventsFor(options));
     (*memory)->finish();
     if (!record)
         return kInterrupted;
@@ -152,10 +155,22 @@ int runThere(const RunOptions& options, const OpenedPlan& opened, size_t shard)
                                  : "results of the shard are not in the cache, or not whole")});
 }
 
-Result<std::string> planOf(const MakePlanOptions& options, CookMemory& memory, farm::Plan& plan)
+Result<farm::Measured> measuredBefore(const std::string& estimates_file)
 {
-    HEARTH_ASSIGN_OR_RETURN(plan, farm::makePlan(options.request, graph::workingFolder(), options.shard_count,
-                                                 tools::programFolder(), memory.actions(), memory.hashes()));
+    if (estimates_file.empty())
+        return farm::Measured();
+    const std::optional<std::string> report = cache::readText(estimates_file);
+    if (!report)
+        return Error{Issue::input_missing, estimates_file, "", "cannot be read"};
+    return farm::measuredOf(*report, estimates_file);
+}
+
+Result<std::string> planOf(const MakePlanOptions& options, const farm::Measured& measured, CookMemory& memory,
+                           farm::Plan& plan)
+{
+    HEARTH_ASSIGN_OR_RETURN(plan, farm::makePlan(options.request, graph::workingFolder(),
+                                                 {options.shard_count, measured}, tools::programFolder(),
+                                                 memory.actions(), memory.hashes()));
     const std::string text = farm::planText(plan);
     // no machine would take a plan whose names are no UTF-8, or look like options
     HEARTH_TRY(farm::parsePlan(text, options.output));
@@ -184,8 +199,11 @@ int makePlanFile(const MakePlanOptions& options)
     const auto memory = CookMemory::open(options.caches, options.output, graph::workingFolder(), tell);
     if (!memory.ok())
         return tell(memory.error());
+    const Result<farm::Measured> measured = measuredBefore(options.estimates_file);
+    if (!measured.ok())
+        return tell(measured.error());
     farm::Plan plan;
-    const Result<std::string> text = planOf(options, **memory, plan);
+    const Result<std::string> text = planOf(options, *measured, **memory, plan);
     if (!text.ok())
         return tell(text.error());
     if (const Status written = tools::writeText(options.output, *text); !written.ok())
@@ -193,6 +211,10 @@ int makePlanFile(const MakePlanOptions& options)
     (*memory)->finish();
     if (!options.quiet)
         printPlan(plan, options.output);
+    if (!options.quiet && !options.estimates_file.empty())
+        print(fmt::format("{:<10}{} of {} sources have their times from {}", "",
+                          farm::countMeasured(*measured, options.request.sources),
+                          options.request.sources.size(), options.estimates_file));
     if (!options.emits_commands)
         return 0;
     const farm::FarmJob job =

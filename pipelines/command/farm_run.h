@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
+#include "pipelines/command/effort.h"
 #include "pipelines/command/open_plan.h"
-#include "pipelines/command/terminal.h"
 
 #include <cstdint>
 #include <optional>
@@ -18,29 +18,24 @@ struct MakePlanOptions
     farm::Request request;
     std::string output;                ///< file, or "-"
     std::optional<size_t> shard_count; ///< nothing: as many as are worth while
+    std::string estimates_file;        ///< a report whose times and memory are gone by; empty: none
     std::vector<std::string> caches;
     bool emits_commands = false; ///< print a command line for each shard
     bool quiet = false;
 };
 
-struct RunOptions : PlanOptions
+struct RunOptions : PlanOptions, Effort
 {
-    std::string shard;         ///< "I/N"; empty: as the batch system says
-    unsigned jobs = 0;         ///< see limitsOf
-    uint64_t memory_bytes = 0; ///< see limitsOf
-    std::string launcher;      ///< words before the command line of the shard; empty: it runs here
-    std::string record_file;   ///< empty: none
-    Verbosity verbosity = Verbosity::normal;
+    std::string shard;       ///< "I/N"; empty: as the batch system says
+    std::string launcher;    ///< words before the command line of the shard; empty: it runs here
+    std::string record_file; ///< empty: none
 };
 
-struct MergeOptions : PlanOptions
+struct MergeOptions : PlanOptions, Effort
 {
     std::string output;
     bool cooks_missing = true;             ///< else what is missing is listed
     std::vector<std::string> report_files; ///< as CookOptions::report_files
-    unsigned jobs = 0;
-    uint64_t memory_bytes = 0;
-    Verbosity verbosity = Verbosity::normal;
 };
 
 // Each returns the exit code; every problem has been told on stderr.

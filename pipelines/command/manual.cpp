@@ -134,7 +134,14 @@ ManualPage commandPage(const CommandTable& table)
         text += optionText(option);
     text += ".SH ENVIRONMENT\n";
     for (const Setting& setting : profiles::commandSettings())
-        text += ".TP\n" + bold(setting.variable) + "\n" + plain(setting.what) + ".\n";
+    {
+        if (!setting.variable.empty())
+            text += ".TP\n" + bold(setting.variable) + "\n" + plain(setting.what) +
+                    (setting.kind == Kind::choice ? ": " + plain(profiles::rangeText(setting)) : "") + ".\n";
+        for (const profiles::Switch& one : setting.switches)
+            text += ".TP\n" + bold(one.variable) + "\nset, and not 0: " + plain(setting.key) + " is " +
+                    plain(one.value) + ".\n";
+    }
     text += ".TP\n" + bold("HEARTH_CONFIG") +
             "\nfile of settings, instead of hearth.toml here or above; off: none.\n";
     text +=

@@ -90,11 +90,9 @@ int cookPack(const OpenedPlan& opened, const MergeOptions& options)
 {
     CookOptions cooked;
     static_cast<graph::CookSettings&>(cooked) = opened.plan.settings;
+    static_cast<Effort&>(cooked) = options;
     cooked.output = options.output;
-    cooked.jobs = options.jobs;
-    cooked.memory_bytes = options.memory_bytes;
     cooked.caches = opened.caches;
-    cooked.verbosity = options.verbosity;
     cooked.report_files = options.report_files;
     return cook(cooked);
 }

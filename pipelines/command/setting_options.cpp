@@ -3,6 +3,7 @@
 
 #include "pipelines/command/common_options.h"
 #include "pipelines/command/source_list.h"
+#include "pipelines/command/verb_tools.h"
 #include "pipelines/profiles/told.h"
 
 #include <CLI/CLI.hpp>
@@ -22,7 +23,7 @@ using profiles::Value;
 std::string describe(const Setting& setting)
 {
     std::string text(setting.what);
-    if (setting.kind != Kind::flag && setting.kind != Kind::texts && !setting.otherwise.empty())
+    if (setting.kind != Kind::flag && setting.otherwise != "[]" && !setting.otherwise.empty())
         text += "; by default " + std::string(setting.otherwise);
     return text;
 }
@@ -30,7 +31,11 @@ std::string describe(const Setting& setting)
 std::string fault(const Setting& setting, const std::string& text)
 {
     const auto value = profiles::valueOf(setting, {text}, "");
-    return value.ok() ? "" : "'" + text + "' " + value.error().detail;
+    if (value.ok())
+        return "";
+    // of words it quotes the one that is wrong itself
+    const std::string quoted = "'" + text + "' ";
+    return value.error().detail.starts_with(quoted) ? value.error().detail : quoted + value.error().detail;
 }
 
 /// "--jobs" of "-j,--jobs".
@@ -44,6 +49,11 @@ uint64_t numberOf(const Value& value)
     uint64_t number = 0;
     std::from_chars(value.text.data(), value.text.data() + value.text.size(), number);
     return number;
+}
+
+Verbosity verbosityOf(const std::string& word)
+{
+    return word == "quiet" ? Verbosity::quiet : word == "verbose" ? Verbosity::all : Verbosity::normal;
 }
 
 /// An option that changes nothing is a mistake: its visibility or bricks are not baked.
@@ -94,10 +104,21 @@ SettingOptions::Entry& SettingOptions::add(CLI::App& verb, const Setting& settin
     return entry;
 }
 
-void SettingOptions::addTo(CLI::App& verb, const std::vector<std::string>& command_keys)
+void SettingOptions::addOfCommand(CLI::App& verb, const std::vector<std::string>& keys)
 {
-    for (const std::string& key : command_keys)
+    for (const std::string& key : keys)
         add(verb, *profiles::findSetting(profiles::commandSettings(), key));
+}
+
+void SettingOptions::addLog(CLI::App& verb, const std::string& all)
+{
+    auto* quiet = verb.add_flag("-q,--quiet", is_quiet_, "print errors only");
+    if (!all.empty())
+        verb.add_flag("-v,--verbose", is_verbose_, all)->excludes(quiet);
+}
+
+void SettingOptions::addOfProfiles(CLI::App& verb)
+{
     for (const Setting& setting : profiles::profileSettings())
         if (!setting.option.empty())
             add(verb, setting);
@@ -136,7 +157,39 @@ Result<Given> SettingOptions::given() const
         (entry.setting->scope == profiles::Scope::command ? given.command : given.settings)[key] =
             std::move(value).value();
     }
+    if (is_quiet_ || is_verbose_)
+        given.command["log"] = is_quiet_ ? Value{"\"quiet\"", "--quiet"} : Value{"\"verbose\"", "--verbose"};
     return given;
+}
+
+Result<profiles::Configuration> SettingOptions::configuration() const
+{
+    HEARTH_ASSIGN_OR_RETURN(Given said, given());
+    return loadConfiguration(std::move(said));
+}
+
+Work withConfiguration(const SettingOptions& settings,
+                       const std::function<int(const profiles::Configuration&)>& work)
+{
+    return [&settings, work]
+    {
+        const auto configuration = settings.configuration();
+        return configuration.ok() ? work(*configuration) : fail(configuration.error());
+    };
+}
+
+Effort effortOf(const profiles::Configuration& configuration)
+{
+    Effort effort;
+    if (const Value* jobs = configuration.command("jobs"))
+        effort.jobs = static_cast<unsigned>(numberOf(*jobs));
+    if (const Value* memory = configuration.command("memory"))
+        effort.memory_bytes = numberOf(*memory);
+    if (const Value* log = configuration.command("log"))
+        effort.verbosity = verbosityOf(profiles::textsOf(*log).front());
+    if (const Value* progress = configuration.command("progress"))
+        effort.progress = profiles::textsOf(*progress).front();
+    return effort;
 }
 
 Status configure(const profiles::Configuration& configuration, CookOptions& options)
@@ -156,10 +209,7 @@ Status configure(const profiles::Configuration& configuration, CookOptions& opti
     const profiles::Values of_pack = configuration.ofPack();
     options.bricks = profiles::toldOfBricks(of_pack);
     HEARTH_TRY(checkInUse(of_pack, has_visibility, options.bricks.has_value()));
-    if (const Value* jobs = configuration.command("jobs"))
-        options.jobs = static_cast<unsigned>(numberOf(*jobs));
-    if (const Value* memory = configuration.command("memory"))
-        options.memory_bytes = numberOf(*memory);
+    static_cast<Effort&>(options) = effortOf(configuration);
     options.caches = cachesOf(configuration);
     return success();
 }

@@ -1,8 +1,9 @@
-// The options that say how sources are cooked down: --profile, --set, and one for each setting that has one.
+// The options that set what files and the environment can set as well: of the command, and of how sources are cooked down.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
 #include "pipelines/command/cook.h"
+#include "pipelines/command/verbs.h"
 #include "pipelines/farm/request.h"
 #include "pipelines/profiles/configuration.h"
 
@@ -22,11 +23,19 @@ namespace hearth::command
 class SettingOptions
 {
 public:
-    /// Add those of the settings of profiles, and of the command's those with these keys. Lives as long as the verb.
-    void addTo(CLI::App& verb, const std::vector<std::string>& command_keys);
+    // It lives as long as the verb.
+
+    /// Add those of the command's settings with these keys.
+    void addOfCommand(CLI::App& verb, const std::vector<std::string>& keys);
+    /// Add -q, and -v where `all` says what that prints: the command's setting "log".
+    void addLog(CLI::App& verb, const std::string& all);
+    /// Add those of the settings of profiles, and --set.
+    void addOfProfiles(CLI::App& verb);
 
     /// What the command line says. errors: usage.
     Result<profiles::Given> given() const;
+    /// With that over all else. errors: usage, and those of Configuration::load
+    Result<profiles::Configuration> configuration() const;
 
 private:
     struct Entry
@@ -43,7 +52,15 @@ private:
     // not moved while the command line refers to them
     std::map<std::string, Entry> entries_;
     std::vector<std::string> assignments_;
+    bool is_quiet_ = false;
+    bool is_verbose_ = false;
 };
+
+/// The work of a verb that is told what holds, once the command line is read; the settings live as long as the work.
+Work withConfiguration(const SettingOptions& settings,
+                       const std::function<int(const profiles::Configuration&)>& work);
+
+Effort effortOf(const profiles::Configuration& configuration);
 
 /// Have the sources cooked as the configuration says: what folders and patterns stand for, settings of each source and of the
 /// pack, and the options of the command that the command line leaves open.

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/command/terminal.h"
 
-#include <cstdlib>
+#include "pipelines/profiles/configuration.h"
+
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -10,13 +11,6 @@ namespace hearth::command
 
 namespace
 {
-
-/// The environment's word for yes: set, and neither empty nor 0.
-bool isSet(const char* name)
-{
-    const char* value = std::getenv(name);
-    return value != nullptr && *value != '\0' && std::string_view(value) != "0";
-}
 
 ColorWish& wish()
 {
@@ -28,13 +22,12 @@ bool decideColor()
 {
     if (wish() != ColorWish::automatic)
         return wish() == ColorWish::always;
-    if (isSet("NO_COLOR"))
-        return false;
-    if (isSet("CLICOLOR_FORCE"))
-        return true;
-    const char* terminal = std::getenv("TERM");
-    return ::isatty(STDERR_FILENO) == 1 && !isSet("CI") && terminal != nullptr &&
-           std::string_view(terminal) != "dumb";
+    using namespace profiles;
+    if (const Switch* chosen = switchSet(*findSetting(commandSettings(), "color")))
+        return chosen->value == "always";
+    const bool is_automatic_build = processEnvironment("CI").value_or("0") != "0";
+    return ::isatty(STDERR_FILENO) == 1 && !is_automatic_build &&
+           processEnvironment("TERM").value_or("dumb") != "dumb";
 }
 
 } // namespace

@@ -16,12 +16,6 @@ enum class Verbosity
     all,    ///< and the command line of each stage
 };
 
-/// Of -q and -v, which exclude each other.
-inline Verbosity verbosityOf(bool quiet, bool verbose)
-{
-    return quiet ? Verbosity::quiet : verbose ? Verbosity::all : Verbosity::normal;
-}
-
 enum class ColorWish
 {
     automatic,
@@ -29,10 +23,11 @@ enum class ColorWish
     never,
 };
 
-/// Of --color, which goes over the environment; before anything is printed.
+/// As the settings say, before anything is printed; automatic where nobody has said it.
 void setColor(ColorWish wish);
 
-/// Whether stderr is a terminal that wants colour: NO_COLOR, TERM=dumb and CI say no, CLICOLOR_FORCE says yes; --color over all.
+/// Whether stderr gets colours. Where that is automatic: NO_COLOR says no, CLICOLOR_FORCE says yes; else where it is a terminal,
+/// unless TERM=dumb or CI say no.
 bool colorOnStderr();
 
 /// `text` faint, where stderr shows colours.

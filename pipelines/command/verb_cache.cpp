@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "pipelines/cache/open_cache.h"
 #include "pipelines/command/cache_verbs.h"
 #include "pipelines/command/common_options.h"
+#include "pipelines/command/setting_options.h"
 #include "pipelines/command/verb_tools.h"
 #include "pipelines/command/verbs.h"
 
@@ -10,13 +10,35 @@
 namespace hearth::command
 {
 
+namespace
+{
+
+/// limit  of --max-size; empty: none
+int lookAfter(const std::vector<cache::LevelSpec>& caches, const std::string& work, const std::string& limit)
+{
+    if (work == "stat")
+        return printResult(cacheStat(caches));
+    if (work == "gc")
+    {
+        std::optional<uint64_t> bytes;
+        if (!limit.empty())
+            bytes = cache::parseSize(limit, "").value();
+        return printResult(cacheGc(caches, bytes));
+    }
+    const CacheVerification verified = cacheVerify(caches);
+    const int printed = printResult(verified.text);
+    return verified.is_whole ? printed : 1;
+}
+
+} // namespace
+
 void addCache(CLI::App& app, Work& run)
 {
     CLI::App* verb = app.add_subcommand("cache", "Look after the cache of results");
     struct Options
     {
         std::string work;
-        std::vector<std::string> caches;
+        SettingOptions settings;
         std::string limit;
     };
     auto options = std::make_shared<Options>();
@@ -26,7 +48,7 @@ void addCache(CLI::App& app, Work& run)
             "is damaged")
         ->required()
         ->check(CLI::IsMember({"stat", "gc", "verify"}));
-    addCaches(*verb, options->caches);
+    options->settings.addOfCommand(*verb, {"cache"});
     verb->add_option("--max-size", options->limit,
                      "gc: how much may stay, as 5G; the cache's limit by default")
         ->check(CLI::Validator(sizeFault, ""));
@@ -36,26 +58,13 @@ void addCache(CLI::App& app, Work& run)
     verb->callback(
         [options, &run]
         {
-            run = [options]
-            {
-                const auto caches = configuredCaches(options->caches);
-                if (!caches.ok())
-                    return fail(caches.error());
-                if (options->work == "stat")
-                    return printResult(cacheStat(*caches));
-                if (options->work == "gc")
-                {
-                    std::optional<uint64_t> limit;
-                    if (!options->limit.empty())
-                        limit = cache::parseSize(options->limit, "").value();
-                    return printResult(cacheGc(*caches, limit));
-                }
-                const auto verified = cacheVerify(*caches);
-                if (!verified.ok())
-                    return fail(verified.error());
-                const int printed = printResult(verified->text);
-                return verified->is_whole ? printed : 1;
-            };
+            run = withConfiguration(options->settings,
+                                    [options](const profiles::Configuration& configuration)
+                                    {
+                                        const auto caches = levelsOf(configuration);
+                                        return caches.ok() ? lookAfter(*caches, options->work, options->limit)
+                                                           : fail(caches.error());
+                                    });
         });
 }
 

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "pipelines/command/common_options.h"
 #include "pipelines/command/list_settings.h"
 #include "pipelines/command/setting_options.h"
 #include "pipelines/command/verb_tools.h"
@@ -25,25 +24,22 @@ void addConfig(CLI::App& app, Work& run)
                      "what holds for this source: rules may match it; by default what holds for all");
     verb->add_flag("--show-origin", options->shows_origin, "say where each was set");
     addFormat(*verb, options->format);
-    options->settings.addTo(*verb, {"profile", "jobs", "memory", "cache"});
+    options->settings.addOfCommand(*verb, {"profile", "jobs", "memory", "cache", "progress"});
+    options->settings.addOfProfiles(*verb);
     verb->footer("Examples:\n"
                  "  hearth config --show-origin\n"
                  "  hearth config props/barrel.glb --profile mobile-low --show-origin");
     verb->callback(
         [options, &run]
         {
-            run = [options]
-            {
-                auto given = options->settings.given();
-                if (!given.ok())
-                    return fail(given.error());
-                const auto configuration = loadConfiguration(std::move(given).value());
-                if (!configuration.ok())
-                    return fail(configuration.error());
-                return printResult(options->format == "json" ? settingsJson(*configuration, options->source)
-                                                             : settingsText(*configuration, options->source,
-                                                                            options->shows_origin));
-            };
+            run = withConfiguration(options->settings,
+                                    [options](const profiles::Configuration& configuration)
+                                    {
+                                        return printResult(options->format == "json"
+                                                               ? settingsJson(configuration, options->source)
+                                                               : settingsText(configuration, options->source,
+                                                                              options->shows_origin));
+                                    });
         });
 }
 

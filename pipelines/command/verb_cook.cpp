@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "pipelines/command/common_options.h"
 #include "pipelines/command/setting_options.h"
 #include "pipelines/command/verb_tools.h"
 #include "pipelines/command/verbs.h"
@@ -36,8 +35,7 @@ std::string codesFault(const std::string& text)
 Result<CookOptions> configured(const CookOptions& options, const SettingOptions& settings,
                                std::vector<std::string>& files)
 {
-    HEARTH_ASSIGN_OR_RETURN(profiles::Given given, settings.given());
-    HEARTH_ASSIGN_OR_RETURN(const profiles::Configuration configuration, loadConfiguration(std::move(given)));
+    HEARTH_ASSIGN_OR_RETURN(const profiles::Configuration configuration, settings.configuration());
     for (const profiles::ConfigFile& file : configuration.files())
         files.push_back(file.path);
     CookOptions all = options;
@@ -68,8 +66,6 @@ void addCook(CLI::App& app, Work& run)
         SettingOptions settings;
         bool watches = false;
         std::string fatal;
-        bool quiet = false;
-        bool verbose = false;
     };
     auto options = std::make_shared<Options>();
     verb->add_option("SOURCE", options->sources,
@@ -80,7 +76,8 @@ void addCook(CLI::App& app, Work& run)
     verb->add_option("--lod", options->lods,
                      "N=FILE: level of detail N of the source's only mesh, made by hand")
         ->allow_extra_args(false);
-    options->settings.addTo(*verb, {"profile", "jobs", "memory", "cache"});
+    options->settings.addOfCommand(*verb, {"profile", "jobs", "memory", "cache", "progress"});
+    options->settings.addOfProfiles(*verb);
     verb->add_option(
             "--report", options->report_files,
             "write what became of it: FILE.html is a page with pictures, .xml JUnit's, .csv a table, "
@@ -88,10 +85,6 @@ void addCook(CLI::App& app, Work& run)
         ->allow_extra_args(false);
     verb->add_option("--events", options->events_file,
                      "write what happens while it happens, a JSON object a line");
-    verb->add_option("--progress", options->progress,
-                     "what is shown meanwhile; auto: a bar on a terminal, else a line for each cooker")
-        ->check(CLI::IsMember({"auto", "bar", "plain", "none"}).description(""))
-        ->type_name("auto|bar|plain|none");
     verb->add_flag("--warnings-as-errors{all}", options->fatal,
                    "warnings keep the pack from being written; =W1302,W1303: these alone")
         ->check(CLI::Validator(codesFault, ""));
@@ -116,9 +109,7 @@ void addCook(CLI::App& app, Work& run)
             "Ctrl-C ends it")
         ->excludes(dry_run);
     verb->add_flag("--explain", options->explain, "say why each cooker runs");
-    auto* quiet = verb->add_flag("-q,--quiet", options->quiet, "print errors only");
-    verb->add_flag("-v,--verbose", options->verbose, "print the command line of every stage")
-        ->excludes(quiet);
+    options->settings.addLog(*verb, "print the command line of every stage");
     verb->footer("Examples:\n"
                  "  hearth cook house.glb tree.glb -o village.hearth\n"
                  "  hearth cook assets/ --profile mobile-low -o village.hearth\n"
@@ -127,7 +118,6 @@ void addCook(CLI::App& app, Work& run)
     verb->callback(
         [options, &run]
         {
-            options->verbosity = verbosityOf(options->quiet, options->verbose);
             if (!options->fatal.empty())
                 options->fatal_warnings = codesOf(options->fatal);
             run = [options]

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/cache/open_cache.h"
+#include "pipelines/command/common_options.h"
 #include "pipelines/command/farm_jobs.h"
 #include "pipelines/command/verb_plan.h"
 #include "pipelines/command/verb_tools.h"
@@ -33,10 +34,11 @@ void addSlurm(CLI::App& farm, Work& run)
         farm.add_subcommand("slurm", "Submit shards to Slurm as an array, and the merge after them");
     struct Options : SlurmVerbOptions
     {
+        SettingOptions settings;
         std::string memory = "auto";
     };
     auto options = std::make_shared<Options>();
-    addPlanFile(*verb, *options);
+    addPlanFile(*verb, *options, options->settings);
     addPack(*verb, options->pack);
     verb->add_option("--partition", options->partition, "of the cluster; its own by default")
         ->check(CLI::Validator(partitionFault, ""));
@@ -55,21 +57,39 @@ void addSlurm(CLI::App& farm, Work& run)
         {
             if (options->memory != "auto")
                 options->memory_bytes = cache::parseSize(options->memory, "").value();
-            run = withPlan(*options, [options] { return farmSlurm(*options); });
+            run = withConfiguration(options->settings,
+                                    [options](const profiles::Configuration& configuration)
+                                    {
+                                        options->caches = cachesOf(configuration);
+                                        return farmSlurm(*options);
+                                    });
         });
 }
 
 void addNinja(CLI::App& farm, Work& run)
 {
     CLI::App* verb = farm.add_subcommand("ninja", "Write a build file for Ninja");
-    auto options = std::make_shared<NinjaVerbOptions>();
-    addPlanFile(*verb, *options);
+    struct Options : NinjaVerbOptions
+    {
+        SettingOptions settings;
+    };
+    auto options = std::make_shared<Options>();
+    addPlanFile(*verb, *options, options->settings);
     addPack(*verb, options->pack);
     verb->add_option("-o,--output", options->output, "build file to write")->required();
     verb->add_option("--launcher", options->launcher,
                      "what starts each shard, as \"srun -Q -n1\"; by default they run on this machine");
     verb->footer("Example: hearth farm ninja village.plan.json -o build.ninja --launcher \"srun -Q -n1\"");
-    verb->callback([options, &run] { run = withPlan(*options, [options] { return farmNinja(*options); }); });
+    verb->callback(
+        [options, &run]
+        {
+            run = withConfiguration(options->settings,
+                                    [options](const profiles::Configuration& configuration)
+                                    {
+                                        options->caches = cachesOf(configuration);
+                                        return farmNinja(*options);
+                                    });
+        });
 }
 
 void addStatus(CLI::App& farm, Work& run)
@@ -78,15 +98,23 @@ void addStatus(CLI::App& farm, Work& run)
         farm.add_subcommand("status", "Say what each shard has left; code 1 where that is not all");
     struct Options : PlanOptions
     {
+        SettingOptions settings;
         std::string format = "text";
     };
     auto options = std::make_shared<Options>();
-    addPlanFile(*verb, *options);
+    addPlanFile(*verb, *options, options->settings);
     addFormat(*verb, options->format);
     verb->footer("Example: hearth farm status village.plan.json");
     verb->callback(
         [options, &run]
-        { run = withPlan(*options, [options] { return farmStatus(*options, options->format); }); });
+        {
+            run = withConfiguration(options->settings,
+                                    [options](const profiles::Configuration& configuration)
+                                    {
+                                        options->caches = cachesOf(configuration);
+                                        return farmStatus(*options, options->format);
+                                    });
+        });
 }
 
 } // namespace

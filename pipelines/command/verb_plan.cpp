@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/command/verb_plan.h"
-#include "pipelines/cache/open_cache.h"
 #include "pipelines/command/common_options.h"
 #include "pipelines/command/farm_run.h"
 #include "pipelines/command/setting_options.h"
@@ -17,28 +16,10 @@ namespace
 {
 
 /// Options of verbs that run cookers.
-struct Effort
+void addEffort(CLI::App& verb, SettingOptions& settings)
 {
-    std::string memory;
-    bool quiet = false;
-    bool verbose = false;
-};
-
-void addEffort(CLI::App& verb, unsigned& jobs, Effort& effort)
-{
-    verb.add_option("-j,--jobs", jobs,
-                    "cookers that run at once; two by default, and of small sources one a core")
-        ->check(CLI::Range(1, 1024));
-    verb.add_option("--memory", effort.memory,
-                    "what the cookers may take together, as 12G; three quarters of the machine's by default")
-        ->check(CLI::Validator(sizeFault, ""));
-    auto* quiet = verb.add_flag("-q,--quiet", effort.quiet, "print errors only");
-    verb.add_flag("-v,--verbose", effort.verbose, "print all that cookers say")->excludes(quiet);
-}
-
-uint64_t memoryOf(const Effort& effort)
-{
-    return effort.memory.empty() ? 0 : cache::parseSize(effort.memory, "").value();
+    settings.addOfCommand(verb, {"jobs", "memory", "progress"});
+    settings.addLog(verb, "print all that cookers say");
 }
 
 std::string shardsFault(const std::string& text)
@@ -52,44 +33,27 @@ std::string shardsFault(const std::string& text)
                                             std::to_string(farm::kMaxShards);
 }
 
-int planConfigured(MakePlanOptions options, const SettingOptions& settings,
+int planConfigured(MakePlanOptions options, const profiles::Configuration& configuration,
                    const std::vector<std::string>& sources, const std::vector<std::string>& lods)
 {
-    auto given = settings.given();
-    if (!given.ok())
-        return fail(given.error());
-    const auto configuration = loadConfiguration(std::move(given).value());
-    if (!configuration.ok())
-        return fail(configuration.error());
-    auto request = requestOf(*configuration, sources);
+    auto request = requestOf(configuration, sources);
     if (!request.ok())
         return fail(request.error());
     options.request = std::move(request).value();
     options.request.lods = lods;
-    options.caches = cachesOf(*configuration);
+    options.caches = cachesOf(configuration);
+    options.quiet = effortOf(configuration).verbosity == Verbosity::quiet;
     return makePlanFile(options);
 }
 
 } // namespace
 
-Work withPlan(PlanOptions& options, const Work& work)
-{
-    return [&options, work]
-    {
-        auto caches = configuredCaches(options.caches);
-        if (!caches.ok())
-            return fail(caches.error());
-        options.caches = std::move(caches).value();
-        return work();
-    };
-}
-
-void addPlanFile(CLI::App& verb, PlanOptions& options)
+void addPlanFile(CLI::App& verb, PlanOptions& options, SettingOptions& settings)
 {
     verb.add_option("PLAN", options.plan_file, "file that hearth plan has written")->required();
     verb.add_option("-C,--directory", options.directory,
                     "folder that relative paths of sources start from; by default where the plan was made");
-    addCaches(verb, options.caches);
+    settings.addOfCommand(verb, {"cache"});
 }
 
 void addPlan(CLI::App& app, Work& run)
@@ -111,15 +75,21 @@ void addPlan(CLI::App& app, Work& run)
                      "how many machines may share it; auto: as many as have a minute to do each")
         ->check(CLI::Validator(shardsFault, ""))
         ->capture_default_str();
+    verb->add_option("--estimates", options->estimates_file,
+                     "what hearth cook --report or hearth merge --report wrote as JSON: the times and memory "
+                     "of then, by which shards are made; else sizes of files")
+        ->type_name("REPORT");
     verb->add_option("--emit", options->emitted, "commands: print a command line for each shard")
         ->check(CLI::IsMember({"commands"}));
     verb->add_option("--lod", options->lods,
                      "N=FILE: level of detail N of the source's only mesh, made by hand")
         ->allow_extra_args(false);
-    options->settings.addTo(*verb, {"profile", "cache"});
-    verb->add_flag("-q,--quiet", options->quiet, "print errors only");
+    options->settings.addOfCommand(*verb, {"profile", "cache"});
+    options->settings.addOfProfiles(*verb);
+    options->settings.addLog(*verb, "");
     verb->footer("Examples:\n"
                  "  hearth plan *.glb -o village.plan.json --shards 7\n"
+                 "  hearth plan *.glb -o village.plan.json --estimates report.json\n"
                  "  hearth plan *.glb -o village.plan.json --emit commands | parallel\n"
                  "Then hearth run for each shard, or hearth farm for all, and hearth merge.");
     verb->callback(
@@ -128,8 +98,9 @@ void addPlan(CLI::App& app, Work& run)
             if (options->shards != "auto")
                 options->shard_count = std::stoul(options->shards);
             options->emits_commands = !options->emitted.empty();
-            run = [options]
-            { return planConfigured(*options, options->settings, options->sources, options->lods); };
+            run = withConfiguration(
+                options->settings, [options](const profiles::Configuration& configuration)
+                { return planConfigured(*options, configuration, options->sources, options->lods); });
         });
 }
 
@@ -138,25 +109,29 @@ void addRun(CLI::App& app, Work& run)
     CLI::App* verb = app.add_subcommand("run", "Cook one shard of a plan, into the cache");
     struct Options : RunOptions
     {
-        Effort effort;
+        SettingOptions settings;
     };
     auto options = std::make_shared<Options>();
-    addPlanFile(*verb, *options);
+    addPlanFile(*verb, *options, options->settings);
     verb->add_option("--shard", options->shard,
                      "I/N, from 0/N; by default the index that Slurm, Kubernetes, AWS Batch, Grid Engine or "
                      "PBS gives to an array's job");
     verb->add_option("--launcher", options->launcher,
                      "start it by this command, as \"srun -Q -n1\", and look at what it has left");
     verb->add_option("--record", options->record_file, "write what was done as JSON, when all of it was");
-    addEffort(*verb, options->jobs, options->effort);
+    addEffort(*verb, options->settings);
     verb->footer("Example: hearth run village.plan.json --shard 3/7\n"
                  "It may be run again, and by two machines at once. Code 75: another try may go better.");
     verb->callback(
         [options, &run]
         {
-            options->memory_bytes = memoryOf(options->effort);
-            options->verbosity = verbosityOf(options->effort.quiet, options->effort.verbose);
-            run = withPlan(*options, [options] { return runShard(*options); });
+            run = withConfiguration(options->settings,
+                                    [options](const profiles::Configuration& configuration)
+                                    {
+                                        static_cast<Effort&>(*options) = effortOf(configuration);
+                                        options->caches = cachesOf(configuration);
+                                        return runShard(*options);
+                                    });
         });
 }
 
@@ -165,11 +140,11 @@ void addMerge(CLI::App& app, Work& run)
     CLI::App* verb = app.add_subcommand("merge", "Make the pack of what the shards of a plan have left");
     struct Options : MergeOptions
     {
-        Effort effort;
+        SettingOptions settings;
         std::string missing = "cook";
     };
     auto options = std::make_shared<Options>();
-    addPlanFile(*verb, *options);
+    addPlanFile(*verb, *options, options->settings);
     verb->add_option("-o,--output", options->output, "pack to write")->required();
     verb->add_option("--missing", options->missing,
                      "what becomes of results that are not there: cook them here, or list them and end with "
@@ -179,16 +154,20 @@ void addMerge(CLI::App& app, Work& run)
     verb->add_option("--report", options->report_files,
                      "write what became of it, as hearth cook does; may be repeated")
         ->allow_extra_args(false);
-    addEffort(*verb, options->jobs, options->effort);
+    addEffort(*verb, options->settings);
     verb->footer("Example: hearth merge village.plan.json -o village.hearth\n"
                  "Every result is read and hashed, whatever became of the processes that made it.");
     verb->callback(
         [options, &run]
         {
-            options->memory_bytes = memoryOf(options->effort);
-            options->verbosity = verbosityOf(options->effort.quiet, options->effort.verbose);
             options->cooks_missing = options->missing == "cook";
-            run = withPlan(*options, [options] { return merge(*options); });
+            run = withConfiguration(options->settings,
+                                    [options](const profiles::Configuration& configuration)
+                                    {
+                                        static_cast<Effort&>(*options) = effortOf(configuration);
+                                        options->caches = cachesOf(configuration);
+                                        return merge(*options);
+                                    });
         });
 }
 

@@ -3,16 +3,12 @@
 #pragma once
 
 #include "pipelines/command/open_plan.h"
-#include "pipelines/command/verbs.h"
+#include "pipelines/command/setting_options.h"
 
 namespace hearth::command
 {
 
 /// The plan, --directory and --cache.
-void addPlanFile(CLI::App& verb, PlanOptions& options);
-
-/// The work of a verb, after the caches have been looked up that the command line leaves open. The options live as long as
-/// the work.
-Work withPlan(PlanOptions& options, const Work& work);
+void addPlanFile(CLI::App& verb, PlanOptions& options, SettingOptions& settings);
 
 } // namespace hearth::command

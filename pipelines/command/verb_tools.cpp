@@ -41,14 +41,6 @@ void addFormat(CLI::App& verb, std::string& format)
         ->capture_default_str();
 }
 
-void addCaches(CLI::App& verb, std::vector<std::string>& caches)
-{
-    verb.add_option("--cache", caches,
-                    "dir:FOLDER[,ro][,size=20G] or http(s)://HOST/PATH[,ro]; may be repeated, nearest first; "
-                    "HEARTH_CACHE or the user's own by default")
-        ->allow_extra_args(false);
-}
-
 std::string sizeFault(const std::string& text)
 {
     const Result<uint64_t> size = cache::parseSize(text, "");

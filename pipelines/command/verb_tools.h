@@ -5,7 +5,6 @@
 #include "formats/result.h"
 
 #include <string>
-#include <vector>
 
 namespace CLI
 {
@@ -27,9 +26,6 @@ int printResult(const Result<std::string>& result);
 
 /// --format text|json
 void addFormat(CLI::App& verb, std::string& format);
-
-/// --cache, which may be repeated
-void addCaches(CLI::App& verb, std::vector<std::string>& caches);
 
 /// For CLI::Validator: what is wrong with a size such as 512M, empty where nothing is.
 std::string sizeFault(const std::string& text);

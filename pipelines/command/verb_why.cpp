@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/command/common_options.h"
+#include "pipelines/command/setting_options.h"
 #include "pipelines/command/verb_tools.h"
 #include "pipelines/command/verbs.h"
 #include "pipelines/command/why.h"
@@ -15,20 +16,22 @@ void addWhy(CLI::App& app, Work& run)
     struct Options
     {
         std::string file;
-        std::vector<std::string> caches;
+        SettingOptions settings;
     };
     auto options = std::make_shared<Options>();
     verb->add_option("FILE", options->file, "pack that was cooked here, or a source of one")->required();
-    addCaches(*verb, options->caches);
+    options->settings.addOfCommand(*verb, {"cache"});
     verb->footer("Example: hearth why village.hearth");
     verb->callback(
         [options, &run]
         {
-            run = [options]
-            {
-                const auto caches = configuredCaches(options->caches);
-                return caches.ok() ? printResult(why(options->file, *caches)) : fail(caches.error());
-            };
+            run = withConfiguration(options->settings,
+                                    [options](const profiles::Configuration& configuration)
+                                    {
+                                        const auto caches = levelsOf(configuration);
+                                        return caches.ok() ? printResult(why(options->file, *caches))
+                                                           : fail(caches.error());
+                                    });
         });
 }
 

@@ -2,6 +2,7 @@
 #include "pipelines/command/why.h"
 
 #include "pipelines/command/cook_memory.h"
+#include "pipelines/command/cook_tools.h"
 #include "pipelines/command/dry_run.h"
 
 #include <algorithm>
@@ -52,26 +53,22 @@ std::string indented(const std::string& text)
     return result;
 }
 
-Result<std::string> nextCookText(const graph::Journal& journal, const std::vector<std::string>& caches,
+Result<std::string> nextCookText(const graph::Journal& journal, const std::vector<cache::LevelSpec>& caches,
                                  OnlySource only)
 {
     // the user's paths start there
     std::error_code error;
     const std::string here = graph::workingFolder();
-    const auto memory = CookMemory::open(caches, journal.output, journal.folder,
-                                         [](const Error& warning)
-                                         { std::fprintf(stderr, "%s\n", formatMessage(warning).c_str()); });
-    if (!memory.ok())
-        return memory.error();
+    const auto memory = CookMemory::over(caches, journal.output, journal.folder, tell);
     std::filesystem::current_path(journal.folder, error);
     if (error)
         return std::string("  the folder of the last cook is not there any more\n");
-    (*memory)->expect(journal.graph);
+    memory->expect(journal.graph);
     graph::Resolver resolver(
-        journal.graph, &(*memory)->cache(), &(*memory)->actions(),
-        [&]() -> const std::optional<graph::Journal>& { return (*memory)->journal(); }, false);
+        journal.graph, &memory->cache(), &memory->actions(),
+        [&]() -> const std::optional<graph::Journal>& { return memory->journal(); }, false);
     graph::Forecast forecast = graph::forecast(journal.graph, resolver);
-    const std::string cause = packCause(forecast, (*memory)->hashes().hashOf(journal.output));
+    const std::string cause = packCause(forecast, memory->hashes().hashOf(journal.output));
     std::filesystem::current_path(here, error);
     for (size_t i = 0; only && i < forecast.actions.size(); ++i)
         forecast.actions[i].runs = forecast.actions[i].runs && journal.graph.actions[i].source == *only;
@@ -81,7 +78,7 @@ Result<std::string> nextCookText(const graph::Journal& journal, const std::vecto
     return text.empty() ? std::string("  nothing: it is up to date\n") : text;
 }
 
-Result<std::string> textOf(const graph::Journal& journal, const std::vector<std::string>& caches,
+Result<std::string> textOf(const graph::Journal& journal, const std::vector<cache::LevelSpec>& caches,
                            OnlySource only)
 {
     HEARTH_ASSIGN_OR_RETURN(const std::string next, nextCookText(journal, caches, only));
@@ -106,15 +103,11 @@ OnlySource sourceAt(const graph::Journal& journal, const std::string& absolute)
 
 } // namespace
 
-Result<std::string> why(const std::string& file, const std::vector<std::string>& caches)
+Result<std::string> why(const std::string& file, const std::vector<cache::LevelSpec>& caches)
 {
-    // a wrong --cache is told of, not passed over
-    HEARTH_ASSIGN_OR_RETURN(const std::vector<cache::LevelSpec> specs, cache::cacheSpecs(caches));
     const std::string absolute = graph::absolutePath(file);
-    const std::vector<graph::Journal> journals =
-        specs.empty() ? std::vector<graph::Journal>() : allJournals(caches);
     std::string text;
-    for (const graph::Journal& journal : journals)
+    for (const graph::Journal& journal : allJournals(caches))
     {
         const OnlySource source = sourceAt(journal, absolute);
         if (journal.output != absolute && !source)

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include "formats/result.h"
+#include "pipelines/cache/open_cache.h"
 
 #include <string>
 #include <vector>
@@ -11,8 +11,7 @@ namespace hearth::command
 {
 
 /// file    a pack that was cooked here, or a source: then of all packs that it is in, what concerns it
-/// caches  of --cache
 /// errors  usage where no cook is remembered
-Result<std::string> why(const std::string& file, const std::vector<std::string>& caches);
+Result<std::string> why(const std::string& file, const std::vector<cache::LevelSpec>& caches);
 
 } // namespace hearth::command

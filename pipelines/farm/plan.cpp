@@ -54,7 +54,7 @@ Status checkFound(const graph::Action& action, const graph::Record& found, graph
 
 } // namespace
 
-Result<Plan> makePlan(const Request& request, const std::string& folder, std::optional<size_t> shard_count,
+Result<Plan> makePlan(const Request& request, const std::string& folder, const Sharing& sharing,
                       const std::string& programs, graph::ActionCache& actions, graph::FileHashes& hashes)
 {
     Plan plan;
@@ -62,6 +62,7 @@ Result<Plan> makePlan(const Request& request, const std::string& folder, std::op
     plan.folder = folder;
     HEARTH_ASSIGN_OR_RETURN(plan.settings, settingsOf(request));
     HEARTH_ASSIGN_OR_RETURN(plan.graph, graph::makeCookGraph(plan.settings));
+    estimateBy(sharing.measured, request.sources, plan.graph);
     for (size_t i = 0; i < plan.graph.actions.size(); ++i)
     {
         const graph::Action& action = plan.graph.actions[i];
@@ -93,7 +94,7 @@ Result<Plan> makePlan(const Request& request, const std::string& folder, std::op
                 plan.found_of_action[i].push_back(field);
     }
     const std::vector<double> seconds = secondsOfSources(plan.graph);
-    plan.shards = distribute(seconds, shard_count ? *shard_count : shardCountFor(seconds));
+    plan.shards = distribute(seconds, sharing.shard_count ? *sharing.shard_count : shardCountFor(seconds));
     return plan;
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "formats/result.h"
+#include "pipelines/farm/measured.h"
 #include "pipelines/farm/request.h"
 #include "pipelines/farm/shards.h"
 #include "pipelines/graph/action_cache.h"
@@ -17,6 +18,10 @@
 
 namespace hearth::farm
 {
+
+// Of an estimate: more memory or time than any machine has. The executor adds estimates up.
+inline constexpr uint64_t kMostBytes = uint64_t{1} << 50;
+inline constexpr double kMostSeconds = 1e9;
 
 struct Plan
 {
@@ -33,11 +38,17 @@ struct Plan
     Shards shards;       ///< each source is in one
 };
 
-/// programs     folder of the cookers
-/// shard_count  nothing: as shardCountFor says
-/// errors       what the request asks for is wrong; input_missing, for the first input that cannot be read; plan_build, where
-///              a cooker is missing
-Result<Plan> makePlan(const Request& request, const std::string& folder, std::optional<size_t> shard_count,
+/// How sources shall be shared out.
+struct Sharing
+{
+    std::optional<size_t> shard_count; ///< nothing: as shardCountFor says
+    Measured measured;                 ///< goes over estimates
+};
+
+/// programs  folder of the cookers
+/// errors    what the request asks for is wrong; input_missing, for the first input that cannot be read; plan_build, where
+///           a cooker is missing
+Result<Plan> makePlan(const Request& request, const std::string& folder, const Sharing& sharing,
                       const std::string& programs, graph::ActionCache& actions, graph::FileHashes& hashes);
 
 /// Whether what is here is what was planned, as far as these sources need it: cookers, processor, contents of files.

@@ -15,10 +15,6 @@ namespace
 
 using Json = nlohmann::ordered_json;
 
-// More memory or time than any machine has: the executor adds estimates up.
-constexpr uint64_t kMostBytes = uint64_t{1} << 50;
-constexpr double kMostSeconds = 1e9;
-
 Json foundJson(const Plan& plan)
 {
     Json list = Json::array();

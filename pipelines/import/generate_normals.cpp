@@ -9,6 +9,9 @@
 #include <optional>
 #include <tuple>
 
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_sort.h>
+
 namespace hearth::import
 {
 
@@ -49,9 +52,9 @@ std::vector<uint32_t> pointOfVertex(const mesh::SourceMesh& mesh)
     const auto& p = mesh.positions;
     std::vector<uint32_t> order(p.size());
     std::iota(order.begin(), order.end(), 0u);
-    std::sort(order.begin(), order.end(),
-              [&](uint32_t a, uint32_t b)
-              { return std::tie(p[a].x, p[a].y, p[a].z, a) < std::tie(p[b].x, p[b].y, p[b].z, b); });
+    tbb::parallel_sort(order.begin(), order.end(),
+                       [&](uint32_t a, uint32_t b)
+                       { return std::tie(p[a].x, p[a].y, p[a].z, a) < std::tie(p[b].x, p[b].y, p[b].z, b); });
     std::vector<uint32_t> point_of_vertex(p.size());
     uint32_t point = 0;
     for (size_t i = 0; i < order.size(); ++i)
@@ -179,16 +182,21 @@ std::vector<Float3> cornerNormals(const mesh::SourceMesh& mesh, float crease_ang
     const std::vector<FaceNormal> faces = faceNormals(mesh);
     const CornersOfPoints groups = groupCorners(mesh, pointOfVertex(mesh));
     std::vector<Float3> normals(mesh.indices.size());
-    std::vector<Direction> directions;
-    for (size_t point = 0; point + 1 < groups.offsets.size(); ++point)
-    {
-        const auto corners =
-            std::span(groups.corners)
-                .subspan(groups.offsets[point], groups.offsets[point + 1] - groups.offsets[point]);
-        collectDirections(corners, faces, directions);
-        for (const uint32_t corner : corners)
-            normals[corner] = cornerNormal(faces[corner / 3], directions, min_cosine);
-    }
+    tbb::parallel_for(tbb::blocked_range<size_t>(0, groups.offsets.size() - 1),
+                      [&](const tbb::blocked_range<size_t>& points)
+                      {
+                          std::vector<Direction> directions;
+                          for (size_t point = points.begin(); point < points.end(); ++point)
+                          {
+                              const auto corners =
+                                  std::span(groups.corners)
+                                      .subspan(groups.offsets[point],
+                                               groups.offsets[point + 1] - groups.offsets[point]);
+                              collectDirections(corners, faces, directions);
+                              for (const uint32_t corner : corners)
+                                  normals[corner] = cornerNormal(faces[corner / 3], directions, min_cosine);
+                          }
+                      });
     return normals;
 }
 
@@ -216,7 +224,7 @@ void splitVertices(mesh::SourceMesh& mesh, const std::vector<Float3>& corner_nor
         const auto step = [](float value) { return static_cast<int16_t>(std::lround(value * kSteps)); };
         corners[corner] = {mesh.indices[corner], {step(n.x), step(n.y), step(n.z)}, corner};
     }
-    std::sort(corners.begin(), corners.end());
+    tbb::parallel_sort(corners.begin(), corners.end());
 
     std::vector<uint32_t> old_from_new;
     std::vector<Float3> normals;

@@ -9,6 +9,9 @@
 #include <numeric>
 #include <tuple>
 
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_sort.h>
+
 namespace hearth::import
 {
 
@@ -63,13 +66,13 @@ std::vector<uint32_t> weldedVertices(const mesh::SourceMesh& mesh, const std::ve
     };
     std::vector<uint32_t> order(mesh.vertexCount());
     std::iota(order.begin(), order.end(), 0u);
-    std::sort(order.begin(), order.end(),
-              [&](uint32_t a, uint32_t b)
-              {
-                  const auto key_a = key(a);
-                  const auto key_b = key(b);
-                  return key_a < key_b || (key_a == key_b && a < b);
-              });
+    tbb::parallel_sort(order.begin(), order.end(),
+                       [&](uint32_t a, uint32_t b)
+                       {
+                           const auto key_a = key(a);
+                           const auto key_b = key(b);
+                           return key_a < key_b || (key_a == key_b && a < b);
+                       });
     std::vector<uint32_t> welded(order.size());
     uint32_t number = 0;
     for (size_t i = 0; i < order.size(); ++i)
@@ -89,24 +92,42 @@ float cornerAngle(const mesh::SourceMesh& mesh, const uint32_t* corner, size_t k
     return std::acos(std::clamp(dot(a, b), -1.0f, 1.0f));
 }
 
-/// Sums for each welded vertex, right-handed ones first: element 2 * welded + handedness.
+/// What the corners of a triangle add to their vertices.
+std::array<Float3, 3> cornerTangents(const mesh::SourceMesh& mesh, const FaceTangent& face,
+                                     const uint32_t* corner)
+{
+    std::array<Float3, 3> tangents;
+    for (size_t k = 0; k < 3; ++k)
+    {
+        const Float3 normal = mesh.normals[corner[k]];
+        const Float3 in_plane = normalizeOr(face.direction - normal * dot(normal, face.direction), {});
+        tangents[k] = in_plane * cornerAngle(mesh, corner, k);
+    }
+    return tangents;
+}
+
+/// Sums for each welded vertex, right-handed ones first: element 2 * welded + handedness. In the order of the triangles,
+/// however many threads there are.
 std::vector<Float3> sumTangents(const mesh::SourceMesh& mesh, const std::vector<FaceTangent>& faces,
                                 const std::vector<uint32_t>& welded)
 {
+    constexpr size_t kBlock = size_t{1} << 16;
     std::vector<Float3> sums(mesh.vertexCount() * 2);
-    for (size_t triangle = 0; triangle < faces.size(); ++triangle)
+    std::vector<std::array<Float3, 3>> block(std::min(kBlock, faces.size()));
+    for (size_t begin = 0; begin < faces.size(); begin += kBlock)
     {
-        const FaceTangent& face = faces[triangle];
-        if (face.handedness == Handedness::none)
-            continue;
-        const uint32_t* corner = mesh.indices.data() + triangle * 3;
-        for (size_t k = 0; k < 3; ++k)
-        {
-            const Float3 normal = mesh.normals[corner[k]];
-            const Float3 in_plane = normalizeOr(face.direction - normal * dot(normal, face.direction), {});
-            sums[size_t{welded[corner[k]]} * 2 + static_cast<size_t>(face.handedness)] +=
-                in_plane * cornerAngle(mesh, corner, k);
-        }
+        const size_t end = std::min(faces.size(), begin + kBlock);
+        tbb::parallel_for(begin, end,
+                          [&](size_t i)
+                          {
+                              if (faces[i].handedness != Handedness::none)
+                                  block[i - begin] =
+                                      cornerTangents(mesh, faces[i], mesh.indices.data() + 3 * i);
+                          });
+        for (size_t i = begin; i < end; ++i)
+            for (size_t k = 0; faces[i].handedness != Handedness::none && k < 3; ++k)
+                sums[size_t{welded[mesh.indices[3 * i + k]]} * 2 +
+                     static_cast<size_t>(faces[i].handedness)] += block[i - begin][k];
     }
     return sums;
 }
@@ -141,8 +162,8 @@ void generateTangents(mesh::SourceMesh& mesh, uint32_t uv_set)
                   mesh.normals.size() == mesh.vertexCount());
     const std::vector<Float2>& uvs = mesh.uvs[uv_set];
     std::vector<FaceTangent> faces(mesh.triangleCount());
-    for (size_t triangle = 0; triangle < faces.size(); ++triangle)
-        faces[triangle] = faceTangent(mesh, uvs, mesh.indices.data() + triangle * 3);
+    tbb::parallel_for(size_t{0}, faces.size(),
+                      [&](size_t i) { faces[i] = faceTangent(mesh, uvs, mesh.indices.data() + 3 * i); });
     const std::vector<uint32_t> welded = weldedVertices(mesh, uvs);
     const std::vector<Float3> sums = sumTangents(mesh, faces, welded);
     const std::vector<Copies> copies = findCopies(mesh, faces);

@@ -86,6 +86,15 @@ std::optional<std::string> processEnvironment(const char* name)
     return value == nullptr || *value == '\0' ? std::nullopt : std::optional<std::string>(value);
 }
 
+const Switch* switchSet(const Setting& setting, const Environment& environment)
+{
+    const auto found =
+        std::find_if(setting.switches.begin(), setting.switches.end(),
+                     [&](const Switch& one)
+                     { return environment(std::string(one.variable).c_str()).value_or("0") != "0"; });
+    return found == setting.switches.end() ? nullptr : &*found;
+}
+
 Status Configuration::readFiles(const Environment& environment)
 {
     std::string path = given_.config_file;
@@ -117,8 +126,13 @@ Status Configuration::readEnvironment(const Environment& environment)
 {
     for (const Setting& setting : commandSettings())
     {
-        const std::string name(setting.variable);
-        const std::optional<std::string> text = environment(name.c_str());
+        std::string name(setting.variable);
+        std::optional<std::string> text = name.empty() ? std::nullopt : environment(name.c_str());
+        if (const Switch* chosen = switchSet(setting, environment))
+        {
+            name = chosen->variable;
+            text = chosen->value;
+        }
         if (!text)
             continue;
         const std::vector<std::string> words =

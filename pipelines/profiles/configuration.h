@@ -16,6 +16,9 @@ namespace hearth::profiles
 using Environment = std::function<std::optional<std::string>(const char* name)>;
 std::optional<std::string> processEnvironment(const char* name);
 
+/// The first of a setting's switches that is set; nullptr where none is.
+const Switch* switchSet(const Setting& setting, const Environment& environment = processEnvironment);
+
 /// What the command line says.
 struct Given
 {

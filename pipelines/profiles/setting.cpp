@@ -81,6 +81,13 @@ Setting withVariable(Setting setting, std::string_view variable)
     return setting;
 }
 
+Setting withSwitches(Setting setting, std::vector<Switch> switches)
+{
+    setting.switches = std::move(switches);
+    setting.scope = Scope::command;
+    return setting;
+}
+
 Setting ofPack(Setting setting)
 {
     setting.scope = Scope::pack;
@@ -208,17 +215,39 @@ std::vector<Setting> makeCommandSettings()
                                  "none: each cooker's defaults"},
                                 "-p,--profile", "NAME"),
                      "HEARTH_PROFILE"),
-        withVariable(withOption(wholeOf("jobs", "cookers that run at once", "2", 1, 1024), "-j,--jobs", "N"),
+        withVariable(withOption(wholeOf("jobs", "cookers that run at once",
+                                        "2, and of small sources one a core", 1, 1024),
+                                "-j,--jobs", "N"),
                      "HEARTH_JOBS"),
         withVariable(withOption({"memory", Kind::size, "what the cookers may take together, as 12G",
                                  "three quarters of the machine's"},
                                 "--memory", "SIZE"),
                      "HEARTH_MEMORY"),
         withVariable(
-            withOption({"cache", Kind::texts, "dir:FOLDER[,ro][,size=20G]; may be repeated, nearest first",
-                        "the user's own"},
-                       "--cache", "SPEC"),
+            withOption(
+                {"cache", Kind::texts,
+                 "dir:FOLDER[,ro][,size=20G] or http(s)://HOST/PATH[,ro]; may be repeated, nearest first",
+                 "the user's own"},
+                "--cache", "SPEC"),
             "HEARTH_CACHE"),
+        withVariable(choiceOf("log",
+                              "how much is told: errors alone, or all that cookers say as well; -q and -v "
+                              "of the command line",
+                              "normal", {"quiet", "normal", "verbose"}),
+                     "HEARTH_LOG"),
+        withVariable(
+            withOption(choiceOf("progress",
+                                "what is shown meanwhile; auto: a bar on a terminal, else a line for each "
+                                "cooker",
+                                "auto", {"auto", "bar", "plain", "none"}),
+                       "--progress", "NAME"),
+            "HEARTH_PROGRESS"),
+        withSwitches(withOption(choiceOf("color",
+                                         "of messages; auto: on a terminal, as NO_COLOR, CLICOLOR_FORCE and "
+                                         "CI say",
+                                         "auto", {"auto", "always", "never"}),
+                                "--color", "NAME"),
+                     {{"NO_COLOR", "never"}, {"CLICOLOR_FORCE", "always"}}),
     };
 }
 

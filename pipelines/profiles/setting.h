@@ -32,6 +32,13 @@ enum class Scope : uint8_t
     command, ///< of the command line: it changes no byte of a pack
 };
 
+/// A variable of the environment that many programs know: set, and neither empty nor 0, it chooses a value.
+struct Switch
+{
+    std::string_view variable;
+    std::string_view value;
+};
+
 struct Setting
 {
     std::string key; ///< "clusters.influences"; of the command: "jobs"; of a member of tables: its name
@@ -46,7 +53,8 @@ struct Setting
         choices{};                  ///< of a choice, or of a whole number where only some are allowed
     std::string_view option{};      ///< of hearth cook, as "--visibility-quality"; empty: --set alone
     std::string_view value_name{};  ///< what stands for the option's value in help
-    std::string_view variable{};    ///< of the environment, for the command's
+    std::string_view variable{};    ///< of the environment, for the command's; empty: none
+    std::vector<Switch> switches{}; ///< instead of it; the first that is set counts
     bool is_required = false;       ///< a member without which its table makes no sense
     std::vector<Setting> members{}; ///< of tables
 };

@@ -54,6 +54,9 @@ GatherPoint meanOf(GatherPoint point, uint row)
     float share = 1.0 / float(kGatherRays);
     vec3 sharp = lobeMean(row, 0u);
     point.mean *= share;
+    float close = brickCloseShare(starts[row], point.mean);
+    share *= 1.0 - close;
+    point.mean = mix(point.mean, starts[row].close, close);
     point.sky *= share;
     point.red *= share;
     point.green *= share;

@@ -71,7 +71,7 @@ std::string panel(const LightCurve& curve)
                        kHeight + 34, kWhole, kIndirect);
     svg += fmt::format("<text y='{}'><tspan fill='#7f8c8d'>all light with points within {} m of lamps "
                        "too</tspan>, <tspan fill='#27ae60'>limit</tspan></text>\n",
-                       kHeight + 48, kNearLamp);
+                       kHeight + 48, reference::kNearLamp);
     svg += line(curve, kAll, [](const LightCurve::Size& size) { return size.all.whole; });
     svg += line(curve, kIndirect, [](const LightCurve::Size& size) { return size.away.indirect; });
     svg += line(curve, kWhole, [](const LightCurve::Size& size) { return size.away.whole; });

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include "tests/bench/light_error.h"
+#include "tests/reference/light_error.h"
 
 #include <string>
 
@@ -15,7 +15,7 @@ struct LightCurve
     struct Size
     {
         double voxel_size; ///< metres
-        LightError all, away;
+        reference::LightError all, away;
     };
     std::vector<Size> sizes; ///< of voxels, at least one
 };

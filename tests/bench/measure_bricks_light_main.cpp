@@ -20,6 +20,7 @@ namespace
 
 using namespace hearth;
 using namespace hearth::bench;
+using namespace hearth::reference;
 using reference::Double3;
 
 constexpr uint32_t kFaceRays = 16;
@@ -28,9 +29,10 @@ struct Arguments
 {
     std::vector<std::string> scenes;
     std::vector<double> sizes{1, 0.5, 0.2, 0.1, 0.05};
-    uint32_t points = 1000, paths = 1024, gather_rays = 512;
+    uint32_t points = 4000, paths = 2048, gather_rays = 4096;
     std::string plot;
     double picture_voxel = 0; ///< metres; 0: no pictures
+    uint32_t picture_paths = 256;
 };
 
 std::string nameOf(const std::string& prefix)
@@ -64,7 +66,7 @@ Result<LightCurve::Size> measureSize(const bricks::StaticScene& scene, const sha
 {
     const auto start = std::chrono::steady_clock::now();
     HEARTH_ASSIGN_OR_RETURN(const bricks::BrickTables tables, cookBricks(scene, voxel_size));
-    const BrickGather gather(tables, lighting, kFaceRays);
+    const BrickGather gather(bricks::brickViewOf(tables), lighting, kFaceRays);
     std::vector<Double3> gathered(points.size());
     tbb::parallel_for(size_t{0}, points.size(),
                       [&](size_t i)
@@ -103,9 +105,9 @@ shared::Camera cameraOf(const formats::PackView& pack)
 
 /// Irradiance side by side: by paths, by bricks, and their difference, red where bricks have more and blue where less.
 Status writePicture(const reference::ShadedScene& scene, const formats::PackView& pack,
-                    const BrickGather& gather, double mean, const std::string& path)
+                    const BrickGather& gather, uint32_t paths, double mean, const std::string& path)
 {
-    constexpr uint32_t kWidth = 320, kHeight = 214, kPaths = 64, kGatherRays = 64;
+    constexpr uint32_t kWidth = 320, kHeight = 214;
     const shared::Camera camera = cameraOf(pack);
     const Double3 eye(camera.position), forward = normalize(Double3(camera.target) - eye);
     const Double3 right = normalize(cross(forward, {0, 1, 0})), up = cross(right, forward);
@@ -125,9 +127,9 @@ Status writePicture(const reference::ShadedScene& scene, const formats::PackView
         if (!point)
             return;
         const uint32_t seed = y * kWidth + x;
-        const reference::SurfaceLight truth = reference::traceSurfaceLight(scene, *point, kPaths, seed);
+        const reference::SurfaceLight truth = reference::traceSurfaceLight(scene, *point, paths, seed);
         const Double3 all = truth.direct + truth.indirect;
-        const Double3 ours = truth.direct + gather.at({*point, -ray}, kGatherRays, seed);
+        const Double3 ours = truth.direct + gather.at({*point, -ray}, paths, seed);
         const double off = (ours.x + ours.y + ours.z - all.x - all.y - all.z) / 3;
         const Double3 values[] = {all, ours, {std::max(off, 0.0), 0, std::max(-off, 0.0)}};
         for (uint32_t i = 0; i < 3; ++i)
@@ -183,8 +185,9 @@ Result<LightCurve> measureScene(const std::string& prefix, const Arguments& argu
         double mean = 0;
         for (const LitPoint& point : points)
             mean += length(point.truth.direct + point.truth.indirect) / std::sqrt(3.0);
-        HEARTH_TRY(writePicture(shaded, pack, BrickGather(tables, lighting, kFaceRays),
-                                mean / static_cast<double>(points.size()), prefix + ".light.png"));
+        HEARTH_TRY(writePicture(shaded, pack, BrickGather(bricks::brickViewOf(tables), lighting, kFaceRays),
+                                arguments.picture_paths, mean / static_cast<double>(points.size()),
+                                prefix + ".light.png"));
     }
     return curve;
 }
@@ -217,6 +220,8 @@ int program(int argc, char** argv)
     app.add_option(
         "--picture", arguments.picture_voxel,
         "also write PREFIX.light.png at this voxel size: irradiance by paths, by bricks, their difference");
+    app.add_option("--picture-paths", arguments.picture_paths,
+                   "of each pixel, and rays of each through the bricks");
     CLI11_PARSE(app, argc, argv);
     const Status end = run(arguments);
     if (end.ok())

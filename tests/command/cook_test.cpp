@@ -1,140 +1,20 @@
 // hearth cook from the outside: what appears, what is left behind, and how it ends.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "formats/bricks.h"
 #include "formats/container_reader.h"
 #include "pipelines/command/verify.h"
-#include "tests/command/json_schema.h"
-#include "tests/command/sandbox.h"
-#include "tests/command/small_parts.h"
+#include "tests/command/cook_folder.h"
 
 #include <chrono>
 #include <csignal>
 #include <filesystem>
 #include <gtest/gtest.h>
-#include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <thread>
 
 namespace hearth::test
 {
-
-namespace
-{
-
-// The name of the source says what the script does: it stands for hearth-import.
-constexpr const char* kImport = R"(#!/bin/sh
-case "$1" in
-  *malformed*) echo "$1|/meshes/0: error: is bad [E1101] hint: mend it" >&2; exit 65 ;;
-  *missing*) echo "$1: error: cannot open [E1001] hint: look" >&2; exit 66 ;;
-  *told*) echo "$*" >> asked ;;
-  *silent*) exit 65 ;;
-  *strange*) echo "terminate called" >&2; exit 1 ;;
-  *crash*) echo "contract broken" >&2; kill -SEGV $$ ;;
-  *killed*) kill -KILL $$ ;;
-  *slow*) exec sleep 60 ;;
-  *busy*) mkdir busy 2>/dev/null || touch together; sleep 0.3; rmdir busy 2>/dev/null ;;
-  *warning*) echo "$1|/extras: warning: left out [W1400]" >&2; echo "noise of a library" >&2 ;;
-esac
-cp "PARTS.import.part" "$3"
-while [ $# -gt 0 ]; do if [ "$1" = "--stats" ]; then cp "PARTS.import.json" "$2"; fi; shift; done
-)";
-
-constexpr const char* kTextures = R"(#!/bin/sh
-if [ -e ./textures-fail ]; then echo "$1|chunk IMGD 0: error: is bad [E2009] hint: again" >&2; exit 65; fi
-cp "PARTS.textures.part" "$3"
-while [ "$1" != "--stats" ]; do shift; done
-echo '{"images": [{"name": "bark", "width": 4, "height": 2, "mips": 3, "format": "rgba8-srgb", "bytes": 44,
-                   "bytes_stored": 40, "error": {"rms": 0.0, "psnr_db": null}}]}' > "$2"
-)";
-
-constexpr const char* kClusters = R"(#!/bin/sh
-if [ "$4" = "--set" ]; then echo "$*" >> asked; fi
-if [ -e ./clusters-lie ]; then exit 0; fi
-cp "PARTS.clusters.part" "$3"
-while [ "$1" != "--stats" ]; do shift; done
-echo '{"meshes": [{"name": "strip", "source": {"triangles": 8}, "levels": [], "clusters": 1,
-                   "bytes": {"pages_stored": 70}}], "totals": {"triangles": 8}}' > "$2"
-)";
-
-constexpr const char* kSkinning = R"(#!/bin/sh
-cp "PARTS.skinning.part" "$4"
-)";
-
-constexpr const char* kBricks = R"(#!/bin/sh
-case "$*" in
-  *"--voxel-size 7"*) echo "--voxel-size: error: is bad [E1000] hint: another" >&2; exit 2 ;;
-  *"--memory 4096"*) echo "$5: warning: too little [W1400]" >&2 ;;
-esac
-while [ $# -gt 0 ]; do
-  case "$1" in
-    -o) cp "PARTS.bricks.part" "$2" ;;
-    --stats) echo '{"voxel_size": 0.5}' > "$2" ;;
-  esac
-  shift
-done
-)";
-
-std::string withParts(std::string script, const std::string& parts)
-{
-    for (size_t at = script.find("PARTS"); at != std::string::npos; at = script.find("PARTS"))
-        script.replace(at, 5, parts);
-    return script;
-}
-
-/// How a report differs from what its schema promises; empty where it does not.
-std::string faultOfReport(const nlohmann::json& report)
-{
-    return faultOfSchema(HEARTH_SCHEMAS "/hearth.report.1.json", report);
-}
-
-/// A folder to cook in; the programs lie elsewhere, so that the folder shows what cooking leaves behind.
-class Cook : public ::testing::Test
-{
-protected:
-    Cook()
-    {
-        PackModel model = smallPack();
-        model.meta = importMeta("small.gltf");
-        writeParts(model, programs.path(), "small");
-        const std::string parts = programs / "small";
-        programs.write("small.import.json", model.meta);
-        programs.write("hearth-import", withParts(kImport, parts), true);
-        programs.write("hearth-textures", withParts(kTextures, parts), true);
-        programs.write("hearth-clusters", withParts(kClusters, parts), true);
-        programs.write("hearth-skinning", withParts(kSkinning, parts), true);
-        programs.write("hearth-bricks", withParts(kBricks, parts), true);
-        writeBricksPart(model, parts + ".bricks.part");
-        std::filesystem::copy(HEARTH_BIN "/hearth", programs / "hearth");
-        std::filesystem::copy(HEARTH_BIN "/hearth-link", programs / "hearth-link");
-    }
-
-    ProgramEnd cook(std::vector<std::string> arguments,
-                    const std::vector<std::string>& environment = {"TMPDIR="})
-    {
-        return folder.run(command(std::move(arguments)), environment);
-    }
-
-    std::vector<std::string> command(std::vector<std::string> arguments) const
-    {
-        arguments.insert(arguments.begin(), {programs / "hearth", "cook"});
-        return arguments;
-    }
-
-    /// The cook failed with one error line, and neither made nor left anything.
-    void expectFailure(const ProgramEnd& end, int exit_code, const std::string& part_of_message)
-    {
-        EXPECT_EQ(end.exit_code, exit_code) << end.err;
-        EXPECT_EQ(countOf(end.err, ": error: "), 1u) << end.err;
-        EXPECT_EQ(end.out, "");
-        EXPECT_NE(end.err.find(part_of_message), std::string::npos) << end.err;
-        EXPECT_EQ(folder.list(), std::vector<std::string>{}) << end.err;
-    }
-
-    Sandbox programs;
-    Sandbox folder;
-};
-
-} // namespace
 
 TEST_F(Cook, makesAPackAndLeavesNothingElse)
 {
@@ -146,20 +26,6 @@ TEST_F(Cook, makesAPackAndLeavesNothingElse)
     for (const char* stage : {"import", "textures", "clusters", "skinning", "link", "cooked"})
         EXPECT_EQ(countOf(end.err, std::string(stage) + " "), 1u) << end.err;
     EXPECT_EQ(end.err.find('\033'), std::string::npos) << "colour without a terminal";
-}
-
-TEST_F(Cook, quietSaysNothing)
-{
-    EXPECT_EQ(cook({"-q", "warning.gltf", "-o", "a.hearth"}).err, "");
-}
-
-TEST_F(Cook, colourIsThereOnDemandOnly)
-{
-    const auto colored = [&](const std::vector<std::string>& environment) {
-        return cook({"a.gltf", "-o", "a.hearth"}, environment).err.find('\033') != std::string::npos;
-    };
-    EXPECT_TRUE(colored({"CLICOLOR_FORCE=1", "NO_COLOR="}));
-    EXPECT_FALSE(colored({"CLICOLOR_FORCE=1", "NO_COLOR=1"}));
 }
 
 TEST_F(Cook, tellsCookersWhatItsProfileSaysByValue)
@@ -217,59 +83,6 @@ TEST_F(Cook, refusesAProfileThatIsWrong)
                   "--visibility-quality: error: needs --visibility, or visibility.enabled in the profile");
 }
 
-TEST_F(Cook, warningsMayCountAsErrors)
-{
-    const ProgramEnd fine = cook({"warning.gltf", "-o", "a.hearth", "--warnings-as-errors=W1302"});
-    EXPECT_EQ(fine.exit_code, 0) << fine.err;
-    std::filesystem::remove(folder / "a.hearth");
-    for (const char* flag : {"--warnings-as-errors", "--warnings-as-errors=W1302,W1400"})
-    {
-        const ProgramEnd end = cook({"warning.gltf", "-q", flag, "-o", "a.hearth"});
-        expectFailure(end, 1, "a.hearth: error: not written, because warnings count as errors: 1");
-        EXPECT_NE(end.err.find("warning.gltf|/extras: warning: left out [W1400]"), std::string::npos);
-    }
-    expectFailure(cook({"a.gltf", "-o", "a.hearth", "--warnings-as-errors=W1"}), 2, "'W1' is no warning");
-}
-
-TEST_F(Cook, messagesMayBeJson)
-{
-    const ProgramEnd end = cook(
-        {"malformed.gltf", "warning.gltf", "-o", "a.hearth", "--log-format", "json", "--progress", "none"});
-    EXPECT_EQ(end.exit_code, 65);
-    std::istringstream lines(end.err);
-    std::map<std::string, nlohmann::json> of_severity;
-    for (std::string line; std::getline(lines, line);)
-    {
-        const nlohmann::json message = nlohmann::json::parse(line, nullptr, false);
-        ASSERT_TRUE(message.is_object()) << line;
-        of_severity[message["severity"]] = message;
-    }
-    EXPECT_EQ(of_severity["error"]["code"], "E1101");
-    EXPECT_EQ(of_severity["error"]["file"], "malformed.gltf");
-    EXPECT_EQ(of_severity["error"]["where"], "/meshes/0");
-    EXPECT_EQ(of_severity["error"]["text"], "is bad");
-    EXPECT_EQ(of_severity["error"]["hint"], "mend it");
-    EXPECT_EQ(of_severity["warning"]["code"], "W1400");
-    EXPECT_EQ(of_severity["note"]["text"],
-              "a.hearth: not linked, because a dependency failed: 1 of 2 sources");
-}
-
-TEST_F(Cook, progressIsABarOrLinesOrNothing)
-{
-    const auto err = [&](const char* style) {
-        return cook({"a.gltf", "-o", "a.hearth", "--no-cache", "--progress", style}).err;
-    };
-    EXPECT_EQ(countOf(err("plain"), "import "), 1u);
-    EXPECT_EQ(countOf(err("auto"), "import "), 1u) << "no terminal";
-    EXPECT_EQ(countOf(err("none"), "import "), 0u);
-    const std::string bar = err("bar");
-    EXPECT_NE(bar.find("\r\033[K[                        ] 0/5  import a.gltf"), std::string::npos) << bar;
-    EXPECT_NE(bar.rfind("\r\033[Kcooked"), std::string::npos) << "taken away before the last line: " << bar;
-    EXPECT_NE(cook({"malformed.gltf", "-o", "b.hearth", "--color", "always"}, {"NO_COLOR=1", "TMPDIR="})
-                  .err.find("malformed.gltf|/meshes/0: \033[1;31merror:\033[0m is bad"),
-              std::string::npos);
-}
-
 TEST_F(Cook, severalSourcesMakeOnePack)
 {
     const ProgramEnd end = cook({"a.gltf", "b.gltf", "c.gltf", "-o", "all.hearth", "--jobs", "3"});
@@ -287,15 +100,6 @@ TEST_F(Cook, sameBytesForAnyNumberOfJobs)
                   0);
     EXPECT_EQ(folder.read("1.hearth"), folder.read("2.hearth"));
     EXPECT_EQ(folder.read("1.hearth"), folder.read("7.hearth"));
-}
-
-TEST_F(Cook, passesWarningsOnButNotNoise)
-{
-    const ProgramEnd end = cook({"warning.gltf", "-o", "a.hearth"});
-    EXPECT_EQ(end.exit_code, 0);
-    EXPECT_EQ(countOf(end.err, "warning.gltf|/extras: warning: left out [W1400]"), 1u) << end.err;
-    EXPECT_EQ(countOf(end.err, "noise"), 0u);
-    EXPECT_EQ(countOf(cook({"-v", "warning.gltf", "-o", "a.hearth"}).err, "noise"), 1u);
 }
 
 TEST_F(Cook, clearErrorsKeepTheirCode)
@@ -450,108 +254,6 @@ TEST_F(Cook, cookersThatNeedTooMuchMemoryRunOneByOne)
     arguments.insert(arguments.end(), {"--memory", "20M"});
     EXPECT_EQ(cook(arguments).exit_code, 0);
     EXPECT_FALSE(folder.has("together"));
-}
-
-TEST_F(Cook, reportsWhatItDid)
-{
-    const ProgramEnd end = cook({"warning.gltf", "-o", "a.hearth", "--report", "report.json"});
-    ASSERT_EQ(end.exit_code, 0) << end.err;
-    const auto report = nlohmann::json::parse(folder.read("report.json"));
-    EXPECT_EQ(faultOfReport(report), "");
-    EXPECT_EQ(report["schema"], "hearth.report/1");
-    EXPECT_EQ(report["status"], "ok");
-    EXPECT_EQ(report["failures"].size(), 0u);
-    const auto& totals = report["totals"];
-    EXPECT_EQ(totals["bytes_out"], folder.read("a.hearth").size());
-    EXPECT_EQ(totals["bytes_in"], 100);
-    EXPECT_EQ(totals["cooked"], 1);
-    EXPECT_EQ(totals["actions"]["cooked"], 5);
-    EXPECT_GT(totals["sizes"]["geometry"], 0);
-    const auto& asset = report["assets"][0];
-    EXPECT_EQ(asset["source"], "warning.gltf");
-    EXPECT_EQ(asset["state"], "cooked");
-    EXPECT_EQ(asset["stages"].size(), 4u);
-    EXPECT_GE(asset["stages"][1]["start_s"], asset["stages"][0]["start_s"]);
-    EXPECT_EQ(asset["clusters"]["meshes"][0]["name"], "strip");
-    EXPECT_EQ(asset["clusters"]["totals"]["triangles"], 8);
-    EXPECT_EQ(asset["textures"][0]["name"], "bark");
-    EXPECT_EQ(asset["sizes"]["geometry"], 70);
-    EXPECT_EQ(asset["sizes"]["textures"], 40);
-    EXPECT_EQ(asset["messages"].size(), 1u) << "the import's own list, not its lines as well";
-    EXPECT_EQ(asset["messages"][0]["pointer"], "/extras");
-    EXPECT_EQ(asset["dropped"][0], "extras");
-    EXPECT_EQ(report["link"]["stage"], "link");
-    EXPECT_EQ(report["dropped"][0]["source"], "warning.gltf");
-    EXPECT_EQ(report["dropped"][0]["text"], "extras");
-}
-
-TEST_F(Cook, reportsRootCausesAndWhatDependsOnThem)
-{
-    EXPECT_EQ(cook({"good.gltf", "malformed.gltf", "-o", "a.hearth", "--report", "report.json"}).exit_code,
-              65);
-    const auto report = nlohmann::json::parse(folder.read("report.json"));
-    EXPECT_EQ(faultOfReport(report), "");
-    EXPECT_EQ(report["status"], "failed");
-    EXPECT_EQ(report["exit"], 65);
-    EXPECT_EQ(report["assets"][0]["state"], "cooked");
-    EXPECT_EQ(report["assets"][1]["state"], "failed");
-    EXPECT_EQ(report["assets"][1]["stages"][1]["state"], "dependency failed");
-    EXPECT_EQ(report["link"]["state"], "dependency failed");
-    ASSERT_EQ(report["failures"].size(), 1u);
-    const auto& failure = report["failures"][0];
-    EXPECT_EQ(failure["code"], "E1101");
-    EXPECT_EQ(failure["file"], "malformed.gltf");
-    EXPECT_EQ(failure["pointer"], "/meshes/0");
-    EXPECT_EQ(failure["text"], "is bad");
-    EXPECT_EQ(failure["hint"], "mend it");
-    EXPECT_EQ(failure["stage"], "import");
-    EXPECT_EQ(failure["not_made"].size(), 4u) << "three cookers of the source, and the link";
-    EXPECT_NE(report["error"].get<std::string>().find("E1101"), std::string::npos);
-}
-
-TEST_F(Cook, reportsWhereItDoesNotEvenBegin)
-{
-    EXPECT_EQ(cook({"good.gltf", "-o", ".", "--report", "report.json"}).exit_code, 73);
-    const auto report = nlohmann::json::parse(folder.read("report.json"));
-    EXPECT_EQ(faultOfReport(report), "");
-    EXPECT_EQ(report["assets"][0]["state"], "not cooked");
-    ASSERT_EQ(report["failures"].size(), 1u);
-    EXPECT_EQ(report["failures"][0]["code"], "E4000");
-}
-
-TEST_F(Cook, writesReportsForWhoeverReadsThem)
-{
-    const ProgramEnd end = cook({"good.gltf", "malformed.gltf", "-o", "a.hearth", "--report", "r.json",
-                                 "--report", "r.html", "--report", "r.xml", "--report", "r.csv"});
-    EXPECT_EQ(end.exit_code, 65);
-    EXPECT_EQ(folder.list(), (std::vector<std::string>{"r.csv", "r.html", "r.json", "r.xml"}));
-    EXPECT_EQ(countOf(folder.read("r.xml"), "<testcase "), 3u);
-    EXPECT_EQ(countOf(folder.read("r.xml"), "<failure "), 2u) << "the source, and the pack";
-    EXPECT_EQ(countOf(folder.read("r.csv"), "\r\n"), 3u);
-    EXPECT_NE(folder.read("r.html").find("E1101"), std::string::npos);
-
-    // the same of the JSON
-    const auto report = [&](std::vector<std::string> arguments)
-    {
-        arguments.insert(arguments.begin(), {programs / "hearth", "report"});
-        return folder.run(arguments, {"TMPDIR="});
-    };
-    ASSERT_EQ(report({"r.json", "--html", "b.html", "--junit", "b.xml", "--csv", "b.csv"}).exit_code, 0);
-    for (const char* ending : {".html", ".xml", ".csv"})
-        EXPECT_EQ(folder.read(std::string("b") + ending), folder.read(std::string("r") + ending));
-    folder.write("no.json", R"({"schema": "hearth.plan/1"})");
-    EXPECT_EQ(report({"no.json", "--html", "c.html"}).exit_code, 65);
-    EXPECT_EQ(report({"none.json", "--html", "c.html"}).exit_code, 66);
-    EXPECT_EQ(report({"r.json", "--html", "c.txt"}).exit_code, 2);
-    EXPECT_EQ(report({"r.json"}).exit_code, 2);
-    EXPECT_FALSE(folder.has("c.html"));
-}
-
-TEST_F(Cook, aReportThatCannotBeWrittenIsAnError)
-{
-    const ProgramEnd end = cook({"a.gltf", "-o", "a.hearth", "--report", "nowhere/report.json"});
-    EXPECT_EQ(end.exit_code, 73);
-    EXPECT_NE(end.err.find("nowhere/report.json: error: "), std::string::npos);
 }
 
 } // namespace hearth::test

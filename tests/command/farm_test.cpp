@@ -1,6 +1,6 @@
 // A cook on several machines, with the real cookers: whatever happens to shards, the pack is that of a cook on one.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "tests/command/sandbox.h"
+#include "tests/command/farm_folder.h"
 #include "tests/command/small_sources.h"
 
 #include <algorithm>
@@ -18,87 +18,7 @@
 namespace hearth::test
 {
 
-namespace
-{
-
 namespace fs = std::filesystem;
-
-class Farm : public ::testing::Test
-{
-protected:
-    Farm()
-    {
-        writeObj(folder, "house");
-        writeObj(folder, "barn", 2, 60);
-        writeGltf(folder, "tree");
-        writeGltf(folder, "bush", 0.5F);
-    }
-
-    ProgramEnd hearthIn(Sandbox& place, const std::vector<std::string>& arguments,
-                        const std::vector<std::string>& environment = {})
-    {
-        std::vector<std::string> command{HEARTH_BIN "/hearth"};
-        command.insert(command.end(), arguments.begin(), arguments.end());
-        return place.run(command, environment);
-    }
-
-    ProgramEnd hearth(const std::vector<std::string>& arguments,
-                      const std::vector<std::string>& environment = {})
-    {
-        return hearthIn(folder, arguments, environment);
-    }
-
-    /// A verb over all sources.
-    ProgramEnd over(const std::string& verb, const std::vector<std::string>& options,
-                    const std::vector<std::string>& more = {})
-    {
-        std::vector<std::string> arguments{verb};
-        arguments.insert(arguments.end(), sources.begin(), sources.end());
-        arguments.insert(arguments.end(), options.begin(), options.end());
-        arguments.insert(arguments.end(), more.begin(), more.end());
-        return hearth(arguments);
-    }
-
-    /// A plan of all sources; its text.
-    std::string plan(size_t shards, const std::vector<std::string>& options = {})
-    {
-        const ProgramEnd end =
-            over("plan", {"-o", "plan.json", "-q", "--shards", std::to_string(shards)}, options);
-        EXPECT_EQ(end.exit_code, 0) << end.err;
-        return folder.read("plan.json");
-    }
-
-    /// The pack that a cook on this machine makes.
-    std::string localPack(const std::vector<std::string>& options = {})
-    {
-        EXPECT_EQ(over("cook", {"-o", "local.hearth", "-q", "--no-cache"}, options).exit_code, 0);
-        return folder.read("local.hearth");
-    }
-
-    ProgramEnd run(size_t shard, size_t count, const std::vector<std::string>& more = {})
-    {
-        std::vector<std::string> arguments{"run", "plan.json", "--shard",
-                                           std::to_string(shard) + "/" + std::to_string(count)};
-        arguments.insert(arguments.end(), more.begin(), more.end());
-        return hearth(arguments);
-    }
-
-    /// The pack that the merge makes.
-    std::string merged()
-    {
-        fs::remove(folder / "farm.hearth");
-        const ProgramEnd end = hearth({"merge", "plan.json", "-o", "farm.hearth"});
-        EXPECT_EQ(end.exit_code, 0) << end.err;
-        return folder.read("farm.hearth");
-    }
-
-    void forget() { fs::remove_all(folder.cachePath()); }
-
-    Sandbox folder;
-    std::vector<std::string> sources{"house.obj", "tree.gltf", "barn.obj", "bush.gltf"};
-};
-
-} // namespace
 
 TEST_F(Farm, makesTheBytesOfALocalCook)
 {
@@ -177,6 +97,59 @@ TEST_F(Farm, cooksWhatShardsHaveNotLeft)
     EXPECT_NE(end.err.find("8 results are missing, and cooked here"), std::string::npos) << end.err;
     EXPECT_TRUE(folder.read("farm.hearth") == pack);
     EXPECT_EQ(hearth({"merge", "plan.json", "-o", "farm.hearth", "--missing", "list"}).exit_code, 0);
+}
+
+TEST_F(Farm, isSharedOutByAReportOfBefore)
+{
+    EXPECT_EQ(over("cook", {"-o", "local.hearth", "-q", "--report", "report.json"}).exit_code, 0);
+    const std::string pack = folder.read("local.hearth");
+    // as if one of four had taken as long as the others together
+    auto report = nlohmann::json::parse(folder.read("report.json"));
+    for (auto& asset : report["assets"])
+        for (auto& stage : asset["stages"])
+            stage["seconds"] = asset["source"] == "bush.gltf" ? 30 : 10;
+    folder.write("report.json", report.dump());
+    const ProgramEnd end = over("plan", {"-o", "plan.json", "--estimates", "report.json"});
+    EXPECT_EQ(end.exit_code, 0) << end.err;
+    EXPECT_NE(end.err.find("4 shards of at most about 120 s"), std::string::npos) << end.err;
+    EXPECT_NE(end.err.find("4 of 4 sources have their times from report.json"), std::string::npos) << end.err;
+    const ProgramEnd two =
+        over("plan", {"-o", "plan.json", "-q", "--shards", "2", "--estimates", "report.json"});
+    EXPECT_EQ(two.exit_code, 0);
+    EXPECT_EQ(two.err, "");
+    EXPECT_EQ(nlohmann::json::parse(folder.read("plan.json"))["shards"], nlohmann::json({{3}, {0, 1, 2}}));
+    // no key has changed: all is there, and the pack is the same
+    for (size_t shard = 0; shard < 2; ++shard)
+        EXPECT_NE(run(shard, 2).err.find(" 0 cooked"), std::string::npos);
+    EXPECT_TRUE(merged() == pack);
+    EXPECT_EQ(over("plan", {"-o", "none.json", "--estimates", "plan.json"}).exit_code, 65);
+    EXPECT_EQ(over("plan", {"-o", "none.json", "--estimates", "nowhere.json"}).exit_code, 66);
+    EXPECT_FALSE(folder.has("none.json"));
+}
+
+TEST_F(Farm, allStepsGoByTheSettings)
+{
+    const Sandbox elsewhere;
+    folder.write("hearth.toml", "[defaults]\nlog = 'quiet'\ncache = 'dir:" + elsewhere / "cache" + "'\n");
+    const std::vector<std::string> environment{"HEARTH_CACHE="};
+    const auto step = [&](const std::vector<std::string>& words)
+    {
+        const ProgramEnd end = hearth(words, environment);
+        EXPECT_EQ(end.exit_code, 0) << words.front();
+        EXPECT_EQ(end.err, "") << words.front();
+    };
+    step({"plan", "bush.gltf", "-o", "plan.json"});
+    step({"run", "plan.json", "--shard", "0/1"});
+    EXPECT_TRUE(elsewhere.has("cache"));
+    step({"farm", "status", "plan.json"});
+    step({"merge", "plan.json", "-o", "farm.hearth"});
+    for (const char* verb : {"run", "merge"})
+    {
+        std::vector<std::string> words{verb, "plan.json"};
+        if (words.front() == "merge")
+            words.insert(words.end(), {"-o", "farm.hearth"});
+        EXPECT_EQ(hearth(words, {"HEARTH_JOBS=0"}).exit_code, 78);
+    }
 }
 
 TEST_F(Farm, believesNoByteOfTheCache)
@@ -320,93 +293,6 @@ TEST_F(Farm, asksForAnotherTryWhereThatMayHelp)
     const ProgramEnd other = folder.run({program, "run", "plan.json", "--shard", "0/1"});
     EXPECT_EQ(other.exit_code, 65) << other.err;
     EXPECT_EQ(countOf(other.err, "[E5002]"), 1u) << other.err;
-}
-
-TEST_F(Farm, aLauncherIsNotBelieved)
-{
-    plan(2);
-    folder.write("liar", "#!/bin/sh\nexit 0\n", true);
-    folder.write("honest", "#!/bin/sh\n\"$@\"\nexit 3\n", true);
-    const ProgramEnd lied = run(0, 2, {"--launcher", folder / "liar --much", "--record", "0.json"});
-    EXPECT_EQ(lied.exit_code, 75);
-    EXPECT_NE(lied.err.find("plan.json|shard 0/2: error: the launcher ended well, but the shard has left no "
-                            "record in the cache [E5101]"),
-              std::string::npos)
-        << lied.err;
-    EXPECT_FALSE(folder.has("0.json"));
-    const ProgramEnd done = run(0, 2, {"--launcher", folder / "honest", "--record", "0.json"});
-    EXPECT_EQ(done.exit_code, 0) << "its code is no matter: " << done.err;
-    EXPECT_EQ(nlohmann::json::parse(folder.read("0.json"))["actions"].size(), 8u);
-    // it still lies, but all is there
-    EXPECT_EQ(run(0, 2, {"--launcher", folder / "liar"}).exit_code, 0);
-    fs::remove(folder.cacheContents().front());
-    EXPECT_EQ(run(0, 2, {"--launcher", folder / "liar"}).exit_code, 75);
-}
-
-TEST_F(Farm, givesLinesToWhoeverTakesThem)
-{
-    const std::string pack = localPack();
-    const ProgramEnd plan = over("plan", {"-o", "it's a plan.json", "--shards", "3", "--emit", "commands"});
-    EXPECT_EQ(plan.exit_code, 0) << plan.err;
-    EXPECT_EQ(countOf(plan.out, "\n"), 3u) << plan.out;
-    folder.write("lines", plan.out);
-    const size_t merge = plan.err.find("after them: ");
-    ASSERT_NE(merge, std::string::npos) << plan.err;
-    // from another folder, the last first
-    const ProgramEnd end = folder.run({"/bin/sh", "-c", "mkdir sub; cd sub; tac ../lines | sh -e"});
-    EXPECT_EQ(end.exit_code, 0) << end.err;
-    EXPECT_EQ(hearth({"farm", "status", "it's a plan.json"}).exit_code, 0);
-    EXPECT_EQ(folder.run({"/bin/sh", "-c", plan.err.substr(merge + 12)}).exit_code, 0);
-    EXPECT_TRUE(folder.read("it's a plan.hearth") == pack);
-}
-
-TEST_F(Farm, isBuiltByNinja)
-{
-    const std::string pack = localPack();
-    plan(3);
-    const ProgramEnd written = hearth({"farm", "ninja", "plan.json", "-o", "build.ninja", "--launcher",
-                                       "env WHERE=$HOME", "--pack", "out put.hearth"});
-    EXPECT_EQ(written.exit_code, 0) << written.err;
-    const auto ninja = [&] { return folder.run({"/usr/bin/env", "ninja", "-k", "0"}); };
-    const ProgramEnd built = ninja();
-    EXPECT_EQ(built.exit_code, 0) << built.out << built.err;
-    EXPECT_TRUE(folder.read("out put.hearth") == pack);
-    EXPECT_NE(ninja().out.find("no work to do"), std::string::npos);
-    // a launcher that lies breaks the build where it would have gone on with nothing
-    forget();
-    fs::remove_all(folder / "plan.json.shards");
-    fs::remove(folder / "out put.hearth");
-    EXPECT_EQ(hearth({"farm", "ninja", "plan.json", "-o", "build.ninja", "--launcher", "true", "--pack",
-                      "out put.hearth"})
-                  .exit_code,
-              0);
-    const ProgramEnd lied = ninja();
-    EXPECT_NE(lied.exit_code, 0);
-    EXPECT_EQ(countOf(lied.out, "[E5101]"), 3u) << lied.out;
-    EXPECT_FALSE(folder.has("out put.hearth"));
-}
-
-TEST_F(Farm, printsTheScriptForSlurm)
-{
-    plan(7);
-    const ProgramEnd end = hearth({"farm", "slurm", "plan.json", "--print", "--partition", "cook",
-                                   "--mem-per-shard", "2G", "--max-retries", "5"});
-    EXPECT_EQ(end.exit_code, 0) << end.err;
-    for (const char* line : {"#SBATCH --array=0-6\n", "#SBATCH --partition=cook\n", "#SBATCH --mem=2048M\n",
-                             "--dependency=\"afterany:", "\"$SLURM_ARRAY_TASK_ID/7\" --memory 2048M",
-                             "-lt 5 ]", "hearth merge "})
-        EXPECT_NE(end.out.find(line), std::string::npos) << line << end.out;
-    folder.write("script", end.out);
-    EXPECT_EQ(folder.run({"/bin/sh", "-n", "script"}).exit_code, 0);
-    EXPECT_EQ(hearth({"farm", "slurm", "plan.json", "--print", "--partition", "a\nb"}).exit_code, 2);
-    // it is that script which submits: here to a cluster that is none
-    folder.write("sbatch", "#!/bin/sh\ncat > job$$\necho 17\n", true);
-    const ProgramEnd submitted =
-        hearth({"farm", "slurm", "plan.json"}, {"PATH=" + folder.path() + ":/usr/bin:/bin"});
-    EXPECT_EQ(submitted.out, "shards: job 17\nmerge: job 17\n") << submitted.err;
-    folder.write("sbatch", "#!/bin/sh\nexit 1\n", true);
-    EXPECT_EQ(hearth({"farm", "slurm", "plan.json"}, {"PATH=" + folder.path() + ":/usr/bin:/bin"}).exit_code,
-              74);
 }
 
 TEST_F(Farm, settingsOfTheProjectAreInThePlanByValue)

@@ -23,6 +23,13 @@ bool matches(const std::string& text, const std::string& pattern)
     return found;
 }
 
+/// In characters of UTF-8.
+size_t lengthOf(const std::string& text)
+{
+    return static_cast<size_t>(
+        std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; }));
+}
+
 using Json = nlohmann::json;
 
 bool isOfType(const Json& value, const std::string& type)
@@ -46,6 +53,8 @@ public:
 
     std::string fault(const Json& schema, const Json& value, const std::string& place) const
     {
+        if (schema.is_boolean())
+            return schema.get<bool>() ? "" : place + ": is not allowed";
         for (const auto& [keyword, rule] : schema.items())
             if (std::string found = faultOf(keyword, rule, schema, value, place); !found.empty())
                 return found;
@@ -69,10 +78,30 @@ private:
             return unless(value == rule);
         if (keyword == "minimum")
             return unless(!value.is_number() || value >= rule);
+        if (keyword == "exclusiveMinimum")
+            return unless(!value.is_number() || value > rule);
+        if (keyword == "maximum")
+            return unless(!value.is_number() || value <= rule);
+        if (keyword == "minItems")
+            return unless(!value.is_array() || value.size() >= rule.get<size_t>());
+        if (keyword == "maxItems")
+            return unless(!value.is_array() || value.size() <= rule.get<size_t>());
+        if (keyword == "if")
+        {
+            const char* const next = fault(rule, value, place).empty() ? "then" : "else";
+            return schema.contains(next) ? fault(schema[next], value, place) : "";
+        }
+        if (keyword == "minLength")
+            return unless(!value.is_string() || lengthOf(value.get<std::string>()) >= rule.get<size_t>());
+        if (keyword == "oneOf")
+            return unless(std::count_if(rule.begin(), rule.end(),
+                                        [&](const Json& one)
+                                        { return fault(one, value, place).empty(); }) == 1);
         if (keyword == "pattern")
             return unless(!value.is_string() || matches(value.get<std::string>(), rule.get<std::string>()));
         if (keyword == "required")
-            return unless(std::all_of(rule.begin(), rule.end(),
+            return unless(!value.is_object() ||
+                          std::all_of(rule.begin(), rule.end(),
                                       [&](const Json& name)
                                       { return value.contains(name.get<std::string>()); }));
         if (keyword == "$ref")
@@ -81,9 +110,10 @@ private:
             return membersFault(keyword == "properties", rule, schema, value, place);
         if (keyword == "items" || keyword == "allOf")
             return listFault(keyword == "items", rule, value, place);
-        const bool is_prose = keyword == "description" || keyword == "title" || keyword == "format" ||
-                              keyword == "$defs" || keyword == "$schema" || keyword == "$id";
-        return is_prose ? "" : place + ": unknown keyword " + keyword;
+        const bool is_read_elsewhere = keyword == "description" || keyword == "title" ||
+                                       keyword == "format" || keyword == "then" || keyword == "else" ||
+                                       keyword == "$defs" || keyword == "$schema" || keyword == "$id";
+        return is_read_elsewhere ? "" : place + ": unknown keyword " + keyword;
     }
 
     std::string membersFault(bool named, const Json& rule, const Json& schema, const Json& value,
@@ -119,13 +149,16 @@ private:
 
 } // namespace
 
+std::string faultOf(const nlohmann::json& schema, const nlohmann::json& value)
+{
+    return Checker(schema).fault(schema, value, "");
+}
+
 std::string faultOfSchema(const std::string& schema_file, const nlohmann::json& value)
 {
     std::ifstream file(schema_file);
     const Json schema = Json::parse(file, nullptr, false);
-    if (schema.is_discarded())
-        return schema_file + " is no JSON";
-    return Checker(schema).fault(schema, value, "");
+    return schema.is_discarded() ? schema_file + " is no JSON" : faultOf(schema, value);
 }
 
 } // namespace hearth::test

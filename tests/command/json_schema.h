@@ -1,5 +1,6 @@
 // Holds JSON against a schema, as far as Hearth's schemas go: type, enum, const, required, properties, additionalProperties,
-// items, minimum, pattern, allOf and references into $defs. Slow and obvious.
+// items, minItems and maxItems, minimum, exclusiveMinimum and maximum, minLength and pattern, allOf, oneOf, if, then and else,
+// and references into $defs. Slow and obvious.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -10,6 +11,8 @@ namespace hearth::test
 {
 
 /// The first difference, as "/assets/0/state: ..."; empty where there is none. A keyword that is not known is one.
+std::string faultOf(const nlohmann::json& schema, const nlohmann::json& value);
+/// The same with a schema in a file.
 std::string faultOfSchema(const std::string& schema_file, const nlohmann::json& value);
 
 } // namespace hearth::test

@@ -1,7 +1,6 @@
 // Light among bricks against closed forms: furnaces, sealed rooms, planes, plates, and lights that go out.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "cook/bricks/face_lighting.h"
-#include "tests/cook/voxel_model.h"
+#include "tests/cook/lit_bricks.h"
 
 #include <gtest/gtest.h>
 
@@ -18,91 +17,6 @@ using namespace shared;
 
 constexpr float kPi = 3.14159265f;
 constexpr uint32_t kUp = 3;
-
-Lighting darkness()
-{
-    return {};
-}
-
-Lighting constantSky(Float3 radiance)
-{
-    Lighting lighting{};
-    lighting.sky_zenith = lighting.sky_horizon = lighting.sky_ground = radiance;
-    return lighting;
-}
-
-void addSun(Lighting& lighting, Float3 direction, Float3 illuminance)
-{
-    Light& sun = lighting.lights[lighting.light_count++];
-    sun.type = kBrickLightDirectional;
-    sun.direction = direction / length(direction);
-    sun.intensity = illuminance;
-}
-
-void addLamp(Lighting& lighting, Float3 position, Float3 candela, float range = 0)
-{
-    Light& lamp = lighting.lights[lighting.light_count++];
-    lamp.type = 1;
-    lamp.position = position;
-    lamp.intensity = candela;
-    lamp.range = range;
-}
-
-struct LitFace
-{
-    uint32_t x, y, z, side, face;
-};
-
-/// All faces whose middle lies in the box, in voxels.
-std::vector<LitFace> facesIn(const BrickTables& tables, Float3 low, Float3 high)
-{
-    std::vector<LitFace> faces;
-    for (uint32_t z = 0; z < tables.grid.voxels[2]; ++z)
-        for (uint32_t y = 0; y < tables.grid.voxels[1]; ++y)
-            for (uint32_t x = 0; x < tables.grid.voxels[0]; ++x)
-                for (uint32_t side = 0; side < kVoxelFaces; ++side)
-                {
-                    const uint32_t face = faceAt(tables, x, y, z, side);
-                    const Float3 middle = brickFaceMiddle(x, y, z, side);
-                    if (face != kNoFace && middle == max(low, min(middle, high)))
-                        faces.push_back({x, y, z, side, face});
-                }
-    return faces;
-}
-
-/// A closed box with walls one voxel thick, with a voxel of air around it.
-struct Room
-{
-    BrickTables tables;
-    std::vector<LitFace> inner;
-
-    Room(std::array<uint32_t, 3> inside, const Voxel& wall, float voxel_size = 1)
-    {
-        const std::array<uint32_t, 3> size{inside[0] + 4, inside[1] + 4, inside[2] + 4};
-        VoxelModel model(size, voxel_size, {-3, 5, 0.5f});
-        model.shell({1, 1, 1}, {inside[0] + 3, inside[1] + 3, inside[2] + 3}, wall);
-        tables = model.build();
-        inner = facesIn(tables, {2, 2, 2},
-                        {static_cast<float>(inside[0] + 2), static_cast<float>(inside[1] + 2),
-                         static_cast<float>(inside[2] + 2)});
-    }
-};
-
-Float3 radianceOf(const FaceLighting& lighting, uint32_t face)
-{
-    return decodeBrickLight(lighting.faces()[face]);
-}
-
-void expectRelative(Float3 value, Float3 expected, float tolerance)
-{
-    for (int c = 0; c < 3; ++c)
-        EXPECT_NEAR(value[c], expected[c], tolerance * expected[c]) << "channel " << c;
-}
-
-float largest(Float3 v)
-{
-    return std::max({v.x, v.y, v.z});
-}
 
 // ---- the furnace
 
@@ -141,42 +55,6 @@ TEST_P(Furnace, goesToEmissionOverOneLessAlbedo)
 }
 
 INSTANTIATE_TEST_SUITE_P(albedos, Furnace, ::testing::Values(0.2f, 0.5f, 0.8f, 0.9f));
-
-/// What the rest is for: codes alone stop short of the goal.
-TEST(BrickLight, codesAloneWouldStopTheFurnaceShort)
-{
-    const float albedo = 0.9f, emission = 0.3f;
-    float code_only = 0;
-    BrickLight light{0, 0};
-    for (int sweep = 0; sweep < 400; ++sweep)
-    {
-        code_only = decodeRadiance(encodeRadiance(Float3{1, 1, 1} * (emission + albedo * code_only))).z;
-        light = encodeBrickLight(Float3{1, 1, 1} * (emission + albedo * decodeBrickLight(light).z));
-    }
-    EXPECT_LT(code_only, 0.95f * emission / (1 - albedo));
-    EXPECT_NEAR(decodeBrickLight(light).z, emission / (1 - albedo), 1e-3f);
-}
-
-TEST(BrickLight, keepsValuesToSixteenBits)
-{
-    std::mt19937 random(3);
-    std::uniform_real_distribution<float> power(-13.9f, 15.9f);
-    for (int i = 0; i < 100000; ++i)
-    {
-        const Float3 value{std::exp2(power(random)), std::exp2(power(random)), std::exp2(power(random))};
-        const BrickLight light = encodeBrickLight(value);
-        ASSERT_EQ(light.code, encodeRadiance(value));
-        const Float3 back = decodeBrickLight(light);
-        for (int c = 0; c < 3 && largest(value) < 64000; ++c)
-            ASSERT_NEAR(back[c], value[c], value[c] * 3.2e-5f);
-    }
-    EXPECT_EQ(decodeBrickLight({encodeRadiance({0.3f, 2, 7}), 0}),
-              decodeRadiance(encodeRadiance({0.3f, 2, 7})))
-        << "no rest: the code itself";
-    EXPECT_EQ(decodeBrickLight(encodeBrickLight({0, 0, 0})), (Float3{}));
-    EXPECT_EQ(decodeBrickLight(encodeBrickLight({1e9f, 1e9f, 1e9f})).x, kMostRedGreen * (1 + 0.5f / 127))
-        << "what is too bright is the brightest";
-}
 
 /// Grey stays grey over 64 bounces, though blue has coarser steps.
 TEST(BrickLight, doesNotDriftInHue)
@@ -408,6 +286,29 @@ TEST(FaceLighting, aLampBesideASlopeLightsThePlaneNotItsSteps)
     }
 }
 
+/// A slope in steps of voxels is lit as the plane that it stands for, by its normal.
+TEST(FaceLighting, aSlopeIsNotLitAsAStaircase)
+{
+    constexpr uint32_t kSide = 24;
+    const Float3 normal = normalizeOr({-0.5f, 1, 0}, {0, 1, 0});
+    Voxel slope = makeVoxel({0.5f, 0.5f, 0.5f});
+    for (VoxelSide& side : slope.sides)
+        side.normal = normal;
+    VoxelModel model({kSide, kSide, kSide});
+    for (uint32_t x = 0; x < kSide; ++x)
+        model.fill({x, x / 2, 0}, {x + 1, x / 2 + 1, kSide}, slope);
+    const BrickTables tables = model.build();
+    const BrickView view = brickViewOf(tables);
+    FaceLighting lighting(view);
+    Lighting sun = darkness();
+    addSun(sun, {0.2f, -1, 0.1f}, {2, 2, 2});
+    lighting.sweep(sun, 16, 1);
+    const float expected = 2 * 0.5f / kPi * -dot(normal, sun.lights[0].direction);
+    for (uint32_t x = 4; x < kSide - 4; ++x)
+        EXPECT_NEAR(radianceOf(lighting, faceAt(tables, x, x / 2, 12, kUp)).x, expected, 0.02f * expected)
+            << x;
+}
+
 TEST(FaceLighting, spotsEndAtTheirCone)
 {
     const BrickTables tables = floorOf(21, 12, makeVoxel({0.5f, 0.5f, 0.5f}));
@@ -445,22 +346,6 @@ TEST(FaceLighting, aConstantSkyLightsAnOpenPlaneByItsRadiance)
     const BrickSky sky{{2, 2, 2}, {2, 2, 2}, {2, 2, 2}};
     const BrickStart start = brickSurfaceStart(lighting.scene(), {6.5f, 0.8f, 6.5f}, {0, 1, 0});
     expectRelative(brickGather(lighting.scene(), sky, start, 16, 1), {2, 2, 2}, 1e-5f);
-}
-
-/// The gradient's irradiance is the closed form that the runtime shades with.
-TEST(BrickSky, hasTheIrradianceOfTheRuntimesSky)
-{
-    const BrickSky sky{kSkyZenith, kSkyHorizon, kSkyGround};
-    for (const Float3 normal : {Float3{0, 1, 0}, Float3{1, 0, 0}, Float3{0.6f, 0.8f, 0}})
-    {
-        Float3 sum;
-        constexpr uint32_t kCount = 4096;
-        for (uint32_t i = 0; i < kCount; ++i)
-            sum += brickSkyRadiance(sky, brickRayDirection(normal, i, kCount, 9)) * (1.0f / kCount);
-        const float above = 0.5f + 0.3f * normal.y, up = 0.5f + 0.5f * normal.y;
-        expectRelative(sum, kSkyGround * (1 - up) + (kSkyHorizon * (1 - above) + kSkyZenith * above) * up,
-                       0.01f);
-    }
 }
 
 // ---- light between faces
@@ -510,115 +395,7 @@ TEST(FaceLighting, aRedWallReddensTheFloorBesideIt)
     EXPECT_GT(redness(6), redness(13));
 }
 
-// ---- directions, starts and threads
-
-TEST(BrickRayDirection, areUnitAndByTheCosine)
-{
-    std::mt19937 random(11);
-    std::normal_distribution<float> number;
-    for (int i = 0; i < 50; ++i)
-    {
-        const Float3 n = normalizeOr({number(random), number(random), number(random)}, {0, 0, 1});
-        constexpr uint32_t kCount = 64;
-        Float3 sum;
-        for (uint32_t ray = 0; ray < kCount; ++ray)
-        {
-            const Float3 d = brickRayDirection(n, ray, kCount, static_cast<uint32_t>(random()));
-            EXPECT_NEAR(length(d), 1, 2e-6f);
-            EXPECT_GE(dot(d, n), -1e-6f);
-        }
-        const auto seed = static_cast<uint32_t>(random());
-        for (uint32_t ray = 0; ray < kCount; ++ray)
-            sum += brickRayDirection(n, ray, kCount, seed) * (1.0f / kCount);
-        EXPECT_NEAR(length(sum - n * (2.0f / 3)), 0, 0.03f);
-    }
-}
-
-/// A slope in steps of voxels is lit as the plane that it stands for, by its normal.
-TEST(FaceLighting, aSlopeIsNotLitAsAStaircase)
-{
-    constexpr uint32_t kSide = 24;
-    const Float3 normal = normalizeOr({-0.5f, 1, 0}, {0, 1, 0});
-    Voxel slope = makeVoxel({0.5f, 0.5f, 0.5f});
-    for (VoxelSide& side : slope.sides)
-        side.normal = normal;
-    VoxelModel model({kSide, kSide, kSide});
-    for (uint32_t x = 0; x < kSide; ++x)
-        model.fill({x, x / 2, 0}, {x + 1, x / 2 + 1, kSide}, slope);
-    const BrickTables tables = model.build();
-    const BrickView view = brickViewOf(tables);
-    FaceLighting lighting(view);
-    Lighting sun = darkness();
-    addSun(sun, {0.2f, -1, 0.1f}, {2, 2, 2});
-    lighting.sweep(sun, 16, 1);
-    const float expected = 2 * 0.5f / kPi * -dot(normal, sun.lights[0].direction);
-    for (uint32_t x = 4; x < kSide - 4; ++x)
-        EXPECT_NEAR(radianceOf(lighting, faceAt(tables, x, x / 2, 12, kUp)).x, expected, 0.02f * expected)
-            << x;
-}
-
-TEST(BrickSurfaceStart, leavesItsOwnVoxelsAndSaysWhereThereIsNoAir)
-{
-    VoxelModel model({8, 16, 8});
-    model.fill({0, 0, 0}, {8, 2, 8}, makeVoxel({0.5f, 0.5f, 0.5f}));
-    model.fill({0, 8, 0}, {8, 16, 8}, makeVoxel({0.5f, 0.5f, 0.5f}));
-    const BrickTables tables = model.build();
-    const BrickView view = brickViewOf(tables);
-    const FaceLighting lighting(view);
-    const BrickScene scene = lighting.scene();
-    EXPECT_NEAR(brickSurfaceStart(scene, {4.5f, 0.7f, 4.5f}, {0, 1, 0}).place.y, 2, 0.01f);
-    EXPECT_NEAR(brickSurfaceStart(scene, {4.5f, 8.2f, 4.5f}, {0, -1, 0}).place.y, 8, 0.01f);
-    EXPECT_NEAR(brickSurfaceStart(scene, {4.5f, 3, 4.5f}, {0, 1, 0}).place.y, 3, 0.01f)
-        << "in the air already";
-    EXPECT_NEAR(brickSurfaceStart(scene, {4.5f, 1.7f, 4.5f}, {0.6f, 0.8f, 0}).place.y, 2 + 0.8f * kBrickLift,
-                0.01f)
-        << "slanted: off its steps";
-    EXPECT_EQ(brickSurfaceStart(scene, {4.5f, 9, 4.5f}, {0, 1, 0}).buried, 1u);
-    EXPECT_EQ(brickSurfaceStart(scene, {4.5f, 15.5f, 4.5f}, {0, 1, 0}).buried, 0u) << "above the grid is air";
-    EXPECT_EQ(brickSurfaceStart(scene, {40, 90, 4}, {0, 1, 0}).buried, 0u) << "as is what lies outside";
-}
-
-/// Of a wall, just below a ceiling that fills its voxels only in part: neither along its normal nor far along the way to the eye
-/// is it in the air, but there it is first.
-TEST(BrickSeenStart, takesTheAirThatAPointIsSeenThrough)
-{
-    VoxelModel model({12, 12, 12});
-    model.fill({0, 0, 0}, {12, 12, 1}, makeVoxel({0.5f, 0.5f, 0.5f})); // the wall
-    model.fill({0, 8, 0}, {12, 9, 12}, makeVoxel({0.5f, 0.5f, 0.5f})); // the ceiling
-    const BrickTables tables = model.build();
-    const BrickView view = brickViewOf(tables);
-    const FaceLighting lighting(view);
-    const Float3 to_eye = normalizeOr({0, -0.6f, 0.8f}, {0, 0, 1});
-    const BrickStart start = brickSeenStart(lighting.scene(), {6.5f, 8.3f, 1}, {0, 0, 1}, to_eye);
-    EXPECT_EQ(start.buried, 0u);
-    EXPECT_EQ(start.normal, (Float3{0, 0, 1}));
-    EXPECT_NEAR(start.place.y, 8, 0.7f);
-    EXPECT_LT(start.place.y, 8);
-    const BrickStart open = brickSeenStart(lighting.scene(), {6.5f, 4.5f, 0.9f}, {0, 0, 1}, to_eye);
-    EXPECT_NEAR(open.place.y, 4.5f, 1e-5f) << "before it, where nothing is in the way";
-    EXPECT_NEAR(open.place.z, 1, 0.01f);
-}
-
-/// A strip of one voxel that shines, on a wall: rays that started off the wall would pass by it.
-TEST(BrickFaceStart, seesWhatStandsBesideItOnAWall)
-{
-    VoxelModel model({65, 10, 6});
-    model.fill({0, 0, 0}, {65, 10, 1}, makeVoxel({0, 0, 0}));
-    model.fill({0, 8, 1}, {65, 9, 2}, makeVoxel({0, 0, 0}, {2, 2, 2}));
-    const BrickTables tables = model.build();
-    const BrickView view = brickViewOf(tables);
-    FaceLighting lighting(view);
-    lighting.sweep(darkness(), 1, 1);
-    for (uint32_t below = 1; below <= 4; ++below)
-    {
-        const BrickStart start = brickFaceStart(lighting.scene(), 32, 8 - below, 0, 5, {0, 0, 1});
-        const float light = brickGather(lighting.scene(), {}, start, 4096, below).x;
-        // an endless strip of the height 1 hides this of the plane that it stands on
-        const double distance = below - 0.5;
-        const double expected = 2 * 0.5 * (1 - distance / std::sqrt(distance * distance + 1));
-        EXPECT_NEAR(light, expected, 0.03 * expected) << below;
-    }
-}
+// ---- threads
 
 TEST(FaceLighting, isTheSameForAnyNumberOfThreads)
 {

@@ -1,6 +1,7 @@
 // Plans of farms: how sources are shared out, which shard a job is, and that a plan is believed in nothing.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/farm/emit.h"
+#include "pipelines/farm/measured.h"
 #include "pipelines/farm/plan.h"
 #include "pipelines/farm/shard_index.h"
 #include "pipelines/farm/shard_record.h"
@@ -66,11 +67,11 @@ protected:
             folder.write(std::string("hearth-") + cooker, cooker, true);
     }
 
-    Result<Plan> make(const Request& request)
+    Result<Plan> make(const Request& request, const Sharing& sharing = {2, {}})
     {
         graph::FileHashes hashes(folder.path());
         graph::ActionCache actions(cache, hashes, folder.path());
-        return makePlan(request, folder.path(), 2, folder.path(), actions, hashes);
+        return makePlan(request, folder.path(), sharing, folder.path(), actions, hashes);
     }
 
     Request request()
@@ -174,6 +175,90 @@ TEST(ShardIndex, isWhatIsSaidFirst)
                          {"SLURM_ARRAY_TASK_MAX", "6"},
                          {"SLURM_ARRAY_TASK_STEP", "2"}}),
               -2);
+}
+
+TEST_F(PlanFile, isSharedOutByTimesOfBefore)
+{
+    const Request asked = request();
+    using nlohmann::json;
+    const auto asset = [&](size_t source, double import_seconds, double clusters_seconds)
+    {
+        return json{
+            {"source", asked.sources[source]},
+            {"stages",
+             {{{"stage", "import"},
+               {"state", "cooked"},
+               {"seconds", import_seconds},
+               {"peak_rss_bytes", 300}},
+              {{"stage", "clusters"},
+               {"state", "cached"},
+               {"seconds", clusters_seconds},
+               {"peak_rss_bytes", 3000}},
+              {{"stage", "visibility"}, {"state", "failed"}, {"seconds", 1e6}, {"peak_rss_bytes", 1}}}}};
+    };
+    const json report{
+        {"schema", "hearth.report/1"},
+        {"assets", {asset(0, 20, 80), asset(2, 5, 25)}},
+        {"link", {{"stage", "link"}, {"state", "cooked"}, {"seconds", 7}, {"peak_rss_bytes", 30}}}};
+    const auto measured = measuredOf(report.dump(), "report.json");
+    ASSERT_TRUE(measured.ok());
+    EXPECT_EQ(countMeasured(*measured, asked.sources), 2u);
+
+    const auto by_size = make(asked, {std::nullopt, {}});
+    const auto by_times = make(asked, {std::nullopt, *measured});
+    ASSERT_TRUE(by_size.ok() && by_times.ok());
+    EXPECT_EQ(by_size->shards, (Shards{{0, 1, 2}})) << "small files";
+    EXPECT_EQ(by_times->shards, (Shards{{0}, {1, 2}})) << "130 s and a bit";
+    EXPECT_TRUE(parsePlan(planText(*by_times), "plan.json").ok());
+    ASSERT_EQ(by_times->graph.actions.size(), by_size->graph.actions.size());
+    for (size_t i = 0; i < by_times->graph.actions.size(); ++i)
+    {
+        const graph::Action& action = by_times->graph.actions[i];
+        const graph::Estimate& before = by_size->graph.actions[i].estimate;
+        const bool is_known =
+            action.cooker == "link" ||
+            ((action.cooker == "import" || action.cooker == "clusters") && action.source != 1);
+        if (!is_known)
+        {
+            EXPECT_EQ(action.estimate.seconds, before.seconds) << action.cooker << " " << action.subject;
+            EXPECT_EQ(action.estimate.memory_bytes, before.memory_bytes) << action.cooker;
+        }
+        else if (action.cooker == "clusters")
+        {
+            EXPECT_EQ(action.estimate.seconds, action.source == 0 ? 80 : 25);
+            EXPECT_EQ(action.estimate.memory_bytes, 4000u) << "a third more";
+        }
+        else
+            EXPECT_EQ(action.estimate.memory_bytes, action.cooker == "link" ? 40u : 400u);
+    }
+}
+
+TEST(Measured, isOfReportsAlone)
+{
+    const auto faultOf = [](const std::string& report)
+    {
+        const auto measured = measuredOf(report, "report.json");
+        if (measured.ok())
+            return std::string("taken");
+        EXPECT_EQ(exitCode(measured.error()), 65);
+        EXPECT_EQ(measured.error().file, "report.json");
+        return measured.error().detail;
+    };
+    const auto withStage = [](const std::string& seconds, const std::string& bytes)
+    {
+        return R"({"schema": "hearth.report/1", "assets": [{"source": "a", "stages": [{"stage": "import", "state":
+                  "cooked", "seconds": )" +
+               seconds + R"(, "peak_rss_bytes": )" + bytes + "}]}]}";
+    };
+    EXPECT_EQ(faultOf(withStage("1", "1")), "taken");
+    EXPECT_EQ(faultOf(withStage("-1", "1")), "has a time or memory that no machine has");
+    EXPECT_EQ(faultOf(withStage("1e300", "1")), "has a time or memory that no machine has");
+    EXPECT_EQ(faultOf(withStage("1", "-1")), "has a time or memory that no machine has");
+    EXPECT_EQ(faultOf(withStage("1", "1e17")), "has a time or memory that no machine has");
+    EXPECT_TRUE(faultOf(withStage("\"1\"", "1")).starts_with("is no report of hearth cook: "));
+    EXPECT_TRUE(faultOf(R"({"schema": "hearth.report/1"})").starts_with("is no report of hearth cook: "));
+    for (const char* other : {"", "[]", "{}", R"({"schema": "hearth.plan/1"})"})
+        EXPECT_EQ(faultOf(other), "is no report that hearth cook --report wrote as JSON") << other;
 }
 
 TEST_F(PlanFile, comesBack)

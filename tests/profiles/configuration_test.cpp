@@ -86,6 +86,23 @@ TEST_F(Configurations, flagsWinOverEnvironmentProjectAndUser)
         << what("jobs", "");
 }
 
+TEST_F(Configurations, colourIsOfVariablesThatManyProgramsKnow)
+{
+    folder.write("house/hearth.toml", "[defaults]\ncolor = 'always'\nlog = 'quiet'\n");
+    environment["NO_COLOR"] = "0";
+    EXPECT_EQ(what("color", ""), "\"always\" from hearth.toml:2");
+    environment["CLICOLOR_FORCE"] = "1";
+    EXPECT_EQ(what("color", ""), "\"always\" from CLICOLOR_FORCE");
+    environment["NO_COLOR"] = "yes";
+    EXPECT_EQ(what("color", ""), "\"never\" from NO_COLOR");
+    EXPECT_EQ(what("color", "", withFlag("color", "\"auto\"")), "\"auto\" from --flag");
+    EXPECT_EQ(what("log", ""), "\"quiet\" from hearth.toml:3");
+    environment["HEARTH_LOG"] = "loud";
+    EXPECT_NE(what("log", "").find("HEARTH_LOG: error: 'loud' must be one of quiet, normal, verbose"),
+              std::string::npos)
+        << what("log", "");
+}
+
 TEST_F(Configurations, theProjectsFileIsFoundUpwards)
 {
     folder.write("house/hearth.toml", "[defaults]\njobs = 2\n");

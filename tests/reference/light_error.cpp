@@ -1,16 +1,11 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "tests/bench/light_error.h"
-
-#include "cook/bricks/face_lighting.h"
+#include "tests/reference/light_error.h"
 
 #include <algorithm>
 #include <tbb/parallel_for.h>
 
-namespace hearth::bench
+namespace hearth::reference
 {
-
-using namespace reference;
-using reference::Double3;
 
 namespace
 {
@@ -130,19 +125,17 @@ shared::Lighting sharedLighting(const SceneLighting& lighting)
     return result;
 }
 
-BrickGather::BrickGather(const bricks::BrickTables& tables, const shared::Lighting& lighting, uint32_t rays)
-    : tables_(tables), sky_{lighting.sky_zenith, lighting.sky_horizon, lighting.sky_ground}
+BrickGather::BrickGather(const bricks::BrickView& bricks, const shared::Lighting& lighting, uint32_t rays)
+    : faces_(bricks), sky_{lighting.sky_zenith, lighting.sky_horizon, lighting.sky_ground}
 {
-    bricks::FaceLighting faces(bricks::brickViewOf(tables_));
-    faces.sweep(lighting, rays, kSweeps);
-    faces_.assign(faces.faces().begin(), faces.faces().end());
+    faces_.sweep(lighting, rays, kSweeps);
 }
 
 Double3 BrickGather::at(const SeenPoint& seen, uint32_t rays, uint32_t seed) const
 {
-    const shared::BrickScene scene{tables_.masks(), tables_.opacity, faces_};
-    const Float3 place =
-        (narrowed(seen.point.surface.position) - tables_.grid.origin) / tables_.grid.voxel_size;
+    const shared::BrickScene scene = faces_.scene();
+    const shared::BrickGrid& grid = scene.masks.grid;
+    const Float3 place = (narrowed(seen.point.surface.position) - grid.origin) / grid.voxel_size;
     const shared::BrickStart start =
         shared::brickSeenStart(scene, place, narrowed(litNormal(seen.point)), narrowed(seen.to_eye));
     return Double3(shared::brickGather(scene, sky_, start, rays, shared::brickHash(seed)));
@@ -173,4 +166,4 @@ LightError lightError(const std::vector<LitPoint>& points, const std::vector<Dou
     return error;
 }
 
-} // namespace hearth::bench
+} // namespace hearth::reference

@@ -2,28 +2,28 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include "cook/bricks/brick_tables.h"
+#include "cook/bricks/face_lighting.h"
 #include "formats/shared/brick_lighting.h"
 #include "tests/reference/irradiance.h"
 
 #include <vector>
 
-namespace hearth::bench
+namespace hearth::reference
 {
 
 /// A point of a surface, and from where it is seen.
 struct SeenPoint
 {
-    reference::ShadedPoint point;
-    reference::Double3 to_eye; ///< unit
+    ShadedPoint point;
+    Double3 to_eye; ///< unit
 };
 
 /// And the light that truly arrives there.
 struct LitPoint
 {
     SeenPoint seen;
-    reference::SurfaceLight truth;
-    reference::Double3 halves[2]; ///< indirect light by either half of the paths
+    SurfaceLight truth;
+    Double3 halves[2]; ///< indirect light by either half of the paths
     bool near_lamp =
         false; ///< within kNearLamp of a lamp, or of a surface that shines and is seen from there
 };
@@ -32,29 +32,28 @@ struct LitPoint
 inline constexpr double kNearLamp = 0.15;
 
 /// Points that are seen from the scene's cameras in all directions; where it has none, from straight above, but for the rim.
-std::vector<SeenPoint> seenPoints(const reference::ShadedScene& scene, const formats::PackView& pack,
-                                  uint32_t count);
+std::vector<SeenPoint> seenPoints(const ShadedScene& scene, const formats::PackView& pack, uint32_t count);
 
-std::vector<LitPoint> litPoints(const reference::ShadedScene& scene, const std::vector<SeenPoint>& points,
+std::vector<LitPoint> litPoints(const ShadedScene& scene, const std::vector<SeenPoint>& points,
                                 uint32_t paths);
 
 /// The lights and the sky of the reference, as shaders take them.
-shared::Lighting sharedLighting(const reference::SceneLighting& lighting);
+shared::Lighting sharedLighting(const SceneLighting& lighting);
 
 /// Light of bricks that has converged, and what arrives from it.
 class BrickGather
 {
 public:
-    /// rays  of each face
-    BrickGather(const bricks::BrickTables& tables, const shared::Lighting& lighting, uint32_t rays);
+    /// bricks  whose tables outlive it
+    /// rays    of each face
+    BrickGather(const bricks::BrickView& bricks, const shared::Lighting& lighting, uint32_t rays);
 
     /// Irradiance over pi of all but the lights, as the runtime gathers it. rays  of the point
-    reference::Double3 at(const SeenPoint& point, uint32_t rays, uint32_t seed) const;
+    Double3 at(const SeenPoint& point, uint32_t rays, uint32_t seed) const;
 
 private:
-    bricks::BrickTables tables_;
+    bricks::FaceLighting faces_;
     shared::BrickSky sky_;
-    std::vector<shared::BrickLight> faces_;
 };
 
 /// Root mean square of differences over the mean of the truth. The square of a difference is the product of those from either
@@ -68,7 +67,7 @@ struct LightError
 };
 
 /// gathered  for each point
-LightError lightError(const std::vector<LitPoint>& points, const std::vector<reference::Double3>& gathered,
+LightError lightError(const std::vector<LitPoint>& points, const std::vector<Double3>& gathered,
                       bool with_near_lamps);
 
-} // namespace hearth::bench
+} // namespace hearth::reference

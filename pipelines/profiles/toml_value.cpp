@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "pipelines/profiles/toml_value.h"
+
+#include "cook/clusters/profile.h"
+#include "cook/tools/suggest.h"
+#include "pipelines/cache/open_cache.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <toml++/toml.h>
+
+namespace hearth::profiles
+{
+
+namespace
+{
+
+// One word of a command line may have 128 KiB on Linux: it holds a setting with its key.
+constexpr size_t kLongestValue = 100'000;
+
+std::string quoted(std::string_view text)
+{
+    std::string word = "\"";
+    for (const char c : text)
+        if (c == '"' || c == '\\')
+            word += {'\\', c};
+        else if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F)
+            word += fmt::format("\\u{:04X}", static_cast<unsigned>(c));
+        else
+            word += c;
+    return word + '"';
+}
+
+Result<std::string> textOf(const toml::node& node, const Setting& setting, const Place& place);
+
+Error outOfRange(const toml::node& node, const Setting& setting, const Place& place)
+{
+    return place.wrong(Issue::profile_value, node, "must be " + rangeText(setting));
+}
+
+bool isInRange(double value, const Setting& setting)
+{
+    const bool is_above = setting.is_above_low ? value > setting.low : value >= setting.low;
+    return std::isfinite(value) && is_above && value <= setting.high;
+}
+
+Result<std::string> wholeText(const toml::node& node, const Setting& setting, const Place& place)
+{
+    const auto* whole = node.as_integer();
+    if (whole == nullptr)
+        return outOfRange(node, setting, place);
+    std::string text = std::to_string(whole->get());
+    const bool is_allowed =
+        setting.choices.empty()
+            ? isInRange(static_cast<double>(whole->get()), setting)
+            : std::find(setting.choices.begin(), setting.choices.end(), text) != setting.choices.end();
+    return is_allowed ? Result<std::string>(std::move(text)) : outOfRange(node, setting, place);
+}
+
+Result<std::string> numberText(const toml::node& node, const Setting& setting, const Place& place)
+{
+    const double value = node.value<double>().value_or(NAN);
+    if (!node.is_number() || !isInRange(value, setting))
+        return outOfRange(node, setting, place);
+    return fmt::format("{}", value);
+}
+
+Result<std::string> wordText(const toml::node& node, const Setting& setting, const Place& place)
+{
+    const auto* text = node.as_string();
+    const bool is_allowed =
+        text != nullptr && !text->get().empty() &&
+        (setting.kind != Kind::choice ||
+         std::find(setting.choices.begin(), setting.choices.end(), text->get()) != setting.choices.end());
+    if (is_allowed)
+        return quoted(text->get());
+    if (text == nullptr || setting.kind != Kind::choice)
+        return outOfRange(node, setting, place);
+    const Keys choices(setting.choices.begin(), setting.choices.end());
+    const std::string nearest = tools::nearestMatch(text->get(), choices);
+    return place.wrong(Issue::profile_value, node,
+                       fmt::format("'{}' must be {}{}", text->get(), rangeText(setting),
+                                   nearest.empty() ? "" : ": did you mean '" + nearest + "'?"));
+}
+
+Result<std::string> textsText(const toml::node& node, const Setting& setting, const Place& place)
+{
+    const Setting one{setting.key, Kind::text, "", ""};
+    const toml::array* array = node.as_array();
+    if (array == nullptr)
+    {
+        if (!node.is_string())
+            return outOfRange(node, setting, place);
+        HEARTH_ASSIGN_OR_RETURN(const std::string text, textOf(node, one, place));
+        return "[" + text + "]";
+    }
+    std::vector<std::string> texts;
+    for (size_t i = 0; i < array->size(); ++i)
+    {
+        HEARTH_ASSIGN_OR_RETURN(std::string text, textOf(*array->get(i), one, place.at(i)));
+        texts.push_back(std::move(text));
+    }
+    return fmt::format("[{}]", fmt::join(texts, ","));
+}
+
+Result<std::string> sizeText(const toml::node& node, const Setting& setting, const Place& place)
+{
+    if (const auto* whole = node.as_integer(); whole != nullptr && whole->get() > 0)
+        return std::to_string(whole->get());
+    const auto* text = node.as_string();
+    const auto size = text == nullptr ? Result<uint64_t>(outOfRange(node, setting, place))
+                                      : cache::parseSize(text->get(), "");
+    return size.ok() ? Result<std::string>(std::to_string(*size)) : outOfRange(node, setting, place);
+}
+
+Result<std::string> tableText(const toml::table& table, const Setting& setting, const Place& place)
+{
+    Keys known;
+    for (const Setting& member : setting.members)
+        known.push_back(member.key);
+    for (const auto& [key, node] : table)
+        if (findSetting(setting.members, key.str()) == nullptr)
+            return unknownKey(place, node, key.str(), known);
+    std::vector<std::string> members;
+    for (const Setting& member : setting.members)
+    {
+        const toml::node* node = table.get(member.key);
+        if (node == nullptr && member.is_required)
+            return place.at(member.key)
+                .wrong(Issue::profile_value, table, "is missing: it must be " + rangeText(member));
+        if (node == nullptr)
+            continue;
+        HEARTH_ASSIGN_OR_RETURN(const std::string text, textOf(*node, member, place.at(member.key)));
+        members.push_back(member.key + "=" + text);
+    }
+    return fmt::format("{{{}}}", fmt::join(members, ","));
+}
+
+Result<std::string> tablesText(const toml::node& node, const Setting& setting, const Place& place)
+{
+    const toml::array* array = node.as_array();
+    if (array == nullptr || array->empty())
+        return outOfRange(node, setting, place);
+    std::vector<std::string> tables;
+    for (size_t i = 0; i < array->size(); ++i)
+    {
+        const toml::table* table = array->get(i)->as_table();
+        if (table == nullptr)
+            return place.at(i).wrong(Issue::profile_value, *array->get(i), "must be a table");
+        HEARTH_ASSIGN_OR_RETURN(std::string text, tableText(*table, setting, place.at(i)));
+        tables.push_back(std::move(text));
+    }
+    return fmt::format("[{}]", fmt::join(tables, ","));
+}
+
+/// The node's value, in the one form. errors: profile_key, profile_value.
+Result<std::string> textOf(const toml::node& node, const Setting& setting, const Place& place)
+{
+    switch (setting.kind)
+    {
+    case Kind::flag:
+        if (const auto* flag = node.as_boolean())
+            return std::string(flag->get() ? "true" : "false");
+        return outOfRange(node, setting, place);
+    case Kind::whole:
+        return wholeText(node, setting, place);
+    case Kind::number:
+        return numberText(node, setting, place);
+    case Kind::choice:
+    case Kind::text:
+        return wordText(node, setting, place);
+    case Kind::texts:
+        return textsText(node, setting, place);
+    case Kind::size:
+        return sizeText(node, setting, place);
+    case Kind::tables:
+        return tablesText(node, setting, place);
+    }
+    return outOfRange(node, setting, place);
+}
+
+} // namespace
+
+Place Place::at(std::string_view name) const
+{
+    return {file, key.empty() ? std::string(name) : key + "." + std::string(name), has_lines};
+}
+
+Place Place::at(size_t index) const
+{
+    return {file, fmt::format("{}[{}]", key, index), has_lines};
+}
+
+std::string Place::of(const toml::node& node) const
+{
+    const toml::source_position begin = node.source().begin;
+    return has_lines ? fmt::format("line {}, column {}, {}", begin.line, begin.column, key) : key;
+}
+
+Error Place::wrong(Issue issue, const toml::node& node, std::string detail) const
+{
+    return {issue, file, of(node), std::move(detail)};
+}
+
+Error unknownKey(const Place& place, const toml::node& node, std::string_view key, const Keys& known)
+{
+    const std::string nearest = tools::nearestMatch(key, known);
+    return place.at(key).wrong(
+        Issue::profile_key, node,
+        nearest.empty() ? fmt::format("this key is not known; known are {}", fmt::join(known, ", "))
+                        : fmt::format("this key is not known: did you mean '{}'?", nearest));
+}
+
+Result<std::string> checkedTextOf(const toml::node& node, const Setting& setting, const Place& place)
+{
+    HEARTH_ASSIGN_OR_RETURN(std::string text, textOf(node, setting, place));
+    if (text.size() > kLongestValue)
+        return place.wrong(Issue::profile_value, node,
+                           fmt::format("has {} characters, the limit is {}", text.size(), kLongestValue));
+    if (groupOf(setting.key) == "clusters")
+        if (const auto read = clusters::parseProfile(setting.key + "=" + text, ""); !read.ok())
+            return place.wrong(Issue::profile_value, node, read.error().detail);
+    return text;
+}
+
+} // namespace hearth::profiles

@@ -1,0 +1,123 @@
+// What hearth cook tells while it works: messages, progress, colour.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "tests/command/cook_folder.h"
+
+#include <filesystem>
+#include <gtest/gtest.h>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+namespace hearth::test
+{
+
+TEST_F(Cook, quietSaysNothing)
+{
+    EXPECT_EQ(cook({"-q", "warning.gltf", "-o", "a.hearth"}).err, "");
+}
+
+TEST_F(Cook, passesWarningsOnButNotNoise)
+{
+    const ProgramEnd end = cook({"warning.gltf", "-o", "a.hearth"});
+    EXPECT_EQ(end.exit_code, 0);
+    EXPECT_EQ(countOf(end.err, "warning.gltf|/extras: warning: left out [W1400]"), 1u) << end.err;
+    EXPECT_EQ(countOf(end.err, "noise"), 0u);
+    EXPECT_EQ(countOf(cook({"-v", "warning.gltf", "-o", "a.hearth"}).err, "noise"), 1u);
+}
+
+TEST_F(Cook, warningsMayCountAsErrors)
+{
+    const ProgramEnd fine = cook({"warning.gltf", "-o", "a.hearth", "--warnings-as-errors=W1302"});
+    EXPECT_EQ(fine.exit_code, 0) << fine.err;
+    std::filesystem::remove(folder / "a.hearth");
+    for (const char* flag : {"--warnings-as-errors", "--warnings-as-errors=W1302,W1400"})
+    {
+        const ProgramEnd end = cook({"warning.gltf", "-q", flag, "-o", "a.hearth"});
+        expectFailure(end, 1, "a.hearth: error: not written, because warnings count as errors: 1");
+        EXPECT_NE(end.err.find("warning.gltf|/extras: warning: left out [W1400]"), std::string::npos);
+    }
+    expectFailure(cook({"a.gltf", "-o", "a.hearth", "--warnings-as-errors=W1"}), 2, "'W1' is no warning");
+}
+
+TEST_F(Cook, messagesMayBeJson)
+{
+    const ProgramEnd end = cook(
+        {"malformed.gltf", "warning.gltf", "-o", "a.hearth", "--log-format", "json", "--progress", "none"});
+    EXPECT_EQ(end.exit_code, 65);
+    std::istringstream lines(end.err);
+    std::map<std::string, nlohmann::json> of_severity;
+    for (std::string line; std::getline(lines, line);)
+    {
+        const nlohmann::json message = nlohmann::json::parse(line, nullptr, false);
+        ASSERT_TRUE(message.is_object()) << line;
+        of_severity[message["severity"]] = message;
+    }
+    EXPECT_EQ(of_severity["error"]["code"], "E1101");
+    EXPECT_EQ(of_severity["error"]["file"], "malformed.gltf");
+    EXPECT_EQ(of_severity["error"]["where"], "/meshes/0");
+    EXPECT_EQ(of_severity["error"]["text"], "is bad");
+    EXPECT_EQ(of_severity["error"]["hint"], "mend it");
+    EXPECT_EQ(of_severity["warning"]["code"], "W1400");
+    EXPECT_EQ(of_severity["note"]["text"],
+              "a.hearth: not linked, because a dependency failed: 1 of 2 sources");
+}
+
+TEST_F(Cook, colourIsThereOnDemandOnly)
+{
+    const auto colored = [&](const std::vector<std::string>& environment) {
+        return cook({"a.gltf", "-o", "a.hearth"}, environment).err.find('\033') != std::string::npos;
+    };
+    EXPECT_TRUE(colored({"CLICOLOR_FORCE=1", "NO_COLOR="}));
+    EXPECT_FALSE(colored({"CLICOLOR_FORCE=1", "NO_COLOR=1"}));
+}
+
+TEST_F(Cook, progressIsABarOrLinesOrNothing)
+{
+    const auto err = [&](const char* style) {
+        return cook({"a.gltf", "-o", "a.hearth", "--no-cache", "--progress", style}).err;
+    };
+    EXPECT_EQ(countOf(err("plain"), "import "), 1u);
+    EXPECT_EQ(countOf(err("auto"), "import "), 1u) << "no terminal";
+    EXPECT_EQ(countOf(err("none"), "import "), 0u);
+    const std::string bar = err("bar");
+    EXPECT_NE(bar.find("\r\033[K[                        ] 0/5  import a.gltf"), std::string::npos) << bar;
+    EXPECT_NE(bar.rfind("\r\033[Kcooked"), std::string::npos) << "taken away before the last line: " << bar;
+    EXPECT_NE(cook({"malformed.gltf", "-o", "b.hearth", "--color", "always"}, {"NO_COLOR=1", "TMPDIR="})
+                  .err.find("malformed.gltf|/meshes/0: \033[1;31merror:\033[0m is bad"),
+              std::string::npos);
+}
+
+TEST_F(Cook, whatItTellsIsASetting)
+{
+    using Environment = std::vector<std::string>;
+    const auto err = [&](const Environment& environment, const std::vector<std::string>& flags = {})
+    {
+        std::vector<std::string> arguments{"warning.gltf", "-o", "a.hearth", "--no-cache"};
+        arguments.insert(arguments.end(), flags.begin(), flags.end());
+        const ProgramEnd end = cook(arguments, environment);
+        EXPECT_EQ(end.exit_code, 0) << end.err;
+        return end.err;
+    };
+    EXPECT_EQ(err({"HEARTH_LOG=quiet"}), "");
+    EXPECT_EQ(countOf(err({"HEARTH_LOG=quiet"}, {"-v"}), "noise"), 1u) << "the command line goes over it";
+    EXPECT_EQ(countOf(err({"HEARTH_LOG=verbose"}), "noise"), 1u);
+    EXPECT_EQ(err({"HEARTH_LOG=verbose"}, {"-q"}), "");
+    EXPECT_EQ(countOf(err({"HEARTH_PROGRESS=none"}), "import "), 0u);
+    EXPECT_EQ(countOf(err({"HEARTH_PROGRESS=none"}, {"--progress", "plain"}), "import "), 1u);
+    EXPECT_EQ(cook({"warning.gltf", "-o", "a.hearth"}, {"HEARTH_LOG=loud"}).exit_code, 78);
+
+    folder.write("hearth.toml", "[defaults]\nlog = 'quiet'\ncolor = 'always'\nprogress = 'none'\n");
+    EXPECT_EQ(err({}), "");
+    const std::string in_color = err({"HEARTH_LOG=normal"});
+    EXPECT_EQ(countOf(in_color, "\033[1;33mwarning:\033[0m"), 1u) << in_color;
+    EXPECT_EQ(countOf(in_color, "import "), 0u) << in_color;
+    EXPECT_EQ(err({"HEARTH_LOG=normal", "NO_COLOR=1"}).find('\033'), std::string::npos);
+    // of verbs, too, that need no other setting
+    EXPECT_NE(folder.run({programs / "hearth", "verify", "none"}, {}).err.find("\033[1;31merror:"),
+              std::string::npos);
+    folder.write("hearth.toml", "[defaults]\ncolour = 'always'\n");
+    EXPECT_EQ(folder.run({programs / "hearth", "verify", "a.hearth"}, {}).exit_code, 0)
+        << "a file that is wrong is told of by those that need it";
+}
+
+} // namespace hearth::test
