@@ -27,8 +27,8 @@ using Clock = std::chrono::steady_clock;
 constexpr size_t kMeshesOfRun = 12;
 
 // Packs larger than this are streamed, so that their report needs no more memory than their cook did. Pictures do not wait for
-// all pages then, and may be coarser than they would be. What is drawn without streaming is 512 MiB, decoded: four to five
-// times what a file has.
+// all pages then, and may be coarser than they would be. What is drawn without streaming is 512 MiB, decoded: three times
+// what the file of 84 million triangles has of it.
 constexpr uint64_t kLargePack = uint64_t{64} << 20;
 constexpr const char* kGeometryBudget = "512M";
 

@@ -66,8 +66,7 @@ done
 
 std::string withParts(std::string script, const std::string& parts)
 {
-    for (size_t at = script.find("PARTS"); at != std::string::npos; at = script.find("PARTS"))
-        script.replace(at, 5, parts);
+    replaceAll(script, "PARTS", parts);
     return script;
 }
 

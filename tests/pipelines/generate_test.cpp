@@ -9,6 +9,7 @@
 #include <numbers>
 #include <random>
 #include <set>
+#include <tbb/global_control.h>
 
 namespace hearth::import
 {
@@ -262,5 +263,28 @@ TEST(GenerateTangents, surviveRandomSoup)
 }
 
 } // namespace
+
+/// More triangles than are worked on at once, and vertices whose sums would show another order.
+TEST(GenerateTangents, andNormalsAreTheSameForAnyNumberOfThreads)
+{
+    std::mt19937 random(5);
+    std::uniform_real_distribution<float> bump(0.9f, 1.1f);
+    mesh::SourceMesh source = sphere(200, 180);
+    for (Float3& position : source.positions)
+        position = position * bump(random);
+    ASSERT_GT(source.triangleCount(), 65536u);
+    const auto run = [&](size_t threads)
+    {
+        const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+        mesh::SourceMesh mesh = source;
+        generateNormals(mesh, kPi);
+        generateTangents(mesh, 0);
+        return mesh;
+    };
+    const mesh::SourceMesh one = run(1), four = run(4);
+    EXPECT_TRUE(one.normals == four.normals);
+    EXPECT_TRUE(one.tangents == four.tangents);
+    EXPECT_TRUE(one.indices == four.indices);
+}
 
 } // namespace hearth::import
