@@ -16,7 +16,8 @@ if(programs)
   install(TARGETS ${programs} RUNTIME COMPONENT programs)
 endif()
 if(window_programs)
-  install(TARGETS ${window_programs} RUNTIME COMPONENT window)
+  # built on demand, so that it may not be there
+  install(TARGETS ${window_programs} RUNTIME COMPONENT window OPTIONAL)
 endif()
 if(programs)
   # what the command says of itself: see pipelines/command/CMakeLists.txt

@@ -6,6 +6,7 @@ option(HEARTH_BUILD_SAMPLES "Build hearth-samples, the generator of sample sourc
 option(HEARTH_BUILD_VIEWER "Build hearth-render" ${PROJECT_IS_TOP_LEVEL})
 option(HEARTH_BUILD_WINDOW "Build hearth-view, which needs HEARTH_BUILD_VIEWER, SDL2 and Dear ImGui" ${PROJECT_IS_TOP_LEVEL})
 option(HEARTH_INSTALL "Have rules to install and to package" ${PROJECT_IS_TOP_LEVEL})
+option(HEARTH_PRECOMPILE "Precompile standard headers" ${PROJECT_IS_TOP_LEVEL})
 option(HEARTH_HARDENED "Turn on the standard library's own checks" OFF)
 option(HEARTH_FUZZ "Build the libFuzzer targets (clang only)" OFF)
 set(HEARTH_SANITIZE "" CACHE STRING "Sanitizers to build with, as for -fsanitize")
@@ -17,14 +18,20 @@ endif()
 set(CMAKE_CXX_STANDARD 20)
 set(CMAKE_CXX_STANDARD_REQUIRED ON)
 set(CMAKE_CXX_EXTENSIONS OFF)
-set(CMAKE_POSITION_INDEPENDENT_CODE ON)
 set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
 set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/bin)
 
 find_program(HEARTH_CCACHE ccache)
 if(HEARTH_CCACHE)
-  set(CMAKE_CXX_COMPILER_LAUNCHER ${HEARTH_CCACHE})
+  # Sources that read precompiled headers are cached all the same: ccache compares the contents of these headers. They name
+  # the build folder, so they are never shared between build folders.
+  set(CMAKE_CXX_COMPILER_LAUNCHER env CCACHE_SLOPPINESS=pch_defines,time_macros CCACHE_BASEDIR= ${HEARTH_CCACHE})
   set(CMAKE_C_COMPILER_LAUNCHER ${HEARTH_CCACHE})
+  if(HEARTH_PRECOMPILE AND CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
+    add_compile_options("$<$<COMPILE_LANGUAGE:CXX>:SHELL:-Xclang -fno-pch-timestamp>")
+  elseif(HEARTH_PRECOMPILE)
+    add_compile_options($<$<COMPILE_LANGUAGE:CXX>:-fpch-preprocess>)
+  endif()
 endif()
 
 add_library(hearth_warnings INTERFACE)
@@ -38,7 +45,8 @@ endif()
 
 add_library(hearth_settings INTERFACE)
 # One result on every machine: no contraction into fused multiply-adds, no reassociation.
-target_compile_options(hearth_settings INTERFACE -ffp-contract=off -fvisibility=hidden
+# Position-independent and with threads everywhere, so that all share their precompiled headers.
+target_compile_options(hearth_settings INTERFACE -ffp-contract=off -fvisibility=hidden -fPIC -pthread
   $<$<COMPILE_LANGUAGE:CXX>:-fvisibility-inlines-hidden>)
 # GCC's vectoriser of straight-line code drops the rounding of double{float(x)} (seen with 12.2), so a bound that is
 # stored as float would be checked against a value that it does not have. tests/cook/bounds_test.cpp shows it.
@@ -68,3 +76,6 @@ find_program(HEARTH_MOLD mold)
 if(HEARTH_MOLD)
   target_link_options(hearth_settings INTERFACE -fuse-ld=mold)
 endif()
+
+# The code of tests runs once and is compiled often; the references that they share are libraries, and optimised as the rest.
+set(hearth_test_options $<$<CONFIG:Release>:-O1>)

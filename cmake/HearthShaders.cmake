@@ -29,7 +29,6 @@ function(hearth_shader_library name)
   string(APPEND embedded "} // namespace hearth::shaders\n")
   file(CONFIGURE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/embedded.cpp CONTENT "${embedded}" @ONLY)
 
-  hearth_library(${name} SOURCES ${CMAKE_CURRENT_BINARY_DIR}/embedded.cpp ${words_files})
+  hearth_library(${name} SOURCES ${CMAKE_CURRENT_BINARY_DIR}/embedded.cpp ${words_files} NO_EXCEPTIONS)
   target_include_directories(${name} PRIVATE ${CMAKE_CURRENT_BINARY_DIR})
-  target_compile_options(${name} PRIVATE -fno-exceptions)
 endfunction()

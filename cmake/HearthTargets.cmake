@@ -1,13 +1,24 @@
-# What one sanitizer runs can be built alone: the tests of a label, and for the unit tests all programs, which some of them start.
-add_custom_target(hearth_unit_tests)
-add_custom_target(hearth_threads_tests)
+# Targets that say what they are for; `cmake --build` without a target builds the product.
+add_custom_target(hearth_product ALL COMMENT "hearth, the cookers, hearth-samples, hearth-render, hearth-compare, the libraries")
+add_custom_target(hearth_demo COMMENT "The programs that ./dev demo runs")
+add_custom_target(hearth_tests COMMENT "All test programs, and the programs that they run")
+add_custom_target(hearth_unit_tests COMMENT "The tests that run under the address sanitizer, and the programs that they run")
+add_custom_target(hearth_threads_tests COMMENT "The tests that run under the thread sanitizer")
+add_custom_target(hearth_benches COMMENT "Benchmarks and measuring programs")
+add_dependencies(hearth_tests hearth_product)
 
-# hearth_library(NAME SOURCES ... LINKS ... PRIVATE_LINKS ...): a static library held to the house's warnings.
-# LINKS are the arrows of DESIGN; PRIVATE_LINKS are third-party libraries that stay inside the .cpp files.
+# hearth_library(NAME SOURCES ... LINKS ... PRIVATE_LINKS ... [NO_EXCEPTIONS]): a static library held to the project's warnings.
+# LINKS are the arrows of the architecture; PRIVATE_LINKS are third-party libraries that stay inside the .cpp files.
 function(hearth_library name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;LINKS;PRIVATE_LINKS" ${ARGN})
+  cmake_parse_arguments(ARG "NO_EXCEPTIONS" "" "SOURCES;LINKS;PRIVATE_LINKS" ${ARGN})
   add_library(${name} STATIC ${ARG_SOURCES})
   target_link_libraries(${name} PUBLIC hearth_settings ${ARG_LINKS} PRIVATE hearth_warnings ${ARG_PRIVATE_LINKS})
+  if(ARG_NO_EXCEPTIONS)
+    target_compile_options(${name} PRIVATE -fno-exceptions)
+    hearth_precompile(${name} hearth_precompiled_without_exceptions)
+  else()
+    hearth_precompile(${name} hearth_precompiled)
+  endif()
 endfunction()
 
 configure_file(${CMAKE_CURRENT_LIST_DIR}/program_version.cpp.in ${PROJECT_BINARY_DIR}/program_version.cpp @ONLY)
@@ -33,36 +44,16 @@ function(hearth_export name exports_as includes)
   set_property(GLOBAL APPEND PROPERTY HEARTH_EXPORTS ${name})
 endfunction()
 
-# hearth_executable(NAME SOURCES ... LINKS ...): a program in <build>/bin. Users get those that are called hearth-...,
-# unless they are of tests/.
+# hearth_executable(NAME SOURCES ... LINKS ... [ON_DEMAND]): a program in <build>/bin. Users get the programs called hearth-...,
+# unless they belong to tests/. ON_DEMAND: it is built when somebody names it, not with the product.
 function(hearth_executable name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;LINKS" ${ARGN})
+  cmake_parse_arguments(ARG "ON_DEMAND" "" "SOURCES;LINKS" ${ARGN})
   add_executable(${name} ${ARG_SOURCES} ${PROJECT_BINARY_DIR}/program_version.cpp)
+  set_target_properties(${name} PROPERTIES EXCLUDE_FROM_ALL ${ARG_ON_DEMAND})
   target_link_libraries(${name} PRIVATE hearth_settings hearth_warnings ${ARG_LINKS})
-  add_dependencies(hearth_unit_tests ${name})
+  hearth_precompile(${name} hearth_precompiled)
   file(RELATIVE_PATH folder ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_SOURCE_DIR})
   if(name MATCHES "^hearth(-[a-z0-9]+)*$" AND NOT folder MATCHES "^tests/")
     set_property(GLOBAL APPEND PROPERTY HEARTH_PROGRAMS ${name})
   endif()
-endfunction()
-
-# hearth_test(NAME SOURCES ... LINKS ... LABELS ... LAUNCHER ...): a GoogleTest program, registered as one ctest per program.
-# LAUNCHER is a command that runs it.
-function(hearth_test name)
-  cmake_parse_arguments(ARG "" "TIMEOUT" "SOURCES;LINKS;LABELS;LAUNCHER" ${ARGN})
-  add_executable(${name} ${ARG_SOURCES})
-  target_link_libraries(${name} PRIVATE hearth_settings hearth_warnings ${ARG_LINKS} GTest::gtest GTest::gmock GTest::gtest_main)
-  set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
-  add_test(NAME ${name} COMMAND ${ARG_LAUNCHER} $<TARGET_FILE:${name}>)
-  if(NOT ARG_TIMEOUT)
-    set(ARG_TIMEOUT 600)
-  endif()
-  # a test cooks what it tests, and leaves the cache of whoever runs it alone
-  set_tests_properties(${name} PROPERTIES ENVIRONMENT "HEARTH_CACHE=off")
-  set_tests_properties(${name} PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT ${ARG_TIMEOUT})
-  foreach(label unit threads)
-    if(label IN_LIST ARG_LABELS)
-      add_dependencies(hearth_${label}_tests ${name})
-    endif()
-  endforeach()
 endfunction()

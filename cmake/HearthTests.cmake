@@ -1,0 +1,56 @@
+# The tests: a few programs, and an entry of ctest for each subject.
+find_package(GTest 1.12 REQUIRED)
+
+hearth_precompiled_library(hearth_precompiled_tests
+  HEADERS ${hearth_precompiled_headers} <gtest/gtest.h>
+  LINKS GTest::gtest
+  OPTIONS ${hearth_test_options})
+
+# hearth_test(NAME SOURCES ... LINKS ... [LABELS ...] [RUNS ...] [DEFINITIONS ...] [LAUNCHER ...] [TIMEOUT SECONDS] [COST SECONDS]):
+# an entry of ctest that runs the tests of SOURCES. All entries of a folder with the same labels are linked into one program,
+# FOLDER_LABELS_tests in <build>/tests; each runs in a process of its own.
+#   RUNS      programs of the project that the test starts, from the folder HEARTH_BIN
+#   LAUNCHER  a command that runs the test program
+#   COST      about how long it takes, where that is long: ctest starts the longest first
+function(hearth_test name)
+  cmake_parse_arguments(ARG "" "TIMEOUT;COST" "SOURCES;LINKS;LABELS;RUNS;DEFINITIONS;LAUNCHER" ${ARGN})
+  file(RELATIVE_PATH folder ${PROJECT_SOURCE_DIR}/tests ${CMAKE_CURRENT_SOURCE_DIR})
+  set(words ${folder} ${ARG_LABELS})
+  list(REMOVE_DUPLICATES words)
+  string(REPLACE ";" "_" program "${words};tests")
+  if(NOT TARGET ${program})
+    hearth_test_program(${program})
+    foreach(label unit threads)
+      if(label IN_LIST ARG_LABELS)
+        add_dependencies(hearth_${label}_tests ${program})
+      endif()
+    endforeach()
+  endif()
+  target_sources(${program} PRIVATE ${ARG_SOURCES})
+  target_link_libraries(${program} PRIVATE ${ARG_LINKS})
+  target_compile_definitions(${program} PRIVATE ${ARG_DEFINITIONS})
+  if(ARG_RUNS)
+    add_dependencies(${program} ${ARG_RUNS})
+  endif()
+
+  list(TRANSFORM ARG_SOURCES REPLACE ".*/" "" OUTPUT_VARIABLE files)
+  list(JOIN files "," files)
+  add_test(NAME ${name} COMMAND ${ARG_LAUNCHER} $<TARGET_FILE:${program}> --sources=${files})
+  if(NOT ARG_TIMEOUT)
+    set(ARG_TIMEOUT 600)
+  endif()
+  # a test cooks what it tests, and leaves the cache of whoever runs it alone
+  set_tests_properties(${name} PROPERTIES
+    ENVIRONMENT "HEARTH_CACHE=off" LABELS "${ARG_LABELS}" TIMEOUT ${ARG_TIMEOUT} COST "${ARG_COST}")
+endfunction()
+
+# hearth_test_program(NAME): a GoogleTest program without tests.
+function(hearth_test_program name)
+  add_executable(${name} ${PROJECT_SOURCE_DIR}/tests/support/test_main.cpp)
+  target_link_libraries(${name} PRIVATE hearth_settings hearth_warnings GTest::gtest GTest::gmock)
+  target_compile_definitions(${name} PRIVATE HEARTH_BIN="${CMAKE_RUNTIME_OUTPUT_DIRECTORY}")
+  target_compile_options(${name} PRIVATE ${hearth_test_options})
+  hearth_precompile(${name} hearth_precompiled_tests)
+  set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests)
+  add_dependencies(hearth_tests ${name})
+endfunction()

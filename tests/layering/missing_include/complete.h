@@ -1,0 +1,7 @@
+// Includes what it uses, and comes before the other header of this folder.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include <vector>
+
+using Numbers = std::vector<int>;
