@@ -1,5 +1,5 @@
-// Command lines of programs: options bound to variables, subcommands, help and errors. The only door to CLI11, whose
-// header takes ten seconds to compile.
+// Command lines of programs: options bound to variables, subcommands, help and errors. Wraps CLI11, whose header takes
+// seven seconds to compile.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
