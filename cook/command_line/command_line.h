@@ -1,5 +1,5 @@
-// Command lines of programs: options bound to variables, subcommands, help and errors. Wraps CLI11, whose header takes
-// seven seconds to compile.
+// Command lines of programs: options bound to variables, subcommands, help and errors. Wraps CLI11, whose
+// header takes seven seconds to compile.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -71,9 +71,9 @@ struct ParseResult
     std::string fault;       ///< what is wrong; empty: nothing
 };
 
-/// The options of a program, or of one of its subcommands. Variables that options are bound to must live until the command
-/// line is parsed; an option that is not given leaves its variable as it is. `names` are "-o,--output", or one word without
-/// dashes, as "SOURCE", for what is given by its position.
+/// The options of a program, or of one of its subcommands. Variables that options are bound to must live until
+/// the command line is parsed; an option that is not given leaves its variable as it is. `names` are
+/// "-o,--output", or one word without dashes, as "SOURCE", for an argument that is given by its position.
 class CommandLine
 {
 public:
@@ -109,7 +109,8 @@ public:
     /// Add an option without a value.
     Option addFlag(const std::string& names, bool& is_given, const std::string& description);
     Option addFlag(const std::string& names, const std::string& description);
-    /// Add an option that may have a value, as "--fatal=W1"; of the names "--fatal{all}" it is "all" if none is given.
+    /// Add an option that may have a value, as "--fatal=W1"; with the names "--fatal{all}" the value is "all"
+    /// where none is given.
     Option addFlag(const std::string& names, std::string& value, const std::string& description);
 
     /// The subcommand lives as long as this.
@@ -121,7 +122,8 @@ public:
 
     /// Set the text below all options in help: examples and exit codes.
     void setFooter(const std::string& text);
-    /// Refuse command lines for which `fault`, called when all options have their values, returns what is wrong.
+    /// Refuse command lines for which `fault`, called when all options have their values, returns what is
+    /// wrong; it returns "" for all others.
     void setCheck(std::function<std::string()> fault);
     /// Call `action` at the end of parsing, of a subcommand where it is the one that was named.
     void setAction(std::function<void()> action);

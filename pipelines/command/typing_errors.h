@@ -10,8 +10,8 @@
 namespace hearth::command
 {
 
-/// returns  a message about the first of `words` that no verb or option is called, with the nearest that is; empty where
-///          all are known
+/// returns  a message about the first of `words` that no verb or option is called, with the nearest that is;
+///          empty where all are known
 std::string unknownWord(const cli::CommandInfo& hearth, const std::vector<std::string>& words);
 
 } // namespace hearth::command
