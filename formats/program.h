@@ -1,4 +1,4 @@
-// How a program of Hearth ends when something is thrown.
+// How a program of Hearth ends when something fails or is thrown.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -11,6 +11,14 @@
 namespace hearth
 {
 
+/// Print an error on stderr.
+/// returns  its exit code
+inline int reportFailure(const Error& error)
+{
+    std::fprintf(stderr, "%s\n", formatMessage(error).c_str());
+    return exitCode(error);
+}
+
 /// Return what `body` returns, its exit code. What it throws becomes a message and the exit code of that issue, where
 /// main() would abort: libraries throw, and so does memory that runs out.
 template <typename Body>
@@ -22,15 +30,11 @@ int runProgram(const char* name, const Body& body)
     }
     catch (const std::bad_alloc&)
     {
-        const Error error{Issue::out_of_memory, name, "", ""};
-        std::fprintf(stderr, "%s\n", formatMessage(error).c_str());
-        return exitCode(error);
+        return reportFailure({Issue::out_of_memory, name, "", ""});
     }
     catch (const std::exception& exception)
     {
-        const Error error{Issue::internal, name, "", exception.what()};
-        std::fprintf(stderr, "%s\n", formatMessage(error).c_str());
-        return exitCode(error);
+        return reportFailure({Issue::internal, name, "", exception.what()});
     }
 }
 

@@ -2,11 +2,10 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/bricks/bake.h"
 #include "cook/bricks/march_rows.h"
+#include "cook/command_line/command_line.h"
 #include "cook/tools/open_part.h"
 #include "cook/tools/whole_file.h"
 #include "formats/program.h"
-
-#include <CLI/CLI.hpp>
 
 #include <cstdio>
 #include <memory>
@@ -93,10 +92,7 @@ int run(const Arguments& arguments)
     const Status done = arguments.rays.empty()
                             ? cook(arguments)
                             : marchFile(arguments.inputs[0], arguments.rays, arguments.output);
-    if (done.ok())
-        return 0;
-    std::fprintf(stderr, "%s\n", formatMessage(done.error()).c_str());
-    return exitCode(done.error());
+    return done.ok() ? 0 : reportFailure(done.error());
 }
 
 Double3 point(const std::vector<double>& values)
@@ -104,91 +100,95 @@ Double3 point(const std::vector<double>& values)
     return {values[0], values[1], values[2]};
 }
 
-void addOptions(CLI::App& app, Arguments& arguments)
+/// Options that do not go together; empty where all is well.
+std::string faultOf(const Arguments& arguments)
 {
-    app.add_option("PARTS", arguments.inputs,
-                   "import, clusters and textures part of each source; with --march one pack or bricks part")
-        ->required();
-    app.add_option("-o,--output", arguments.output,
-                   "bricks part to write; with --march the CSV file, - is standard output")
-        ->required();
-    app.add_option(
+    if (!arguments.rays.empty() && arguments.inputs.size() != 1)
+        return "--march: one pack or bricks part is needed";
+    if (arguments.rays.empty() && arguments.inputs.size() % 3 != 0)
+        return "PARTS: three parts are needed for each source";
+    return "";
+}
+
+void fillSettings(Arguments& arguments, bool has_voxel_size)
+{
+    GridSettings& settings = arguments.settings;
+    if (has_voxel_size)
+        settings.voxel_size = arguments.voxel_size;
+    if (!arguments.min.empty())
+        settings.min = point(arguments.min);
+    if (!arguments.max.empty())
+        settings.max = point(arguments.max);
+    for (const std::vector<double>& seed : arguments.seeds)
+        settings.seeds.push_back(narrow(point(seed)));
+}
+
+void addOptions(cli::CommandLine& app, Arguments& arguments)
+{
+    app.addOption("PARTS", arguments.inputs,
+                  "import, clusters and textures part of each source; with --march one pack or bricks part")
+        .required();
+    app.addOption("-o,--output", arguments.output,
+                  "bricks part to write; with --march the CSV file, - is standard output")
+        .required();
+    const cli::Option voxel_size = app.addOption(
         "--voxel-size", arguments.voxel_size,
         "metres; by default about 512 voxels along the longest side, 0.1 m at least where that makes 64, and "
         "more where the memory asks for it");
-    const auto addPoint = [&](const char* name, std::vector<double>& values, const char* what)
-    { app.add_option(name, values, what)->delimiter(',')->expected(3)->type_name("X,Y,Z"); };
-    addPoint("--min", arguments.min,
-             "least corner of the grid, metres; by default around all that stands still");
-    addPoint("--max", arguments.max, "its greatest corner");
-    app.add_option_function<std::vector<double>>(
-           "--seed", [&arguments](const std::vector<double>& values) { arguments.seeds.push_back(values); },
-           "a place that is seen from, as cameras are: what is sealed off from all of them has no faces; may "
-           "be given again")
-        ->delimiter(',')
-        ->expected(3)
-        ->trigger_on_parse()
-        ->type_name("X,Y,Z");
-    app.add_option("--memory", arguments.settings.memory,
-                   "bytes that the grid may take on the GPU, 20971520 by default; farther bricks are dropped")
-        ->check(CLI::Range(uint64_t{1}, uint64_t{1} << 40).description(""))
-        ->type_name("BYTES");
-    app.add_option("--error", arguments.settings.error_share,
-                   "how far clusters may be off, in voxels; 0.25 by default, 0: the finest triangles")
-        ->check(CLI::Range(0.0, 16.0).description(""));
-    app.add_option(
-           "--bake", arguments.bounces,
-           "light the faces by the scene's lights with so many bounces, as the start value; else they "
-           "start dark, but for what shines")
-        ->check(CLI::Range(0, 64).description(""))
-        ->type_name("BOUNCES");
-    app.add_option("--stats", arguments.statistics,
-                   "write what became of the scene as JSON, and print the memory; - is standard output");
-    app.add_option("-j,--jobs", arguments.jobs, "threads to use; the result does not depend on it");
-    const auto of_cooking = {"--voxel-size", "--min",   "--max",   "--seed",
-                             "--memory",     "--error", "--stats", "--jobs"};
-    CLI::Option* march = app.add_option(
+    const auto addPoint = [&app](const char* name, auto& values, const char* what)
+    { return app.addOption(name, values, what).delimiter(',').expected(3).typeName("X,Y,Z"); };
+    const cli::Option min = addPoint(
+        "--min", arguments.min, "least corner of the grid, metres; by default around all that stands still");
+    const cli::Option max = addPoint("--max", arguments.max, "its greatest corner");
+    const cli::Option seed = addPoint(
+        "--seed", arguments.seeds,
+        "a place that is seen from, as cameras are: what is sealed off from all of them has no faces; may "
+        "be given again");
+    const cli::Option memory =
+        app.addOption(
+               "--memory", arguments.settings.memory,
+               "bytes that the grid may take on the GPU, 20971520 by default; farther bricks are dropped")
+            .range(uint64_t{1}, uint64_t{1} << 40, "BYTES");
+    const cli::Option error =
+        app.addOption("--error", arguments.settings.error_share,
+                      "how far clusters may be off, in voxels; 0.25 by default, 0: the finest triangles")
+            .range(0.0, 16.0, "FLOAT");
+    app.addOption("--bake", arguments.bounces,
+                  "light the faces by the scene's lights with so many bounces, as the start value; else they "
+                  "start dark, but for what shines")
+        .range(0, 64, "BOUNCES");
+    const cli::Option statistics =
+        app.addOption("--stats", arguments.statistics,
+                      "write what became of the scene as JSON, and print the memory; - is standard output");
+    const cli::Option jobs =
+        app.addOption("-j,--jobs", arguments.jobs, "threads to use; the result does not depend on it");
+    cli::Option march = app.addOption(
         "--march", arguments.rays,
         "CSV file of origin_x,origin_y,origin_z,direction_x,direction_y,direction_z in metres: write "
         "hit,x,y,z,face,t for each ray: 1, the first solid voxel, the face by which it is entered (none "
         "where the ray starts inside) and the distance in metres; 0,,,,, where it meets none");
-    for (const char* option : of_cooking)
-        march->excludes(app.get_option(option));
-    app.footer(
+    for (const cli::Option& option : {voxel_size, min, max, seed, memory, error, statistics, jobs})
+        march.excludes(option);
+    app.setFooter(
         "Examples:\n"
         "  hearth-bricks room.import.part room.clusters.part room.textures.part -o room.bricks.part\n"
         "  hearth-bricks village.hearth --march rays.csv -o hits.csv\n"
         "Exit codes: 0 done, 2 usage, 65 malformed input, 66 input missing, 70 internal, 73 cannot write, "
         "74 I/O");
+    app.setCheck([&arguments] { return faultOf(arguments); });
+    app.setAction([&arguments, voxel_size] { fillSettings(arguments, voxel_size.count() > 0); });
 }
 
 int program(int argc, char** argv)
 {
-    CLI::App app("Makes the bricks that light is marched through, of all that stands still; or marches rays "
-                 "through them.",
-                 "hearth-bricks");
+    cli::CommandLine app(
+        "Makes the bricks that light is marched through, of all that stands still; or marches "
+        "rays through them.",
+        "hearth-bricks");
     Arguments arguments;
     addOptions(app, arguments);
-    try
-    {
-        app.parse(argc, argv);
-        if (!arguments.rays.empty() && arguments.inputs.size() != 1)
-            throw CLI::ValidationError("--march", "one pack or bricks part is needed");
-        if (arguments.rays.empty() && arguments.inputs.size() % 3 != 0)
-            throw CLI::ValidationError("PARTS", "three parts are needed for each source");
-    }
-    catch (const CLI::ParseError& error)
-    {
-        return app.exit(error) == 0 ? 0 : 2;
-    }
-    if (app.count("--voxel-size") > 0)
-        arguments.settings.voxel_size = arguments.voxel_size;
-    if (!arguments.min.empty())
-        arguments.settings.min = point(arguments.min);
-    if (!arguments.max.empty())
-        arguments.settings.max = point(arguments.max);
-    for (const std::vector<double>& seed : arguments.seeds)
-        arguments.settings.seeds.push_back(narrow(point(seed)));
+    if (const std::optional<int> exit_code = app.parse(argc, argv))
+        return *exit_code;
     return run(arguments);
 }
 

@@ -5,11 +5,11 @@
 #include "cook/clusters/profile.h"
 #include "cook/clusters/source_part.h"
 #include "cook/clusters/statistics.h"
+#include "cook/command_line/command_line.h"
 #include "cook/tools/batch.h"
 #include "cook/tools/lines.h"
 #include "cook/tools/whole_file.h"
-
-#include <CLI/CLI.hpp>
+#include "formats/program.h"
 
 #include <cstdio>
 #include <fmt/format.h>
@@ -40,12 +40,6 @@ struct Arguments
     uint32_t debug_level = 0;
     std::string debug_output;
 };
-
-int fail(const Error& error)
-{
-    std::fprintf(stderr, "%s\n", formatMessage(error).c_str());
-    return exitCode(error);
-}
 
 void printWarning(const Arguments& arguments, std::string detail)
 {
@@ -162,65 +156,58 @@ int run(const Arguments& arguments)
                                                       arguments.jobs);
     const Result<clusters::Profile> profile = profileOf(arguments);
     if (!profile.ok())
-        return fail(profile.error());
+        return reportFailure(profile.error());
     const clusters::SourcePart source = clusters::openSourcePart(
         arguments.input, {arguments.lods, arguments.profile, arguments.settings}, arguments.output);
     if (!source.part)
         return source.exit_code;
     const Status status = cook(arguments, *profile, *source.part);
-    return status.ok() ? 0 : fail(status.error());
+    return status.ok() ? 0 : reportFailure(status.error());
 }
 
 int program(int argc, char** argv)
 {
-    CLI::App app("Builds the cluster hierarchy of every mesh and writes the clusters part.");
+    cli::CommandLine app("Builds the cluster hierarchy of every mesh and writes the clusters part.");
     Arguments arguments;
-    app.add_option("source", arguments.input, "import part, or any source that hearth-import reads")
-        ->required();
-    app.add_option("-o,--output", arguments.output, "clusters part to write")->required();
-    app.add_option(
+    app.addOption("source", arguments.input, "import part, or any source that hearth-import reads")
+        .required();
+    app.addOption("-o,--output", arguments.output, "clusters part to write").required();
+    app.addOption(
            "--lod", arguments.lods,
            "N=FILE: level of detail N of the source's only mesh, made by hand; not with an import part")
-        ->allow_extra_args(false);
-    app.add_option("-j,--jobs", arguments.jobs, "threads to use; the result does not depend on it");
-    auto* profile =
-        app.add_option("--profile", arguments.profile,
-                       "TOML file that says how far each level is simplified; see cook/clusters/README.md");
-    app.add_option("--set", arguments.settings, "KEY=VALUE: a line of a profile, as clusters.normal_bits=16")
-        ->allow_extra_args(false)
-        ->excludes(profile);
-    app.add_flag("--visibility", arguments.visibility,
-                 "give vertices with normals a visibility, open until hearth-visibility bakes it");
-    auto* statistics = app.add_option("--stats", arguments.statistics,
-                                      "write what became of each mesh as JSON; - is standard output");
-    app.add_flag("--stats-times", arguments.statistics_with_times,
-                 "add the seconds that each mesh took, which differ from run to run")
-        ->needs(statistics);
-    app.add_flag("--no-manual-lods", arguments.statistics_without_manual_lods,
-                 "leave out what levels by hand would take, which is a third of the time of small meshes")
-        ->needs(statistics);
-    auto* debug = app.add_option("--debug-output", arguments.debug_output,
-                                 "write the clusters of one level as .ply (coloured) or .obj (grouped)");
-    app.add_option("--debug-mesh", arguments.debug_mesh, "index of the mesh")
-        ->needs(debug)
-        ->capture_default_str();
-    app.add_option("--debug-level", arguments.debug_level, "its level; 0 is the source")
-        ->needs(debug)
-        ->capture_default_str();
-    app.footer(
+        .oneValueEach();
+    app.addOption("-j,--jobs", arguments.jobs, "threads to use; the result does not depend on it");
+    const cli::Option profile =
+        app.addOption("--profile", arguments.profile,
+                      "TOML file that says how far each level is simplified; see cook/clusters/README.md");
+    app.addOption("--set", arguments.settings, "KEY=VALUE: a line of a profile, as clusters.normal_bits=16")
+        .oneValueEach()
+        .excludes(profile);
+    app.addFlag("--visibility", arguments.visibility,
+                "give vertices with normals a visibility, open until hearth-visibility bakes it");
+    const cli::Option statistics = app.addOption(
+        "--stats", arguments.statistics, "write what became of each mesh as JSON; - is standard output");
+    app.addFlag("--stats-times", arguments.statistics_with_times,
+                "add the seconds that each mesh took, which differ from run to run")
+        .needs(statistics);
+    app.addFlag("--no-manual-lods", arguments.statistics_without_manual_lods,
+                "leave out what levels by hand would take, which is a third of the time of small meshes")
+        .needs(statistics);
+    const cli::Option debug =
+        app.addOption("--debug-output", arguments.debug_output,
+                      "write the clusters of one level as .ply (coloured) or .obj (grouped)");
+    app.addOption("--debug-mesh", arguments.debug_mesh, "index of the mesh").needs(debug).showDefault();
+    app.addOption("--debug-level", arguments.debug_level, "its level; 0 is the source")
+        .needs(debug)
+        .showDefault();
+    app.setFooter(
         "Examples:\n"
         "  hearth-clusters scene.import.part -o scene.clusters.part\n"
         "  hearth-clusters rock.glb -o rock.part --stats - --debug-level 3 --debug-output rock3.ply\n"
         "Exit codes: 0 done, 2 usage, 65 malformed input, 66 input missing, 70 internal, 73 cannot write, "
         "74 I/O, 78 wrong settings, 130 interrupted");
-    try
-    {
-        app.parse(argc, argv);
-    }
-    catch (const CLI::ParseError& error)
-    {
-        return app.exit(error) == 0 ? 0 : 2;
-    }
+    if (const std::optional<int> exit_code = app.parse(argc, argv))
+        return *exit_code;
     return run(arguments);
 }
 

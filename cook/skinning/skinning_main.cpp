@@ -1,11 +1,11 @@
 // hearth-skinning: reads an import part and its clusters part, and writes the skinning part.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/command_line/command_line.h"
 #include "cook/skinning/skinning_part.h"
 #include "cook/tools/batch.h"
 #include "cook/tools/open_part.h"
 #include "cook/tools/whole_file.h"
-
-#include <CLI/CLI.hpp>
+#include "formats/program.h"
 
 #include <cstdio>
 #include <memory>
@@ -49,35 +49,26 @@ int run(const Arguments& arguments)
         limit = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism,
                                                       arguments.jobs);
     const Status cooked = cook(arguments);
-    if (cooked.ok())
-        return 0;
-    std::fprintf(stderr, "%s\n", formatMessage(cooked.error()).c_str());
-    return exitCode(cooked.error());
+    return cooked.ok() ? 0 : reportFailure(cooked.error());
 }
 
 int program(int argc, char** argv)
 {
-    CLI::App app(
+    cli::CommandLine app(
         "Bounds meshes with skins and morph targets over all animations and writes the skinning part.");
     Arguments arguments;
-    app.add_option("import", arguments.import_part, "import part")->required();
-    app.add_option("clusters", arguments.clusters_part, "clusters part of the same source")->required();
-    app.add_option("-o,--output", arguments.output, "skinning part to write")->required();
-    app.add_option("-j,--jobs", arguments.jobs, "threads to use; the result does not depend on it");
-    app.add_option("--stats", arguments.statistics,
-                   "write what became of each mesh as JSON; - is standard output");
-    app.footer(
+    app.addOption("import", arguments.import_part, "import part").required();
+    app.addOption("clusters", arguments.clusters_part, "clusters part of the same source").required();
+    app.addOption("-o,--output", arguments.output, "skinning part to write").required();
+    app.addOption("-j,--jobs", arguments.jobs, "threads to use; the result does not depend on it");
+    app.addOption("--stats", arguments.statistics,
+                  "write what became of each mesh as JSON; - is standard output");
+    app.setFooter(
         "Example: hearth-skinning fox.import.part fox.clusters.part -o fox.skinning.part --stats -\n"
         "Exit codes: 0 done, 2 usage, 65 malformed input, 66 input missing, 70 internal, 73 cannot write, "
         "74 I/O");
-    try
-    {
-        app.parse(argc, argv);
-    }
-    catch (const CLI::ParseError& error)
-    {
-        return app.exit(error) == 0 ? 0 : 2;
-    }
+    if (const std::optional<int> exit_code = app.parse(argc, argv))
+        return *exit_code;
     return run(arguments);
 }
 

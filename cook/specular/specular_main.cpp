@@ -1,5 +1,6 @@
 // hearth-specular: cooks the table of specular occlusion, and measures it and the fit.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/command_line/command_line.h"
 #include "cook/specular/astc.h"
 #include "cook/specular/fit.h"
 #include "cook/specular/report.h"
@@ -7,8 +8,6 @@
 #include "cook/tools/whole_file.h"
 #include "formats/container_writer.h"
 #include "formats/program.h"
-
-#include <CLI/CLI.hpp>
 
 #include <chrono>
 #include <cstdio>
@@ -109,10 +108,7 @@ int run(const Arguments& arguments)
     const Status done = !arguments.rows.empty() ? evaluate(arguments)
                         : arguments.fit         ? printFit(arguments)
                                                 : cook(arguments);
-    if (done.ok())
-        return 0;
-    std::fprintf(stderr, "%s\n", formatMessage(done.error()).c_str());
-    return exitCode(done.error());
+    return done.ok() ? 0 : reportFailure(done.error());
 }
 
 /// What the options do not say about each other; empty where all is well.
@@ -132,46 +128,39 @@ std::string faultOf(const Arguments& arguments)
     return {};
 }
 
-void addOptions(CLI::App& app, Arguments& arguments)
+void addOptions(cli::CommandLine& app, Arguments& arguments)
 {
-    const std::map<std::string, Masking> maskings{{"separable", Masking::separable},
-                                                  {"correlated", Masking::correlated}};
-    const std::map<std::string, SpecularSpacing> spacings{{"cosine", SpecularSpacing::cosine},
-                                                          {"half-sine", SpecularSpacing::half_sine}};
-    app.add_option("-o,--output", arguments.output, "specular part to write; with --evaluate: the CSV file");
-    app.add_option("--masking", arguments.settings.masking,
-                   "Smith's masking-shadowing: separable or correlated (the default, as the runtime's BRDF)")
-        ->transform(CLI::CheckedTransformer(maskings).description(""))
-        ->type_name("NAME");
-    app.add_option(
+    app.addOption("-o,--output", arguments.output, "specular part to write; with --evaluate: the CSV file");
+    app.addChoice("--masking", arguments.settings.masking,
+                  {{"separable", Masking::separable}, {"correlated", Masking::correlated}},
+                  "Smith's masking-shadowing: separable or correlated (the default, as the runtime's BRDF)");
+    app.addOption(
         "--normal-lambda", arguments.settings.normal_lambda,
         "where the table assumes the normal: 0 halves the angle of reflection vector and axis, 1 is the "
         "axis; 0.4 by default");
-    app.add_option("--spacing", arguments.settings.spacing,
-                   "nodes between reflection vector and axis: cosine (the default) or half-sine")
-        ->transform(CLI::CheckedTransformer(spacings).description(""))
-        ->type_name("NAME");
-    auto* astc =
-        app.add_option("--astc", arguments.astc, "write the table as an .astc texture of 256 x 16, too");
-    app.add_option("--astc-block", arguments.astc_block,
-                   "texels of its blocks along both axes: 4, 6 (the default) or 8")
-        ->check(CLI::IsMember(kAstcBlocks).description(""))
-        ->type_name("N")
-        ->needs(astc);
-    app.add_option(
+    app.addChoice("--spacing", arguments.settings.spacing,
+                  {{"cosine", SpecularSpacing::cosine}, {"half-sine", SpecularSpacing::half_sine}},
+                  "nodes between reflection vector and axis: cosine (the default) or half-sine");
+    const cli::Option astc =
+        app.addOption("--astc", arguments.astc, "write the table as an .astc texture of 256 x 16, too");
+    app.addOption("--astc-block", arguments.astc_block,
+                  "texels of its blocks along both axes: 4, 6 (the default) or 8")
+        .choices(kAstcBlocks, "N")
+        .needs(astc);
+    app.addOption(
         "--report", arguments.report,
         "compare table, fit and what others do with the exact values: print it, and write JSON; - is "
         "standard output");
-    app.add_option(
+    app.addOption(
         "--evaluate", arguments.rows,
         "CSV file of aperture_rad,roughness,theta_o_rad,axis_x,axis_y,axis_z: write table,fit for each row");
-    app.add_flag("--fit", arguments.fit, "find the constants of the fit again and print them");
-    app.add_option("--configurations", arguments.configurations,
-                   "random ones, for --report and --fit; 1000 by default")
-        ->check(CLI::Range(10, 1000000).description(""));
-    app.add_option("--seed", arguments.seed, "of the random configurations");
-    app.add_option("-j,--jobs", arguments.jobs, "threads to use; the result does not depend on it");
-    app.footer(
+    app.addFlag("--fit", arguments.fit, "find the constants of the fit again and print them");
+    app.addOption("--configurations", arguments.configurations,
+                  "random ones, for --report and --fit; 1000 by default")
+        .range(10, 1000000, "UINT");
+    app.addOption("--seed", arguments.seed, "of the random configurations");
+    app.addOption("-j,--jobs", arguments.jobs, "threads to use; the result does not depend on it");
+    app.setFooter(
         "Example: hearth-specular -o specular.part --report specular.json\n"
         "Exit codes: 0 done, 2 usage, 65 malformed input, 66 input missing, 70 internal, 73 cannot write, "
         "74 I/O");
@@ -179,23 +168,14 @@ void addOptions(CLI::App& app, Arguments& arguments)
 
 int program(int argc, char** argv)
 {
-    CLI::App app(
+    cli::CommandLine app(
         "Cooks the table of specular occlusion: how much of a GGX lobe a visibility cone lets through.");
     Arguments arguments;
     addOptions(app, arguments);
-    try
-    {
-        app.parse(argc, argv);
-    }
-    catch (const CLI::ParseError& error)
-    {
-        return app.exit(error) == 0 ? 0 : 2;
-    }
+    if (const std::optional<int> exit_code = app.parse(argc, argv))
+        return *exit_code;
     if (const std::string fault = faultOf(arguments); !fault.empty())
-    {
-        std::fprintf(stderr, "%s\n", formatMessage({Issue::usage, "hearth-specular", "", fault}).c_str());
-        return 2;
-    }
+        return reportFailure({Issue::usage, "hearth-specular", "", fault});
     return run(arguments);
 }
 

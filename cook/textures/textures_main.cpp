@@ -1,10 +1,10 @@
 // hearth-textures: gives the images of an import part their mips.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/command_line/command_line.h"
 #include "cook/textures/texture_part.h"
 #include "cook/tools/batch.h"
 #include "cook/tools/whole_file.h"
-
-#include <CLI/CLI.hpp>
+#include "formats/program.h"
 
 #include <cstdio>
 #include <memory>
@@ -42,36 +42,27 @@ int run(const Arguments& arguments)
         limit = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism,
                                                       arguments.jobs);
     const Status written = cook(arguments);
-    if (written)
-        return 0;
-    std::fprintf(stderr, "%s\n", formatMessage(written.error()).c_str());
-    return exitCode(written.error());
+    return written.ok() ? 0 : reportFailure(written.error());
 }
 
 int program(int argc, char** argv)
 {
-    CLI::App app("Gives the images of an import part their mips and writes the textures part.");
+    cli::CommandLine app("Gives the images of an import part their mips and writes the textures part.");
     Arguments arguments;
-    app.add_option("part", arguments.input, "import part")->required();
-    app.add_option("-o,--output", arguments.output, "textures part to write")->required();
-    app.add_option("-j,--jobs", arguments.jobs, "threads to use; the result does not depend on it");
-    app.add_option("--max-size", arguments.max_size,
-                   "texels: the longer side of what is kept; finer mips are left out")
-        ->check(CLI::Range(1u, textures::kLargestSize).description(""));
-    app.add_option("--stats", arguments.statistics,
-                   "write what became of each image as JSON, its error measured; - is standard output");
-    app.footer(
+    app.addOption("part", arguments.input, "import part").required();
+    app.addOption("-o,--output", arguments.output, "textures part to write").required();
+    app.addOption("-j,--jobs", arguments.jobs, "threads to use; the result does not depend on it");
+    app.addOption("--max-size", arguments.max_size,
+                  "texels: the longer side of what is kept; finer mips are left out")
+        .range(1u, textures::kLargestSize, "UINT");
+    app.addOption("--stats", arguments.statistics,
+                  "write what became of each image as JSON, its error measured; - is standard output");
+    app.setFooter(
         "Example: hearth-textures scene.import.part -o scene.textures.part\n"
         "Exit codes: 0 done, 2 usage, 65 malformed input, 66 input missing, 70 internal, 73 cannot write, "
         "74 I/O");
-    try
-    {
-        app.parse(argc, argv);
-    }
-    catch (const CLI::ParseError& error)
-    {
-        return app.exit(error) == 0 ? 0 : 2;
-    }
+    if (const std::optional<int> exit_code = app.parse(argc, argv))
+        return *exit_code;
     return run(arguments);
 }
 

@@ -1,12 +1,12 @@
 // hearth-visibility: reads an import part and its clusters part, and writes the clusters part with what its vertices see.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/command_line/command_line.h"
 #include "cook/tools/batch.h"
 #include "cook/tools/open_part.h"
 #include "cook/tools/whole_file.h"
 #include "cook/visibility/occlusion_picture.h"
 #include "cook/visibility/visibility_part.h"
-
-#include <CLI/CLI.hpp>
+#include "formats/program.h"
 
 #include <chrono>
 #include <csignal>
@@ -164,76 +164,67 @@ int run(const Arguments& arguments)
     const Result<int> cooked = cook(arguments);
     if (cooked.ok())
         return *cooked;
-    std::fprintf(stderr, "%s\n", formatMessage(cooked.error()).c_str());
-    return exitCode(cooked.error());
+    return reportFailure(cooked.error());
 }
 
 int program(int argc, char** argv)
 {
-    CLI::App app(
+    cli::CommandLine app(
         "Bakes what each vertex sees of its surroundings, for all levels of detail, into the vertices "
         "of a clusters part that has room for it (hearth-clusters --visibility).");
     Arguments arguments;
-    app.add_option("import", arguments.import_part, "import part")->required();
-    app.add_option("clusters", arguments.clusters_part, "clusters part of the same source")->required();
-    app.add_option("-o,--output", arguments.output, "clusters part to write, with visibility")->required();
-    app.add_option("--quality", arguments.quality,
-                   "samples a vertex x rays a sample: draft 1 x 32, default 8 x 64, high 16 x 256")
-        ->check(CLI::IsMember({"draft", "default", "high"}).description(""))
-        ->type_name("NAME");
-    app.add_option("--samples-per-vertex", arguments.samples_per_vertex, "instead of the quality's")
-        ->check(CLI::Range(0.01, 65536.0).description(""));
-    app.add_option("--rays-per-sample", arguments.rays_per_sample,
-                   "instead of the quality's; a power of two is best")
-        ->check(CLI::Range(1, 65536).description(""));
-    app.add_option("--occluders", arguments.occluders,
-                   "what is in the way: scene (all instances, the default) or asset (each mesh alone)")
-        ->check(CLI::IsMember({"scene", "asset"}).description(""))
-        ->type_name("NAME");
-    auto* distance = app.add_option("--distance", arguments.distance,
-                                    "metres: what is farther away hides nothing; no limit by default")
-                         ->check(CLI::PositiveNumber.description(""));
-    app.add_option("--power", arguments.power,
-                   "visibility of what is t metres away is (t / distance)^power; 0, the default: nothing")
-        ->check(CLI::Range(0.0, 16.0).description(""))
-        ->needs(distance);
-    app.add_option("--poses", arguments.poses,
-                   "CLIP[@SECONDS,...]: deformed meshes are baked in these poses instead of the bind pose, "
-                   "four evenly "
-                   "over the clip where no times are given; several clips: once each")
-        ->allow_extra_args(false)
-        ->check(
+    app.addOption("import", arguments.import_part, "import part").required();
+    app.addOption("clusters", arguments.clusters_part, "clusters part of the same source").required();
+    app.addOption("-o,--output", arguments.output, "clusters part to write, with visibility").required();
+    app.addOption("--quality", arguments.quality,
+                  "samples a vertex x rays a sample: draft 1 x 32, default 8 x 64, high 16 x 256")
+        .choices({"draft", "default", "high"}, "NAME");
+    app.addOption("--samples-per-vertex", arguments.samples_per_vertex, "instead of the quality's")
+        .range(0.01, 65536.0, "FLOAT");
+    app.addOption("--rays-per-sample", arguments.rays_per_sample,
+                  "instead of the quality's; a power of two is best")
+        .range(1, 65536, "UINT");
+    app.addOption("--occluders", arguments.occluders,
+                  "what is in the way: scene (all instances, the default) or asset (each mesh alone)")
+        .choices({"scene", "asset"}, "NAME");
+    const cli::Option distance =
+        app.addOption("--distance", arguments.distance,
+                      "metres: what is farther away hides nothing; no limit by default")
+            .positive("FLOAT");
+    app.addOption("--power", arguments.power,
+                  "visibility of what is t metres away is (t / distance)^power; 0, the default: nothing")
+        .range(0.0, 16.0, "FLOAT")
+        .needs(distance);
+    app.addOption("--poses", arguments.poses,
+                  "CLIP[@SECONDS,...]: deformed meshes are baked in these poses instead of the bind pose, "
+                  "four evenly "
+                  "over the clip where no times are given; several clips: once each")
+        .oneValueEach()
+        .check(
             [](const std::string& text)
             {
                 return visibility::parseClipTimes(text)
                            ? ""
                            : "--poses: \"" + text + "\" has no list of seconds after its @";
-            },
-            "")
-        ->type_name("TEXT");
-    app.add_flag("--refine-cones", arguments.refine_cones,
-                 "fit cones to nine harmonics instead of four moments; --stats says what that gained");
-    app.add_option("-j,--jobs", arguments.jobs, "threads to use; the result does not depend on it");
-    auto* statistics =
-        app.add_option("--stats", arguments.statistics,
-                       "write what became of each mesh as JSON, its noise estimated; - is standard output");
-    app.add_flag("--no-noise-estimate", arguments.statistics_without_noise,
-                 "leave the noise out of --stats, which takes two fits more")
-        ->needs(statistics);
-    app.add_option("--picture", arguments.picture,
-                   "draw the scene's ambient occlusion into a PNG file of 640 x 480");
-    app.footer(
+            })
+        .typeName("TEXT");
+    app.addFlag("--refine-cones", arguments.refine_cones,
+                "fit cones to nine harmonics instead of four moments; --stats says what that gained");
+    app.addOption("-j,--jobs", arguments.jobs, "threads to use; the result does not depend on it");
+    const cli::Option statistics =
+        app.addOption("--stats", arguments.statistics,
+                      "write what became of each mesh as JSON, its noise estimated; - is standard output");
+    app.addFlag("--no-noise-estimate", arguments.statistics_without_noise,
+                "leave the noise out of --stats, which takes two fits more")
+        .needs(statistics);
+    app.addOption("--picture", arguments.picture,
+                  "draw the scene's ambient occlusion into a PNG file of 640 x 480");
+    app.setFooter(
         "Example: hearth-visibility room.import.part room.clusters.part -o room.visibility.part --stats -\n"
         "Exit codes: 0 done, 2 usage, 65 malformed input, 66 input missing, 70 internal, 73 cannot write, "
         "74 I/O, 130 interrupted");
-    try
-    {
-        app.parse(argc, argv);
-    }
-    catch (const CLI::ParseError& error)
-    {
-        return app.exit(error) == 0 ? 0 : 2;
-    }
+    if (const std::optional<int> exit_code = app.parse(argc, argv))
+        return *exit_code;
     return run(arguments);
 }
 

@@ -7,37 +7,28 @@
 #include "pipelines/command/verb_tools.h"
 #include "pipelines/command/verbs.h"
 
-#include <CLI/CLI.hpp>
-#include <algorithm>
-
 namespace
 {
 
 using namespace hearth;
 using namespace hearth::command;
 
-std::string helpOf(const CLI::App& app)
+/// Help of the command, whose footer has the exit codes, or of the verb that was named.
+std::string helpOf(const cli::CommandLine& app)
 {
-    const CLI::App* chosen = &app;
-    std::string before;
-    while (!chosen->get_subcommands().empty())
-    {
-        before += (before.empty() ? "" : " ") + chosen->get_name();
-        chosen = chosen->get_subcommands().front();
-    }
-    return chosen == &app ? app.help() : chosen->help(before) + "\n" + exitCodeTable();
+    return app.hasSubcommand() ? app.help() + "\n" + exitCodeTable() : app.help();
 }
 
 int program(int argc, char** argv)
 {
-    CLI::App app("Cook assets into packs that a phone can stream and draw.", "hearth");
+    cli::CommandLine app("Cook assets into packs that a phone can stream and draw.", "hearth");
     Work run;
-    app.require_subcommand(1);
-    app.footer("Examples:\n"
-               "  hearth cook house.glb -o house.hearth\n"
-               "  hearth inspect house.hearth\n"
-               "  hearth cook --help\n\n" +
-               exitCodeTable());
+    app.requireSubcommand();
+    app.setFooter("Examples:\n"
+                  "  hearth cook house.glb -o house.hearth\n"
+                  "  hearth inspect house.hearth\n"
+                  "  hearth cook --help\n\n" +
+                  exitCodeTable());
     addCook(app, run);
     addInspect(app, run);
     addDiff(app, run);
@@ -58,30 +49,20 @@ int program(int argc, char** argv)
     addCompletion(app, run);
     addVersion(app, run);
     addCommonOptions(app);
-    for (CLI::App* verb : app.get_subcommands(nullptr))
-        verb->fallthrough();
+    app.shareOptions();
 
     Result<std::vector<std::string>> words =
         withArgumentFiles(std::vector<std::string>(argv + 1, argv + argc));
     if (!words.ok())
         return fail(words.error());
-    const std::string unknown = unknownWord(app, *words);
+    const std::string unknown = unknownWord(app.info(), *words);
     if (!unknown.empty())
         return usageError(unknown);
-    try
-    {
-        // the last word is taken first
-        std::reverse(words->begin(), words->end());
-        app.parse(std::move(words).value());
-    }
-    catch (const CLI::CallForHelp&)
-    {
+    const cli::ParseResult parsed = app.parseWords(std::move(words).value());
+    if (parsed.wants_help)
         return printResult(helpOf(app));
-    }
-    catch (const CLI::ParseError& error)
-    {
-        return usageError(error.what());
-    }
+    if (!parsed.fault.empty())
+        return usageError(parsed.fault);
     const Status applied = applyCommonOptions();
     return applied.ok() ? run() : fail(applied.error());
 }

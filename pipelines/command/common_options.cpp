@@ -6,7 +6,6 @@
 #include "pipelines/command/setting_options.h"
 #include "pipelines/command/terminal.h"
 
-#include <CLI/CLI.hpp>
 #include <sstream>
 #include <unistd.h>
 
@@ -47,17 +46,15 @@ ColorWish colorWish()
 
 } // namespace
 
-void addCommonOptions(CLI::App& app)
+void addCommonOptions(cli::CommandLine& app)
 {
-    app.add_option("-C,--directory", common().directory, "work as if started in this folder")
-        ->type_name("DIR");
-    app.add_option("--config", common().config_file,
-                   "file of settings, instead of hearth.toml here or above; off: none")
-        ->type_name("FILE");
+    app.addOption("-C,--directory", common().directory, "work as if started in this folder").typeName("DIR");
+    app.addOption("--config", common().config_file,
+                  "file of settings, instead of hearth.toml here or above; off: none")
+        .typeName("FILE");
     common().settings.addOfCommand(app, {"color"});
-    app.add_option("--log-format", common().log_format, "of messages; json: an object a line")
-        ->check(CLI::IsMember({"text", "json"}).description(""))
-        ->type_name("text|json");
+    app.addOption("--log-format", common().log_format, "of messages; json: an object a line")
+        .choices({"text", "json"}, "text|json");
 }
 
 Status applyCommonOptions()

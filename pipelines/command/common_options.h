@@ -2,22 +2,18 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
+#include "cook/command_line/command_line.h"
 #include "pipelines/cache/open_cache.h"
 #include "pipelines/profiles/configuration.h"
 
 #include <string>
 #include <vector>
 
-namespace CLI
-{
-class App;
-} // namespace CLI
-
 namespace hearth::command
 {
 
 /// Add them to the command; its verbs take them, too.
-void addCommonOptions(CLI::App& app);
+void addCommonOptions(cli::CommandLine& app);
 
 /// Do what they say, before the verb does its work. errors: input_missing where there is no folder of -C.
 Status applyCommonOptions();

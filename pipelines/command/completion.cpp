@@ -11,21 +11,21 @@ namespace hearth::command
 namespace
 {
 
-std::vector<OptionEntry> optionsOf(const VerbEntry& verb, const CommandTable& table)
+std::vector<cli::OptionInfo> optionsOf(const cli::CommandInfo& verb, const cli::CommandInfo& hearth)
 {
-    std::vector<OptionEntry> options = verb.options;
-    for (const OptionEntry& common : table.command.options)
+    std::vector<cli::OptionInfo> options = verb.options;
+    for (const cli::OptionInfo& common : hearth.options)
         if (std::none_of(options.begin(), options.end(),
-                         [&](const OptionEntry& option)
+                         [&](const cli::OptionInfo& option)
                          { return option.names.back() == common.names.back(); }))
             options.push_back(common);
     return options;
 }
 
-std::string namesOf(const std::vector<OptionEntry>& options)
+std::string namesOf(const std::vector<cli::OptionInfo>& options)
 {
     std::vector<std::string> names;
-    for (const OptionEntry& option : options)
+    for (const cli::OptionInfo& option : options)
         names.insert(names.end(), option.names.begin(), option.names.end());
     return fmt::format("{}", fmt::join(names, " "));
 }
@@ -39,7 +39,7 @@ std::string singleQuoted(std::string text)
 }
 
 /// The words that the first positional may have, where it is a choice.
-std::vector<std::string> firstChoices(const VerbEntry& verb)
+std::vector<std::string> firstChoices(const cli::CommandInfo& verb)
 {
     return verb.positionals.empty() ? std::vector<std::string>() : verb.positionals.front().choices;
 }
@@ -57,30 +57,30 @@ std::string zshText(const std::string& text)
     return plain;
 }
 
-std::string zshOption(const OptionEntry& option, const std::string& name)
+std::string zshOption(const cli::OptionInfo& option, const std::string& name)
 {
     const std::string action =
         option.choices.empty() ? std::string("_files") : fmt::format("({})", fmt::join(option.choices, " "));
     return singleQuoted(fmt::format(
-        "*{}[{}]{}", name, zshText(option.what),
+        "*{}[{}]{}", name, zshText(option.description),
         option.value.empty() ? std::string() : fmt::format(":{}:{}", zshText(option.value), action)));
 }
 
 } // namespace
 
-std::string bashCompletion(const CommandTable& table)
+std::string bashCompletion(const cli::CommandInfo& hearth)
 {
     std::string verbs;
     std::string cases;
     std::string values;
-    for (const VerbEntry& verb : table.verbs)
+    for (const cli::CommandInfo& verb : hearth.subcommands)
     {
         verbs += (verbs.empty() ? "" : " ") + verb.name;
-        const std::vector<OptionEntry> options = optionsOf(verb, table);
+        const std::vector<cli::OptionInfo> options = optionsOf(verb, hearth);
         cases += fmt::format("    {})\n      options={}\n      words={}\n      ;;\n", verb.name,
                              singleQuoted(namesOf(options)),
                              singleQuoted(fmt::format("{}", fmt::join(firstChoices(verb), " "))));
-        for (const OptionEntry& option : options)
+        for (const cli::OptionInfo& option : options)
             if (!option.value.empty())
                 for (const std::string& name : option.names)
                     values +=
@@ -121,18 +121,18 @@ _hearth()
 }}
 complete -F _hearth hearth
 )",
-        singleQuoted(verbs), singleQuoted(namesOf(table.command.options)), cases, values);
+        singleQuoted(verbs), singleQuoted(namesOf(hearth.options)), cases, values);
 }
 
-std::string zshCompletion(const CommandTable& table)
+std::string zshCompletion(const cli::CommandInfo& hearth)
 {
     std::string verbs;
     std::string cases;
-    for (const VerbEntry& verb : table.verbs)
+    for (const cli::CommandInfo& verb : hearth.subcommands)
     {
-        verbs += "    " + singleQuoted(verb.name + ":" + zshText(verb.what)) + "\n";
+        verbs += "    " + singleQuoted(verb.name + ":" + zshText(verb.description)) + "\n";
         cases += fmt::format("  {})\n    _arguments", verb.name);
-        for (const OptionEntry& option : optionsOf(verb, table))
+        for (const cli::OptionInfo& option : optionsOf(verb, hearth))
             for (const std::string& name : option.names)
                 cases += " \\\n      " + zshOption(option, name);
         const std::vector<std::string> choices = firstChoices(verb);
@@ -165,12 +165,12 @@ _hearth "$@"
                        verbs, cases);
 }
 
-std::string fishCompletion(const CommandTable& table)
+std::string fishCompletion(const cli::CommandInfo& hearth)
 {
     std::string text = "# fish completion for hearth: put it into ~/.config/fish/completions/hearth.fish\n";
-    const auto addOptions = [&](const std::vector<OptionEntry>& options, const std::string& condition)
+    const auto addOptions = [&](const std::vector<cli::OptionInfo>& options, const std::string& condition)
     {
-        for (const OptionEntry& option : options)
+        for (const cli::OptionInfo& option : options)
         {
             text += "complete -c hearth" + condition;
             for (const std::string& name : option.names)
@@ -179,14 +179,14 @@ std::string fishCompletion(const CommandTable& table)
                 text += option.choices.empty()
                             ? " -r"
                             : " -x -a " + singleQuoted(fmt::format("{}", fmt::join(option.choices, " ")));
-            text += " -d " + singleQuoted(option.what) + "\n";
+            text += " -d " + singleQuoted(option.description) + "\n";
         }
     };
-    for (const VerbEntry& verb : table.verbs)
+    for (const cli::CommandInfo& verb : hearth.subcommands)
         text += fmt::format("complete -c hearth -f -n __fish_use_subcommand -a {} -d {}\n", verb.name,
-                            singleQuoted(verb.what));
-    addOptions(table.command.options, "");
-    for (const VerbEntry& verb : table.verbs)
+                            singleQuoted(verb.description));
+    addOptions(hearth.options, "");
+    for (const cli::CommandInfo& verb : hearth.subcommands)
     {
         const std::string condition = fmt::format(" -n '__fish_seen_subcommand_from {}'", verb.name);
         addOptions(verb.options, condition);

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include "pipelines/command/command_table.h"
+#include "cook/command_line/command_info.h"
 
 #include <string>
 
@@ -10,8 +10,8 @@ namespace hearth::command
 {
 
 /// A script for bash, zsh or fish: verbs, options, the words that an option may have, and files where it has none.
-std::string bashCompletion(const CommandTable& table);
-std::string zshCompletion(const CommandTable& table);
-std::string fishCompletion(const CommandTable& table);
+std::string bashCompletion(const cli::CommandInfo& hearth);
+std::string zshCompletion(const cli::CommandInfo& hearth);
+std::string fishCompletion(const cli::CommandInfo& hearth);
 
 } // namespace hearth::command

@@ -71,7 +71,7 @@ std::string head(const std::string& name, int section, const std::string& what)
                        title, section, plain(name), plain(what));
 }
 
-std::string optionText(const OptionEntry& option)
+std::string optionText(const cli::OptionInfo& option)
 {
     std::string text = ".TP\n";
     for (size_t i = 0; i < option.names.size(); ++i)
@@ -84,32 +84,32 @@ std::string optionText(const OptionEntry& option)
     }
     else if (!option.value.empty())
         text += " " + italic(option.value);
-    return text + "\n" + plain(option.what) + ".\n";
+    return text + "\n" + plain(option.description) + ".\n";
 }
 
-std::string synopsis(const VerbEntry& verb)
+std::string synopsis(const cli::CommandInfo& verb)
 {
     std::string text = ".SH SYNOPSIS\n" + bold("hearth " + verb.name) + " [" + italic("OPTIONS") + "]";
-    for (const OptionEntry& positional : verb.positionals)
+    for (const cli::OptionInfo& positional : verb.positionals)
     {
         const std::string name = italic(positional.names.front()) + (positional.may_repeat ? " ..." : "");
         text += positional.is_required ? " " + name : " [" + name + "]";
     }
-    for (const OptionEntry& option : verb.options)
+    for (const cli::OptionInfo& option : verb.options)
         if (option.is_required)
             text += " " + bold(option.names.front()) + " " + italic(option.value);
     return text + "\n";
 }
 
-ManualPage pageOf(const VerbEntry& verb)
+ManualPage pageOf(const cli::CommandInfo& verb)
 {
-    std::string text = head("hearth-" + verb.name, 1, verb.what) + synopsis(verb);
+    std::string text = head("hearth-" + verb.name, 1, verb.description) + synopsis(verb);
     if (!verb.positionals.empty())
         text += ".SH ARGUMENTS\n";
-    for (const OptionEntry& positional : verb.positionals)
+    for (const cli::OptionInfo& positional : verb.positionals)
         text += optionText(positional);
     text += ".SH OPTIONS\n";
-    for (const OptionEntry& option : verb.options)
+    for (const cli::OptionInfo& option : verb.options)
         text += optionText(option);
     if (!verb.footer.empty())
         text += ".SH EXAMPLES\n" + block(verb.footer);
@@ -118,19 +118,19 @@ ManualPage pageOf(const VerbEntry& verb)
     return {"hearth-" + verb.name + ".1", text};
 }
 
-ManualPage commandPage(const CommandTable& table)
+ManualPage commandPage(const cli::CommandInfo& hearth)
 {
     std::string text = head("hearth", 1, "cook assets into packs that a phone can stream and draw");
     text += ".SH SYNOPSIS\n" + bold("hearth") + " [" + italic("OPTIONS") + "] " + italic("VERB") + " ...\n";
     text += ".SH DESCRIPTION\nTurns glTF scenes and scans into one packed file, and looks into such files. "
             "Results go to standard output,\nmessages to standard error, each in one line with a number that "
             "\\fBhearth explain\\fR knows.\n.SH VERBS\n";
-    for (const VerbEntry& verb : table.verbs)
-        text += ".TP\n" + fmt::format("\\fB{}\\fR", plain(verb.name)) + "\n" + plain(verb.what) + ".\nSee " +
-                bold("hearth-" + verb.name) + "(1).\n";
+    for (const cli::CommandInfo& verb : hearth.subcommands)
+        text += ".TP\n" + fmt::format("\\fB{}\\fR", plain(verb.name)) + "\n" + plain(verb.description) +
+                ".\nSee " + bold("hearth-" + verb.name) + "(1).\n";
     text += ".SH OPTIONS\nEvery verb takes these. A word " + bold("@") + italic("FILE") +
             " stands for the lines of that file.\n";
-    for (const OptionEntry& option : table.command.options)
+    for (const cli::OptionInfo& option : hearth.options)
         text += optionText(option);
     text += ".SH ENVIRONMENT\n";
     for (const Setting& setting : profiles::commandSettings())
@@ -206,10 +206,10 @@ ManualPage configPage()
 
 } // namespace
 
-std::vector<ManualPage> manualPages(const CommandTable& table)
+std::vector<ManualPage> manualPages(const cli::CommandInfo& hearth)
 {
-    std::vector<ManualPage> pages{commandPage(table)};
-    for (const VerbEntry& verb : table.verbs)
+    std::vector<ManualPage> pages{commandPage(hearth)};
+    for (const cli::CommandInfo& verb : hearth.subcommands)
         pages.push_back(pageOf(verb));
     pages.push_back(configPage());
     return pages;

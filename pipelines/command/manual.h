@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
+#include "cook/command_line/command_info.h"
 #include "formats/result.h"
-#include "pipelines/command/command_table.h"
 
 #include <string>
 #include <utility>
@@ -19,6 +19,6 @@ struct ManualPage
 };
 
 /// hearth(1), a page for each verb, hearth.toml(5).
-std::vector<ManualPage> manualPages(const CommandTable& table);
+std::vector<ManualPage> manualPages(const cli::CommandInfo& hearth);
 
 } // namespace hearth::command

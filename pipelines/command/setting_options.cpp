@@ -6,7 +6,6 @@
 #include "pipelines/command/verb_tools.h"
 #include "pipelines/profiles/told.h"
 
-#include <CLI/CLI.hpp>
 #include <charconv>
 
 namespace hearth::command
@@ -82,50 +81,46 @@ farm::Assignments assignmentsOf(const profiles::Values& values, profiles::Scope 
 
 } // namespace
 
-SettingOptions::Entry& SettingOptions::add(CLI::App& verb, const Setting& setting)
+void SettingOptions::add(cli::CommandLine& verb, const Setting& setting)
 {
     Entry& entry = entries_[setting.key];
     entry.setting = &setting;
     const std::string names(setting.option);
-    CLI::Option* option = nullptr;
     if (setting.kind == Kind::flag)
-        option = verb.add_flag(names, entry.flag, describe(setting));
+        entry.option = verb.addFlag(names, entry.flag, describe(setting));
     else if (setting.kind == Kind::texts)
-        option = verb.add_option(names, entry.words, describe(setting))->allow_extra_args(false);
+        entry.option = verb.addOption(names, entry.words, describe(setting)).oneValueEach();
     else
-        option = verb.add_option(names, entry.word, describe(setting))
-                     ->check(CLI::Validator(
-                         [&setting](const std::string& text) { return fault(setting, text); }, ""));
+        entry.option = verb.addOption(names, entry.word, describe(setting))
+                           .check([&setting](const std::string& text) { return fault(setting, text); });
     if (setting.kind == Kind::choice)
-        option->type_name(CLI::detail::join(setting.choices, "|"));
+        entry.option->typeName(joined({setting.choices.begin(), setting.choices.end()}, "|"));
     else if (setting.kind != Kind::flag)
-        option->type_name(std::string(setting.value_name));
-    entry.option = option;
-    return entry;
+        entry.option->typeName(std::string(setting.value_name));
 }
 
-void SettingOptions::addOfCommand(CLI::App& verb, const std::vector<std::string>& keys)
+void SettingOptions::addOfCommand(cli::CommandLine& verb, const std::vector<std::string>& keys)
 {
     for (const std::string& key : keys)
         add(verb, *profiles::findSetting(profiles::commandSettings(), key));
 }
 
-void SettingOptions::addLog(CLI::App& verb, const std::string& all)
+void SettingOptions::addLog(cli::CommandLine& verb, const std::string& all)
 {
-    auto* quiet = verb.add_flag("-q,--quiet", is_quiet_, "print errors only");
+    const cli::Option quiet = verb.addFlag("-q,--quiet", is_quiet_, "print errors only");
     if (!all.empty())
-        verb.add_flag("-v,--verbose", is_verbose_, all)->excludes(quiet);
+        verb.addFlag("-v,--verbose", is_verbose_, all).excludes(quiet);
 }
 
-void SettingOptions::addOfProfiles(CLI::App& verb)
+void SettingOptions::addOfProfiles(cli::CommandLine& verb)
 {
     for (const Setting& setting : profiles::profileSettings())
         if (!setting.option.empty())
             add(verb, setting);
-    verb.add_option("--set", assignments_,
-                    "any setting of a profile, as clusters.influences=4; see hearth config")
-        ->allow_extra_args(false)
-        ->type_name("KEY=VALUE");
+    verb.addOption("--set", assignments_,
+                   "any setting of a profile, as clusters.influences=4; see hearth config")
+        .oneValueEach()
+        .typeName("KEY=VALUE");
 }
 
 Result<Value> SettingOptions::valueOf(const Entry& entry)

@@ -2,20 +2,16 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
+#include "cook/command_line/command_line.h"
 #include "pipelines/command/cook.h"
 #include "pipelines/command/verbs.h"
 #include "pipelines/farm/request.h"
 #include "pipelines/profiles/configuration.h"
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
-
-namespace CLI
-{
-class App;
-class Option;
-} // namespace CLI
 
 namespace hearth::command
 {
@@ -26,11 +22,11 @@ public:
     // It lives as long as the verb.
 
     /// Add those of the command's settings with these keys.
-    void addOfCommand(CLI::App& verb, const std::vector<std::string>& keys);
+    void addOfCommand(cli::CommandLine& verb, const std::vector<std::string>& keys);
     /// Add -q, and -v where `all` says what that prints: the command's setting "log".
-    void addLog(CLI::App& verb, const std::string& all);
+    void addLog(cli::CommandLine& verb, const std::string& all);
     /// Add those of the settings of profiles, and --set.
-    void addOfProfiles(CLI::App& verb);
+    void addOfProfiles(cli::CommandLine& verb);
 
     /// What the command line says. errors: usage.
     Result<profiles::Given> given() const;
@@ -41,12 +37,12 @@ private:
     struct Entry
     {
         const profiles::Setting* setting = nullptr;
-        const CLI::Option* option = nullptr;
+        std::optional<cli::Option> option;
         bool flag = false;
         std::string word;
         std::vector<std::string> words;
     };
-    Entry& add(CLI::App& verb, const profiles::Setting& setting);
+    void add(cli::CommandLine& verb, const profiles::Setting& setting);
     static Result<profiles::Value> valueOf(const Entry& entry);
 
     // not moved while the command line refers to them

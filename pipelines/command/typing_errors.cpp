@@ -3,20 +3,55 @@
 
 #include "cook/tools/suggest.h"
 
-#include <CLI/CLI.hpp>
+#include <algorithm>
 #include <utility>
 
 namespace hearth::command
 {
 
-std::string unknownWord(const CLI::App& app, const std::vector<std::string>& words)
+namespace
 {
-    const auto describe = [](const std::string& kind, const std::string& word, const std::string& nearest)
-    {
-        return "unknown " + kind + " '" + word + "'" +
-               (nearest.empty() ? std::string() : ": did you mean '" + nearest + "'?");
-    };
-    const CLI::App* verb = &app;
+
+std::string describe(const std::string& kind, const std::string& word, const std::string& nearest)
+{
+    return "unknown " + kind + " '" + word + "'" +
+           (nearest.empty() ? std::string() : ": did you mean '" + nearest + "'?");
+}
+
+/// returns  null where there is none
+const cli::OptionInfo* findOption(const cli::CommandInfo& command, const std::string& name)
+{
+    const auto has_name = [&](const cli::OptionInfo& option)
+    { return std::find(option.names.begin(), option.names.end(), name) != option.names.end(); };
+    const auto found = std::find_if(command.options.begin(), command.options.end(), has_name);
+    return found == command.options.end() ? nullptr : &*found;
+}
+
+std::string unknownOption(const cli::CommandInfo& hearth, const cli::CommandInfo& verb,
+                          const std::string& name)
+{
+    std::vector<std::string> names;
+    for (const cli::CommandInfo* known : {&verb, &hearth})
+        for (const cli::OptionInfo& option : known->options)
+            for (const std::string& known_name : option.names)
+                if (known_name.starts_with("--"))
+                    names.push_back(known_name);
+    return describe("option", name, tools::nearestMatch(name, names));
+}
+
+std::string unknownVerb(const cli::CommandInfo& command, const std::string& word)
+{
+    std::vector<std::string> names;
+    for (const cli::CommandInfo& known : command.subcommands)
+        names.push_back(known.name);
+    return describe("verb", word, tools::nearestMatch(word, names));
+}
+
+} // namespace
+
+std::string unknownWord(const cli::CommandInfo& hearth, const std::vector<std::string>& words)
+{
+    const cli::CommandInfo* verb = &hearth;
     bool is_value = false; // of an option that stands before the verb
     for (const std::string& word : words)
     {
@@ -30,33 +65,20 @@ std::string unknownWord(const CLI::App& app, const std::vector<std::string>& wor
             const std::string name = word.substr(0, word.find('='));
             // -j4 and -qv are short options with more in the same word
             const std::string shortened = name[1] == '-' ? name : name.substr(0, 2);
-            const CLI::Option* common = app.get_option_no_throw(shortened);
-            is_value = verb == &app && common != nullptr && common->get_items_expected_max() > 0 &&
-                       word == shortened;
-            if (common != nullptr || verb->get_option_no_throw(shortened) != nullptr)
-                continue;
-            std::vector<std::string> names;
-            for (const CLI::App* known : {verb, &app})
-                for (const CLI::Option* option : known->get_options())
-                    for (const std::string& long_name : option->get_lnames())
-                        names.push_back("--" + long_name);
-            return describe("option", name, tools::nearestMatch(name, names));
+            const cli::OptionInfo* common = findOption(hearth, shortened);
+            if (common == nullptr && findOption(*verb, shortened) == nullptr)
+                return unknownOption(hearth, *verb, name);
+            is_value = verb == &hearth && !common->value.empty() && word == shortened;
+            continue;
         }
         // a verb may have verbs of its own
-        const std::vector<const CLI::App*> known_verbs = verb->get_subcommands(nullptr);
-        if (known_verbs.empty())
+        if (verb->subcommands.empty())
             continue;
-        std::vector<std::string> names;
-        const CLI::App* chosen = nullptr;
-        for (const CLI::App* known : known_verbs)
-        {
-            names.push_back(known->get_name());
-            if (known->get_name() == word)
-                chosen = known;
-        }
-        if (chosen == nullptr)
-            return describe("verb", word, tools::nearestMatch(word, names));
-        verb = chosen;
+        const auto chosen = std::find_if(verb->subcommands.begin(), verb->subcommands.end(),
+                                         [&](const cli::CommandInfo& known) { return known.name == word; });
+        if (chosen == verb->subcommands.end())
+            return unknownVerb(*verb, word);
+        verb = &*chosen;
     }
     return "";
 }

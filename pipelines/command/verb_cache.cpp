@@ -5,8 +5,6 @@
 #include "pipelines/command/verb_tools.h"
 #include "pipelines/command/verbs.h"
 
-#include <CLI/CLI.hpp>
-
 namespace hearth::command
 {
 
@@ -32,9 +30,9 @@ int lookAfter(const std::vector<cache::LevelSpec>& caches, const std::string& wo
 
 } // namespace
 
-void addCache(CLI::App& app, Work& run)
+void addCache(cli::CommandLine& app, Work& run)
 {
-    CLI::App* verb = app.add_subcommand("cache", "Look after the cache of results");
+    cli::CommandLine& verb = app.addSubcommand("cache", "Look after the cache of results");
     struct Options
     {
         std::string work;
@@ -42,20 +40,19 @@ void addCache(CLI::App& app, Work& run)
         std::string limit;
     };
     auto options = std::make_shared<Options>();
-    verb->add_option(
+    verb.addOption(
             "WORK", options->work,
             "stat: how full it is; gc: remove what was used least; verify: read every byte and remove what "
             "is damaged")
-        ->required()
-        ->check(CLI::IsMember({"stat", "gc", "verify"}));
-    options->settings.addOfCommand(*verb, {"cache"});
-    verb->add_option("--max-size", options->limit,
-                     "gc: how much may stay, as 5G; the cache's limit by default")
-        ->check(CLI::Validator(sizeFault, ""));
-    verb->footer("Examples:\n"
-                 "  hearth cache stat\n"
-                 "  hearth cache gc --max-size 5G");
-    verb->callback(
+        .required()
+        .choices({"stat", "gc", "verify"});
+    options->settings.addOfCommand(verb, {"cache"});
+    verb.addOption("--max-size", options->limit, "gc: how much may stay, as 5G; the cache's limit by default")
+        .check(sizeFault);
+    verb.setFooter("Examples:\n"
+                   "  hearth cache stat\n"
+                   "  hearth cache gc --max-size 5G");
+    verb.setAction(
         [options, &run]
         {
             run = withConfiguration(options->settings,

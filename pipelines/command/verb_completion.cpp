@@ -3,29 +3,25 @@
 #include "pipelines/command/verb_tools.h"
 #include "pipelines/command/verbs.h"
 
-#include <CLI/CLI.hpp>
-
 namespace hearth::command
 {
 
-void addCompletion(CLI::App& app, Work& run)
+void addCompletion(cli::CommandLine& app, Work& run)
 {
-    CLI::App* verb =
-        app.add_subcommand("completion", "Print a script that completes command lines in a shell");
+    cli::CommandLine& verb =
+        app.addSubcommand("completion", "Print a script that completes command lines in a shell");
     auto shell = std::make_shared<std::string>();
-    verb->add_option("SHELL", *shell, "whose script")
-        ->required()
-        ->check(CLI::IsMember({"bash", "zsh", "fish"}));
-    verb->footer("Example: hearth completion bash > ~/.local/share/bash-completion/completions/hearth");
-    verb->callback(
+    verb.addOption("SHELL", *shell, "whose script").required().choices({"bash", "zsh", "fish"});
+    verb.setFooter("Example: hearth completion bash > ~/.local/share/bash-completion/completions/hearth");
+    verb.setAction(
         [shell, &app, &run]
         {
             run = [shell, &app]
             {
-                const CommandTable table = tableOf(app);
-                return printResult(*shell == "bash"  ? bashCompletion(table)
-                                   : *shell == "zsh" ? zshCompletion(table)
-                                                     : fishCompletion(table));
+                const cli::CommandInfo hearth = app.info();
+                return printResult(*shell == "bash"  ? bashCompletion(hearth)
+                                   : *shell == "zsh" ? zshCompletion(hearth)
+                                                     : fishCompletion(hearth));
             };
         });
 }

@@ -4,14 +4,12 @@
 #include "pipelines/command/verb_tools.h"
 #include "pipelines/command/verbs.h"
 
-#include <CLI/CLI.hpp>
-
 namespace hearth::command
 {
 
-void addConfig(CLI::App& app, Work& run)
+void addConfig(cli::CommandLine& app, Work& run)
 {
-    CLI::App* verb = app.add_subcommand("config", "Say which settings hold, and where they come from");
+    cli::CommandLine& verb = app.addSubcommand("config", "Say which settings hold, and where they come from");
     struct Options
     {
         std::string source;
@@ -20,16 +18,16 @@ void addConfig(CLI::App& app, Work& run)
         std::string format = "text";
     };
     auto options = std::make_shared<Options>();
-    verb->add_option("SOURCE", options->source,
-                     "what holds for this source: rules may match it; by default what holds for all");
-    verb->add_flag("--show-origin", options->shows_origin, "say where each was set");
-    addFormat(*verb, options->format);
-    options->settings.addOfCommand(*verb, {"profile", "jobs", "memory", "cache", "progress"});
-    options->settings.addOfProfiles(*verb);
-    verb->footer("Examples:\n"
-                 "  hearth config --show-origin\n"
-                 "  hearth config props/barrel.glb --profile mobile-low --show-origin");
-    verb->callback(
+    verb.addOption("SOURCE", options->source,
+                   "what holds for this source: rules may match it; by default what holds for all");
+    verb.addFlag("--show-origin", options->shows_origin, "say where each was set");
+    addFormat(verb, options->format);
+    options->settings.addOfCommand(verb, {"profile", "jobs", "memory", "cache", "progress"});
+    options->settings.addOfProfiles(verb);
+    verb.setFooter("Examples:\n"
+                   "  hearth config --show-origin\n"
+                   "  hearth config props/barrel.glb --profile mobile-low --show-origin");
+    verb.setAction(
         [options, &run]
         {
             run = withConfiguration(options->settings,

@@ -4,7 +4,8 @@
 #include "pipelines/command/verbs.h"
 #include "pipelines/command/watch.h"
 
-#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <sstream>
 
 namespace hearth::command
 {
@@ -15,7 +16,11 @@ namespace
 /// "W1302,W1303"; none of "all".
 std::vector<std::string> codesOf(const std::string& text)
 {
-    return text == "all" ? std::vector<std::string>() : CLI::detail::split(text, ',');
+    std::vector<std::string> codes;
+    std::istringstream list(text);
+    for (std::string code; text != "all" && std::getline(list, code, ',');)
+        codes.push_back(code);
+    return codes;
 }
 
 std::string codesFault(const std::string& text)
@@ -26,7 +31,7 @@ std::string codesFault(const std::string& text)
             known.push_back("W" + std::to_string(static_cast<unsigned>(info.issue)));
     for (const std::string& code : codesOf(text))
         if (std::find(known.begin(), known.end(), code) == known.end())
-            return "'" + code + "' is no warning: they are " + CLI::detail::join(known, ", ");
+            return "'" + code + "' is no warning: they are " + joined(known, ", ");
     return "";
 }
 
@@ -58,9 +63,9 @@ int watchConfigured(const CookOptions& options, const SettingOptions& settings)
 
 } // namespace
 
-void addCook(CLI::App& app, Work& run)
+void addCook(cli::CommandLine& app, Work& run)
 {
-    CLI::App* verb = app.add_subcommand("cook", "Turn sources into a pack");
+    cli::CommandLine& verb = app.addSubcommand("cook", "Turn sources into a pack");
     struct Options : CookOptions
     {
         SettingOptions settings;
@@ -68,54 +73,53 @@ void addCook(CLI::App& app, Work& run)
         std::string fatal;
     };
     auto options = std::make_shared<Options>();
-    verb->add_option("SOURCE", options->sources,
-                     "glTF, GLB, OBJ, PLY, STL, OFF, Draco or image files; a folder: all models in it; "
-                     "a pattern in quotes, as 'props/**/*.glb'")
-        ->required();
-    verb->add_option("-o,--output", options->output, "pack to write")->required();
-    verb->add_option("--lod", options->lods,
-                     "N=FILE: level of detail N of the source's only mesh, made by hand")
-        ->allow_extra_args(false);
-    options->settings.addOfCommand(*verb, {"profile", "jobs", "memory", "cache", "progress"});
-    options->settings.addOfProfiles(*verb);
-    verb->add_option(
-            "--report", options->report_files,
-            "write what became of it: FILE.html is a page with pictures, .xml JUnit's, .csv a table, "
-            "all else JSON; may be repeated")
-        ->allow_extra_args(false);
-    verb->add_option("--events", options->events_file,
-                     "write what happens while it happens, a JSON object a line");
-    verb->add_flag("--warnings-as-errors{all}", options->fatal,
-                   "warnings keep the pack from being written; =W1302,W1303: these alone")
-        ->check(CLI::Validator(codesFault, ""));
-    auto* fail_fast =
-        verb->add_flag("--fail-fast", options->fail_fast, "end at the first failure, not after all sources");
-    verb->add_flag("-k,--keep-going")
-        ->description("cook the other sources after a failure: the default")
-        ->excludes(fail_fast);
-    auto* no_cache = verb->add_flag("--no-cache", options->no_cache, "run every cooker and keep nothing");
-    verb->add_flag("-f,--force", options->force, "run every cooker, whatever the cache has")
-        ->excludes(no_cache);
-    auto* depfile = verb->add_option("--depfile", options->depfile,
-                                     "write what was read, textures that were found too, for make or ninja");
-    auto* dry_run = verb->add_flag("-n,--dry-run", options->dry_run, "only say what would run, and why")
-                        ->excludes(depfile);
-    verb->add_option("--format", options->dry_run_format, "of --dry-run; json: the whole plan")
-        ->check(CLI::IsMember({"text", "json"}))
-        ->needs(dry_run);
-    verb->add_flag(
+    verb.addOption("SOURCE", options->sources,
+                   "glTF, GLB, OBJ, PLY, STL, OFF, Draco or image files; a folder: all models in it; "
+                   "a pattern in quotes, as 'props/**/*.glb'")
+        .required();
+    verb.addOption("-o,--output", options->output, "pack to write").required();
+    verb.addOption("--lod", options->lods,
+                   "N=FILE: level of detail N of the source's only mesh, made by hand")
+        .oneValueEach();
+    options->settings.addOfCommand(verb, {"profile", "jobs", "memory", "cache", "progress"});
+    options->settings.addOfProfiles(verb);
+    verb.addOption("--report", options->report_files,
+                   "write what became of it: FILE.html is a page with pictures, .xml JUnit's, .csv a table, "
+                   "all else JSON; may be repeated")
+        .oneValueEach();
+    verb.addOption("--events", options->events_file,
+                   "write what happens while it happens, a JSON object a line");
+    verb.addFlag("--warnings-as-errors{all}", options->fatal,
+                 "warnings keep the pack from being written; =W1302,W1303: these alone")
+        .check(codesFault);
+    const cli::Option fail_fast =
+        verb.addFlag("--fail-fast", options->fail_fast, "end at the first failure, not after all sources");
+    verb.addFlag("-k,--keep-going", "cook the other sources after a failure: the default")
+        .excludes(fail_fast);
+    const cli::Option no_cache =
+        verb.addFlag("--no-cache", options->no_cache, "run every cooker and keep nothing");
+    verb.addFlag("-f,--force", options->force, "run every cooker, whatever the cache has").excludes(no_cache);
+    const cli::Option depfile =
+        verb.addOption("--depfile", options->depfile,
+                       "write what was read, textures that were found too, for make or ninja");
+    const cli::Option dry_run =
+        verb.addFlag("-n,--dry-run", options->dry_run, "only say what would run, and why").excludes(depfile);
+    verb.addOption("--format", options->dry_run_format, "of --dry-run; json: the whole plan")
+        .choices({"text", "json"})
+        .needs(dry_run);
+    verb.addFlag(
             "--watch", options->watches,
             "cook, and again whenever a file changes that it reads or looks for, or a source comes or goes; "
             "Ctrl-C ends it")
-        ->excludes(dry_run);
-    verb->add_flag("--explain", options->explain, "say why each cooker runs");
-    options->settings.addLog(*verb, "print the command line of every stage");
-    verb->footer("Examples:\n"
-                 "  hearth cook house.glb tree.glb -o village.hearth\n"
-                 "  hearth cook assets/ --profile mobile-low -o village.hearth\n"
-                 "Several sources become one pack, their scenes side by side.\n"
-                 "A second cook runs only the cookers whose input has changed.");
-    verb->callback(
+        .excludes(dry_run);
+    verb.addFlag("--explain", options->explain, "say why each cooker runs");
+    options->settings.addLog(verb, "print the command line of every stage");
+    verb.setFooter("Examples:\n"
+                   "  hearth cook house.glb tree.glb -o village.hearth\n"
+                   "  hearth cook assets/ --profile mobile-low -o village.hearth\n"
+                   "Several sources become one pack, their scenes side by side.\n"
+                   "A second cook runs only the cookers whose input has changed.");
+    verb.setAction(
         [options, &run]
         {
             if (!options->fatal.empty())

@@ -5,7 +5,6 @@
 #include "pipelines/command/verb_tools.h"
 #include "pipelines/command/verbs.h"
 
-#include <CLI/CLI.hpp>
 #include <cstdio>
 
 namespace hearth::command
@@ -67,36 +66,38 @@ int diff(const DiffOptions& options)
 
 } // namespace
 
-void addDiff(CLI::App& app, Work& run)
+void addDiff(cli::CommandLine& app, Work& run)
 {
-    CLI::App* verb = app.add_subcommand("diff", "Say what differs between two packs, by what it means");
+    cli::CommandLine& verb =
+        app.addSubcommand("diff", "Say what differs between two packs, by what it means");
     auto options = std::make_shared<DiffOptions>();
-    verb->add_option("A", options->a, "pack")->required();
-    verb->add_option("B", options->b, "pack")->required();
-    addFormat(*verb, options->format);
-    auto* picture = verb->add_option("--picture", options->picture,
-                                     "draw both, and write a heat map of how they differ: a PNG");
-    auto* camera = verb->add_option("--camera", options->camera,
-                                    "PX,PY,PZ,TX,TY,TZ,FOV: from where it is drawn, as for hearth-render")
-                       ->needs(picture);
-    auto* scene_camera = verb->add_option("--scene-camera", options->scene_camera,
-                                          "N: from the packs' own cameras of that number")
-                             ->needs(picture)
-                             ->excludes(camera);
-    verb->add_option("--size", options->size, "of the picture")->needs(picture)->capture_default_str();
-    verb->add_option("--view", options->view, "what is drawn: final, clusters, lod, ...")
-        ->needs(picture)
-        ->capture_default_str();
-    verb->footer("Examples:\n"
-                 "  hearth diff before.hearth after.hearth\n"
-                 "  hearth diff before.hearth after.hearth --picture heat.png --scene-camera 0\n"
-                 "Exit code 0: they are the same; 1: they differ.");
-    verb->callback(
+    verb.addOption("A", options->a, "pack").required();
+    verb.addOption("B", options->b, "pack").required();
+    addFormat(verb, options->format);
+    const cli::Option picture = verb.addOption("--picture", options->picture,
+                                               "draw both, and write a heat map of how they differ: a PNG");
+    const cli::Option camera =
+        verb.addOption("--camera", options->camera,
+                       "PX,PY,PZ,TX,TY,TZ,FOV: from where it is drawn, as for hearth-render")
+            .needs(picture);
+    const cli::Option scene_camera = verb.addOption("--scene-camera", options->scene_camera,
+                                                    "N: from the packs' own cameras of that number")
+                                         .needs(picture)
+                                         .excludes(camera);
+    verb.addOption("--size", options->size, "of the picture").needs(picture).showDefault();
+    verb.addOption("--view", options->view, "what is drawn: final, clusters, lod, ...")
+        .needs(picture)
+        .showDefault();
+    verb.setFooter("Examples:\n"
+                   "  hearth diff before.hearth after.hearth\n"
+                   "  hearth diff before.hearth after.hearth --picture heat.png --scene-camera 0\n"
+                   "Exit code 0: they are the same; 1: they differ.");
+    verb.setAction(
         [options, camera, scene_camera, &run]
         {
             run = [options, camera, scene_camera]
             {
-                if (!options->picture.empty() && camera->count() + scene_camera->count() == 0)
+                if (!options->picture.empty() && camera.count() + scene_camera.count() == 0)
                     return usageError("--picture needs --camera or --scene-camera");
                 return diff(*options);
             };

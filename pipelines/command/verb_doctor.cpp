@@ -5,25 +5,23 @@
 #include "pipelines/command/verb_tools.h"
 #include "pipelines/command/verbs.h"
 
-#include <CLI/CLI.hpp>
-
 namespace hearth::command
 {
 
-void addDoctor(CLI::App& app, Work& run)
+void addDoctor(cli::CommandLine& app, Work& run)
 {
-    CLI::App* verb = app.add_subcommand("doctor", "Say whether this machine has what Hearth needs");
+    cli::CommandLine& verb = app.addSubcommand("doctor", "Say whether this machine has what Hearth needs");
     struct Options
     {
         SettingOptions settings;
         std::string format = "text";
     };
     auto options = std::make_shared<Options>();
-    addFormat(*verb, options->format);
-    options->settings.addOfCommand(*verb, {"cache"});
-    verb->footer("Example: hearth doctor\n"
-                 "The exit code is 1 where something is wrong; each has its remedy.");
-    verb->callback(
+    addFormat(verb, options->format);
+    options->settings.addOfCommand(verb, {"cache"});
+    verb.setFooter("Example: hearth doctor\n"
+                   "The exit code is 1 where something is wrong; each has its remedy.");
+    verb.setAction(
         [options, &run]
         {
             run = withConfiguration(options->settings,

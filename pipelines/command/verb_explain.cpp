@@ -3,18 +3,16 @@
 #include "pipelines/command/verb_tools.h"
 #include "pipelines/command/verbs.h"
 
-#include <CLI/CLI.hpp>
-
 namespace hearth::command
 {
 
-void addExplain(CLI::App& app, Work& run)
+void addExplain(cli::CommandLine& app, Work& run)
 {
-    CLI::App* verb = app.add_subcommand("explain", "Say what the number of a message means");
+    cli::CommandLine& verb = app.addSubcommand("explain", "Say what the number of a message means");
     auto code = std::make_shared<std::string>();
-    verb->add_option("CODE", *code, "as messages show it: E1203; none: list all");
-    verb->footer("Example: hearth explain E1203");
-    verb->callback([code, &run] { run = [code] { return printResult(explain(*code)); }; });
+    verb.addOption("CODE", *code, "as messages show it: E1203; none: list all");
+    verb.setFooter("Example: hearth explain E1203");
+    verb.setAction([code, &run] { run = [code] { return printResult(explain(*code)); }; });
 }
 
 } // namespace hearth::command

@@ -5,16 +5,15 @@
 #include "pipelines/command/verb_tools.h"
 #include "pipelines/command/verbs.h"
 
-#include <CLI/CLI.hpp>
 #include <cmath>
 
 namespace hearth::command
 {
 
-void addExtract(CLI::App& app, Work& run)
+void addExtract(cli::CommandLine& app, Work& run)
 {
-    CLI::App* verb =
-        app.add_subcommand("extract", "Write a level of detail of a mesh as PLY, or a table as CSV");
+    cli::CommandLine& verb =
+        app.addSubcommand("extract", "Write a level of detail of a mesh as PLY, or a table as CSV");
     struct Options
     {
         std::string file;
@@ -26,31 +25,30 @@ void addExtract(CLI::App& app, Work& run)
         std::string output;
     };
     auto options = std::make_shared<Options>();
-    verb->add_option("FILE", options->file, "pack")->required();
-    CLI::Option* mesh = verb->add_option("--mesh", options->mesh, "index of the mesh");
-    CLI::Option* error = verb->add_option("--error", options->error,
-                                          "largest error in the mesh's own units; 0: the source's triangles");
-    mesh->needs(error);
-    error->needs(mesh);
-    const CLI::Option* part =
-        verb->add_option("--part", options->part,
-                         "instead of a mesh; specular: its table, bricks: the faces of all solid voxels")
-            ->check(CLI::IsMember({"specular", "bricks"}))
-            ->excludes(mesh);
-    CLI::Option* animation = verb->add_option(
-        "--animation", options->animation, "clip that poses the mesh: its name, or its index if it has none");
-    animation->needs(mesh);
-    verb->add_option("--time", options->time, "seconds from the start of the clip")->needs("--animation");
-    verb->add_option("-o,--output", options->output, "PLY or CSV file to write")->required();
-    verb->footer("Example: hearth extract village.hearth --mesh 0 --error 0.01 -o cut.ply");
-    verb->callback(
-        [options, mesh, part, animation, &run]
+    verb.addOption("FILE", options->file, "pack").required();
+    cli::Option mesh = verb.addOption("--mesh", options->mesh, "index of the mesh");
+    cli::Option error = verb.addOption("--error", options->error,
+                                       "largest error in the mesh's own units; 0: the source's triangles");
+    mesh.needs(error);
+    error.needs(mesh);
+    const cli::Option part =
+        verb.addOption("--part", options->part,
+                       "instead of a mesh; specular: its table, bricks: the faces of all solid voxels")
+            .choices({"specular", "bricks"})
+            .excludes(mesh);
+    cli::Option animation = verb.addOption("--animation", options->animation,
+                                           "clip that poses the mesh: its name, or its index if it has none");
+    animation.needs(mesh);
+    verb.addOption("--time", options->time, "seconds from the start of the clip").needs(animation);
+    verb.addOption("-o,--output", options->output, "PLY or CSV file to write").required();
+    verb.setFooter("Example: hearth extract village.hearth --mesh 0 --error 0.01 -o cut.ply");
+    verb.setCheck([mesh, part] { return mesh.count() + part.count() == 0 ? "--mesh is required" : ""; });
+    verb.setAction(
+        [options, part, animation, &run]
         {
-            if (mesh->count() + part->count() == 0)
-                throw CLI::RequiredError("--mesh");
             run = [options, part, animation]
             {
-                if (part->count() > 0)
+                if (part.count() > 0)
                 {
                     const Status status = options->part == "bricks"
                                               ? extractBricks(options->file, options->output)
@@ -62,7 +60,7 @@ void addExtract(CLI::App& app, Work& run)
                 if (!std::isfinite(options->time))
                     return usageError("--time must be a number");
                 std::optional<ClipTime> clip;
-                if (animation->count() > 0)
+                if (animation.count() > 0)
                     clip = ClipTime{options->animation, options->time};
                 const Status status =
                     extractCut(options->file, options->mesh, options->error, clip, options->output);

@@ -5,7 +5,6 @@
 #include "pipelines/command/verb_tools.h"
 #include "pipelines/command/verbs.h"
 
-#include <CLI/CLI.hpp>
 #include <cmath>
 
 namespace hearth::command
@@ -25,9 +24,9 @@ int inspect(const std::string& file, const std::string& format)
 
 } // namespace
 
-void addInspect(CLI::App& app, Work& run)
+void addInspect(cli::CommandLine& app, Work& run)
 {
-    CLI::App* verb = app.add_subcommand("inspect", "Say what is in a pack");
+    cli::CommandLine& verb = app.addSubcommand("inspect", "Say what is in a pack");
     struct Options
     {
         std::string file;
@@ -37,18 +36,18 @@ void addInspect(CLI::App& app, Work& run)
         double time = 0;
     };
     auto options = std::make_shared<Options>();
-    verb->add_option("FILE", options->file, "pack or part")->required();
-    addFormat(*verb, options->format);
-    verb->add_flag("--bounds", options->bounds,
-                   "the boxes of all clusters of a pack in a pose, with --format json");
-    const CLI::Option* animation = verb->add_option("--animation", options->animation,
-                                                    "clip of the pose: its name, or its index if it has none")
-                                       ->needs("--bounds");
-    verb->add_option("--time", options->time, "seconds from the start of the clip")->needs("--animation");
-    verb->footer("Examples:\n"
-                 "  hearth inspect village.hearth --format json\n"
-                 "  hearth inspect fox.hearth --bounds --animation Run --time 0.5 --format json");
-    verb->callback(
+    verb.addOption("FILE", options->file, "pack or part").required();
+    addFormat(verb, options->format);
+    const cli::Option bounds = verb.addFlag(
+        "--bounds", options->bounds, "the boxes of all clusters of a pack in a pose, with --format json");
+    const cli::Option animation = verb.addOption("--animation", options->animation,
+                                                 "clip of the pose: its name, or its index if it has none")
+                                      .needs(bounds);
+    verb.addOption("--time", options->time, "seconds from the start of the clip").needs(animation);
+    verb.setFooter("Examples:\n"
+                   "  hearth inspect village.hearth --format json\n"
+                   "  hearth inspect fox.hearth --bounds --animation Run --time 0.5 --format json");
+    verb.setAction(
         [options, animation, &run]
         {
             run = [options, animation]
@@ -60,7 +59,7 @@ void addInspect(CLI::App& app, Work& run)
                 if (!std::isfinite(options->time))
                     return usageError("--time must be a number");
                 std::optional<ClipTime> clip;
-                if (animation->count() > 0)
+                if (animation.count() > 0)
                     clip = ClipTime{options->animation, options->time};
                 return printResult(boundsJson(options->file, clip));
             };

@@ -4,8 +4,6 @@
 #include "pipelines/command/verb_tools.h"
 #include "pipelines/command/verbs.h"
 
-#include <CLI/CLI.hpp>
-
 namespace hearth::command
 {
 
@@ -31,29 +29,29 @@ int printPage(const std::vector<ManualPage>& pages, const std::string& name)
 
 } // namespace
 
-void addMan(CLI::App& app, Work& run)
+void addMan(cli::CommandLine& app, Work& run)
 {
-    CLI::App* verb = app.add_subcommand("man", "Print a manual page, for man to show");
+    cli::CommandLine& verb = app.addSubcommand("man", "Print a manual page, for man to show");
     struct Options
     {
         std::string page = "hearth";
         std::string folder;
     };
     auto options = std::make_shared<Options>();
-    CLI::Option* page =
-        verb->add_option("PAGE", options->page, "a verb, hearth, or hearth.toml; by default hearth");
-    verb->add_option("--all", options->folder, "write all pages into this folder")
-        ->type_name("DIR")
-        ->excludes(page);
-    verb->footer("Examples:\n"
-                 "  hearth man cook | man -l -\n"
-                 "  hearth man --all ~/.local/share/man/man1");
-    verb->callback(
+    const cli::Option page =
+        verb.addOption("PAGE", options->page, "a verb, hearth, or hearth.toml; by default hearth");
+    verb.addOption("--all", options->folder, "write all pages into this folder")
+        .typeName("DIR")
+        .excludes(page);
+    verb.setFooter("Examples:\n"
+                   "  hearth man cook | man -l -\n"
+                   "  hearth man --all ~/.local/share/man/man1");
+    verb.setAction(
         [options, &app, &run]
         {
             run = [options, &app]
             {
-                const std::vector<ManualPage> pages = manualPages(tableOf(app));
+                const std::vector<ManualPage> pages = manualPages(app.info());
                 return options->folder.empty() ? printPage(pages, options->page)
                                                : writePages(pages, options->folder);
             };

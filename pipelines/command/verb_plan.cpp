@@ -6,7 +6,6 @@
 #include "pipelines/command/verb_tools.h"
 #include "pipelines/command/verbs.h"
 
-#include <CLI/CLI.hpp>
 #include <charconv>
 
 namespace hearth::command
@@ -16,7 +15,7 @@ namespace
 {
 
 /// Options of verbs that run cookers.
-void addEffort(CLI::App& verb, SettingOptions& settings)
+void addEffort(cli::CommandLine& verb, SettingOptions& settings)
 {
     settings.addOfCommand(verb, {"jobs", "memory", "progress"});
     settings.addLog(verb, "print all that cookers say");
@@ -48,17 +47,18 @@ int planConfigured(MakePlanOptions options, const profiles::Configuration& confi
 
 } // namespace
 
-void addPlanFile(CLI::App& verb, PlanOptions& options, SettingOptions& settings)
+void addPlanFile(cli::CommandLine& verb, PlanOptions& options, SettingOptions& settings)
 {
-    verb.add_option("PLAN", options.plan_file, "file that hearth plan has written")->required();
-    verb.add_option("-C,--directory", options.directory,
-                    "folder that relative paths of sources start from; by default where the plan was made");
+    verb.addOption("PLAN", options.plan_file, "file that hearth plan has written").required();
+    verb.addOption("-C,--directory", options.directory,
+                   "folder that relative paths of sources start from; by default where the plan was made");
     settings.addOfCommand(verb, {"cache"});
 }
 
-void addPlan(CLI::App& app, Work& run)
+void addPlan(cli::CommandLine& app, Work& run)
 {
-    CLI::App* verb = app.add_subcommand("plan", "Write down a cook, so that several machines can share it");
+    cli::CommandLine& verb =
+        app.addSubcommand("plan", "Write down a cook, so that several machines can share it");
     struct Options : MakePlanOptions
     {
         SettingOptions settings;
@@ -68,31 +68,31 @@ void addPlan(CLI::App& app, Work& run)
         std::string emitted;
     };
     auto options = std::make_shared<Options>();
-    verb->add_option("SOURCE", options->sources, "files, folders and patterns, as hearth cook takes them")
-        ->required();
-    verb->add_option("-o,--output", options->output, "plan to write")->required();
-    verb->add_option("--shards", options->shards,
-                     "how many machines may share it; auto: as many as have a minute to do each")
-        ->check(CLI::Validator(shardsFault, ""))
-        ->capture_default_str();
-    verb->add_option("--estimates", options->estimates_file,
-                     "what hearth cook --report or hearth merge --report wrote as JSON: the times and memory "
-                     "of then, by which shards are made; else sizes of files")
-        ->type_name("REPORT");
-    verb->add_option("--emit", options->emitted, "commands: print a command line for each shard")
-        ->check(CLI::IsMember({"commands"}));
-    verb->add_option("--lod", options->lods,
-                     "N=FILE: level of detail N of the source's only mesh, made by hand")
-        ->allow_extra_args(false);
-    options->settings.addOfCommand(*verb, {"profile", "cache"});
-    options->settings.addOfProfiles(*verb);
-    options->settings.addLog(*verb, "");
-    verb->footer("Examples:\n"
-                 "  hearth plan *.glb -o village.plan.json --shards 7\n"
-                 "  hearth plan *.glb -o village.plan.json --estimates report.json\n"
-                 "  hearth plan *.glb -o village.plan.json --emit commands | parallel\n"
-                 "Then hearth run for each shard, or hearth farm for all, and hearth merge.");
-    verb->callback(
+    verb.addOption("SOURCE", options->sources, "files, folders and patterns, as hearth cook takes them")
+        .required();
+    verb.addOption("-o,--output", options->output, "plan to write").required();
+    verb.addOption("--shards", options->shards,
+                   "how many machines may share it; auto: as many as have a minute to do each")
+        .check(shardsFault)
+        .showDefault();
+    verb.addOption("--estimates", options->estimates_file,
+                   "what hearth cook --report or hearth merge --report wrote as JSON: the times and memory "
+                   "of then, by which shards are made; else sizes of files")
+        .typeName("REPORT");
+    verb.addOption("--emit", options->emitted, "commands: print a command line for each shard")
+        .choices({"commands"});
+    verb.addOption("--lod", options->lods,
+                   "N=FILE: level of detail N of the source's only mesh, made by hand")
+        .oneValueEach();
+    options->settings.addOfCommand(verb, {"profile", "cache"});
+    options->settings.addOfProfiles(verb);
+    options->settings.addLog(verb, "");
+    verb.setFooter("Examples:\n"
+                   "  hearth plan *.glb -o village.plan.json --shards 7\n"
+                   "  hearth plan *.glb -o village.plan.json --estimates report.json\n"
+                   "  hearth plan *.glb -o village.plan.json --emit commands | parallel\n"
+                   "Then hearth run for each shard, or hearth farm for all, and hearth merge.");
+    verb.setAction(
         [options, &run]
         {
             if (options->shards != "auto")
@@ -104,25 +104,25 @@ void addPlan(CLI::App& app, Work& run)
         });
 }
 
-void addRun(CLI::App& app, Work& run)
+void addRun(cli::CommandLine& app, Work& run)
 {
-    CLI::App* verb = app.add_subcommand("run", "Cook one shard of a plan, into the cache");
+    cli::CommandLine& verb = app.addSubcommand("run", "Cook one shard of a plan, into the cache");
     struct Options : RunOptions
     {
         SettingOptions settings;
     };
     auto options = std::make_shared<Options>();
-    addPlanFile(*verb, *options, options->settings);
-    verb->add_option("--shard", options->shard,
-                     "I/N, from 0/N; by default the index that Slurm, Kubernetes, AWS Batch, Grid Engine or "
-                     "PBS gives to an array's job");
-    verb->add_option("--launcher", options->launcher,
-                     "start it by this command, as \"srun -Q -n1\", and look at what it has left");
-    verb->add_option("--record", options->record_file, "write what was done as JSON, when all of it was");
-    addEffort(*verb, options->settings);
-    verb->footer("Example: hearth run village.plan.json --shard 3/7\n"
-                 "It may be run again, and by two machines at once. Code 75: another try may go better.");
-    verb->callback(
+    addPlanFile(verb, *options, options->settings);
+    verb.addOption("--shard", options->shard,
+                   "I/N, from 0/N; by default the index that Slurm, Kubernetes, AWS Batch, Grid Engine or "
+                   "PBS gives to an array's job");
+    verb.addOption("--launcher", options->launcher,
+                   "start it by this command, as \"srun -Q -n1\", and look at what it has left");
+    verb.addOption("--record", options->record_file, "write what was done as JSON, when all of it was");
+    addEffort(verb, options->settings);
+    verb.setFooter("Example: hearth run village.plan.json --shard 3/7\n"
+                   "It may be run again, and by two machines at once. Code 75: another try may go better.");
+    verb.setAction(
         [options, &run]
         {
             run = withConfiguration(options->settings,
@@ -135,29 +135,30 @@ void addRun(CLI::App& app, Work& run)
         });
 }
 
-void addMerge(CLI::App& app, Work& run)
+void addMerge(cli::CommandLine& app, Work& run)
 {
-    CLI::App* verb = app.add_subcommand("merge", "Make the pack of what the shards of a plan have left");
+    cli::CommandLine& verb =
+        app.addSubcommand("merge", "Make the pack of what the shards of a plan have left");
     struct Options : MergeOptions
     {
         SettingOptions settings;
         std::string missing = "cook";
     };
     auto options = std::make_shared<Options>();
-    addPlanFile(*verb, *options, options->settings);
-    verb->add_option("-o,--output", options->output, "pack to write")->required();
-    verb->add_option("--missing", options->missing,
-                     "what becomes of results that are not there: cook them here, or list them and end with "
-                     "code 1")
-        ->check(CLI::IsMember({"cook", "list"}))
-        ->capture_default_str();
-    verb->add_option("--report", options->report_files,
-                     "write what became of it, as hearth cook does; may be repeated")
-        ->allow_extra_args(false);
-    addEffort(*verb, options->settings);
-    verb->footer("Example: hearth merge village.plan.json -o village.hearth\n"
-                 "Every result is read and hashed, whatever became of the processes that made it.");
-    verb->callback(
+    addPlanFile(verb, *options, options->settings);
+    verb.addOption("-o,--output", options->output, "pack to write").required();
+    verb.addOption("--missing", options->missing,
+                   "what becomes of results that are not there: cook them here, or list them and end with "
+                   "code 1")
+        .choices({"cook", "list"})
+        .showDefault();
+    verb.addOption("--report", options->report_files,
+                   "write what became of it, as hearth cook does; may be repeated")
+        .oneValueEach();
+    addEffort(verb, options->settings);
+    verb.setFooter("Example: hearth merge village.plan.json -o village.hearth\n"
+                   "Every result is read and hashed, whatever became of the processes that made it.");
+    verb.setAction(
         [options, &run]
         {
             options->cooks_missing = options->missing == "cook";

@@ -9,6 +9,6 @@ namespace hearth::command
 {
 
 /// The plan, --directory and --cache.
-void addPlanFile(CLI::App& verb, PlanOptions& options, SettingOptions& settings);
+void addPlanFile(cli::CommandLine& verb, PlanOptions& options, SettingOptions& settings);
 
 } // namespace hearth::command

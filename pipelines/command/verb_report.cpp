@@ -4,8 +4,6 @@
 #include "pipelines/command/verbs.h"
 #include "pipelines/report/write_report.h"
 
-#include <CLI/CLI.hpp>
-
 namespace hearth::command
 {
 
@@ -48,18 +46,18 @@ int report(const Options& options)
 
 } // namespace
 
-void addReport(CLI::App& app, Work& run)
+void addReport(cli::CommandLine& app, Work& run)
 {
-    CLI::App* verb =
-        app.add_subcommand("report", "Turn the report of a cook into a page, or what machines read");
+    cli::CommandLine& verb =
+        app.addSubcommand("report", "Turn the report of a cook into a page, or what machines read");
     auto options = std::make_shared<Options>();
-    verb->add_option("FILE", options->file, "what hearth cook --report wrote as JSON")->required();
-    verb->add_option("--html", options->page, "write a page that needs nothing else: FILE.html");
-    verb->add_option("--pack", options->pack, "what was cooked: the page has pictures of it");
-    verb->add_option("--junit", options->junit, "write a test case for each asset: FILE.xml");
-    verb->add_option("--csv", options->table, "write a row for each asset: FILE.csv");
-    verb->footer("Example: hearth report cook.json --html cook.html --pack house.hearth");
-    verb->callback([options, &run] { run = [options] { return report(*options); }; });
+    verb.addOption("FILE", options->file, "what hearth cook --report wrote as JSON").required();
+    verb.addOption("--html", options->page, "write a page that needs nothing else: FILE.html");
+    verb.addOption("--pack", options->pack, "what was cooked: the page has pictures of it");
+    verb.addOption("--junit", options->junit, "write a test case for each asset: FILE.xml");
+    verb.addOption("--csv", options->table, "write a row for each asset: FILE.csv");
+    verb.setFooter("Example: hearth report cook.json --html cook.html --pack house.hearth");
+    verb.setAction([options, &run] { run = [options] { return report(*options); }; });
 }
 
 } // namespace hearth::command

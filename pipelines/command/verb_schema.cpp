@@ -4,8 +4,6 @@
 #include "pipelines/command/verbs.h"
 #include "pipelines/schemas/schemas.h"
 
-#include <CLI/CLI.hpp>
-
 namespace hearth::command
 {
 
@@ -32,17 +30,17 @@ int printSchema(const std::string& name)
 
 } // namespace
 
-void addSchema(CLI::App& app, Work& run)
+void addSchema(cli::CommandLine& app, Work& run)
 {
-    CLI::App* verb =
-        app.add_subcommand("schema", "Print the JSON Schema of something that Hearth writes or reads");
+    cli::CommandLine& verb =
+        app.addSubcommand("schema", "Print the JSON Schema of something that Hearth writes or reads");
     auto name = std::make_shared<std::string>();
-    verb->add_option("NAME", *name,
-                     "what it is of; config: hearth.toml, the others: --format json and the like")
-        ->required()
-        ->check(CLI::IsMember(names()));
-    verb->footer("Example: hearth schema config > hearth.schema.json");
-    verb->callback([name, &run] { run = [name] { return printSchema(*name); }; });
+    verb.addOption("NAME", *name,
+                   "what it is of; config: hearth.toml, the others: --format json and the like")
+        .required()
+        .choices(names());
+    verb.setFooter("Example: hearth schema config > hearth.schema.json");
+    verb.setAction([name, &run] { run = [name] { return printSchema(*name); }; });
 }
 
 } // namespace hearth::command

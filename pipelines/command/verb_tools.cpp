@@ -5,7 +5,6 @@
 #include "pipelines/cache/open_cache.h"
 #include "pipelines/command/messages.h"
 
-#include <CLI/CLI.hpp>
 #include <cstdio>
 
 namespace hearth::command
@@ -22,6 +21,14 @@ int usageError(const std::string& what)
     return fail({Issue::usage, "hearth", "", what});
 }
 
+std::string joined(const std::vector<std::string>& words, std::string_view separator)
+{
+    std::string text;
+    for (size_t i = 0; i < words.size(); ++i)
+        (i == 0 ? text : text.append(separator)) += words[i];
+    return text;
+}
+
 int printResult(const std::string& text)
 {
     if (std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0)
@@ -34,11 +41,9 @@ int printResult(const Result<std::string>& result)
     return result.ok() ? printResult(*result) : fail(result.error());
 }
 
-void addFormat(CLI::App& verb, std::string& format)
+void addFormat(cli::CommandLine& verb, std::string& format)
 {
-    verb.add_option("--format", format, "how the result is written")
-        ->check(CLI::IsMember({"text", "json"}))
-        ->capture_default_str();
+    verb.addOption("--format", format, "how the result is written").choices({"text", "json"}).showDefault();
 }
 
 std::string sizeFault(const std::string& text)

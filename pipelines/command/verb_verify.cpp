@@ -3,24 +3,22 @@
 #include "pipelines/command/verbs.h"
 #include "pipelines/command/verify.h"
 
-#include <CLI/CLI.hpp>
-
 namespace hearth::command
 {
 
-void addVerify(CLI::App& app, Work& run)
+void addVerify(cli::CommandLine& app, Work& run)
 {
-    CLI::App* verb = app.add_subcommand("verify", "Check every byte of a pack, and what it means");
+    cli::CommandLine& verb = app.addSubcommand("verify", "Check every byte of a pack, and what it means");
     struct Options
     {
         std::string file;
         std::string format = "text";
     };
     auto options = std::make_shared<Options>();
-    verb->add_option("FILE", options->file, "pack or part")->required();
-    addFormat(*verb, options->format);
-    verb->footer("Example: hearth verify village.hearth");
-    verb->callback(
+    verb.addOption("FILE", options->file, "pack or part").required();
+    addFormat(verb, options->format);
+    verb.setFooter("Example: hearth verify village.hearth");
+    verb.setAction(
         [options, &run]
         {
             run = [options]

@@ -2,15 +2,13 @@
 #include "pipelines/command/verb_tools.h"
 #include "pipelines/command/verbs.h"
 
-#include <CLI/CLI.hpp>
-
 namespace hearth::command
 {
 
-void addVersion(CLI::App& app, Work& run)
+void addVersion(cli::CommandLine& app, Work& run)
 {
-    CLI::App* verb = app.add_subcommand("version", "Print the version");
-    verb->callback([&run] { run = [] { return printResult(std::string("hearth " HEARTH_VERSION "\n")); }; });
+    cli::CommandLine& verb = app.addSubcommand("version", "Print the version");
+    verb.setAction([&run] { run = [] { return printResult(std::string("hearth " HEARTH_VERSION "\n")); }; });
 }
 
 } // namespace hearth::command

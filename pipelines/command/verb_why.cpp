@@ -5,24 +5,22 @@
 #include "pipelines/command/verbs.h"
 #include "pipelines/command/why.h"
 
-#include <CLI/CLI.hpp>
-
 namespace hearth::command
 {
 
-void addWhy(CLI::App& app, Work& run)
+void addWhy(cli::CommandLine& app, Work& run)
 {
-    CLI::App* verb = app.add_subcommand("why", "Say why cookers ran, and why they would run again");
+    cli::CommandLine& verb = app.addSubcommand("why", "Say why cookers ran, and why they would run again");
     struct Options
     {
         std::string file;
         SettingOptions settings;
     };
     auto options = std::make_shared<Options>();
-    verb->add_option("FILE", options->file, "pack that was cooked here, or a source of one")->required();
-    options->settings.addOfCommand(*verb, {"cache"});
-    verb->footer("Example: hearth why village.hearth");
-    verb->callback(
+    verb.addOption("FILE", options->file, "pack that was cooked here, or a source of one").required();
+    options->settings.addOfCommand(verb, {"cache"});
+    verb.setFooter("Example: hearth why village.hearth");
+    verb.setAction(
         [options, &run]
         {
             run = withConfiguration(options->settings,

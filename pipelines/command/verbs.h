@@ -2,12 +2,9 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include <functional>
+#include "cook/command_line/command_line.h"
 
-namespace CLI
-{
-class App;
-} // namespace CLI
+#include <functional>
 
 namespace hearth::command
 {
@@ -15,24 +12,24 @@ namespace hearth::command
 /// What the chosen verb does, with the options that the command line has given it; returns the exit code.
 using Work = std::function<int()>;
 
-void addCook(CLI::App& app, Work& run);
-void addInspect(CLI::App& app, Work& run);
-void addDiff(CLI::App& app, Work& run);
-void addVerify(CLI::App& app, Work& run);
-void addExtract(CLI::App& app, Work& run);
-void addWhy(CLI::App& app, Work& run);
-void addCache(CLI::App& app, Work& run);
-void addPlan(CLI::App& app, Work& run);
-void addRun(CLI::App& app, Work& run);
-void addMerge(CLI::App& app, Work& run);
-void addFarm(CLI::App& app, Work& run);
-void addConfig(CLI::App& app, Work& run);
-void addCompletion(CLI::App& app, Work& run);
-void addDoctor(CLI::App& app, Work& run);
-void addReport(CLI::App& app, Work& run);
-void addExplain(CLI::App& app, Work& run);
-void addMan(CLI::App& app, Work& run);
-void addSchema(CLI::App& app, Work& run);
-void addVersion(CLI::App& app, Work& run);
+void addCook(cli::CommandLine& app, Work& run);
+void addInspect(cli::CommandLine& app, Work& run);
+void addDiff(cli::CommandLine& app, Work& run);
+void addVerify(cli::CommandLine& app, Work& run);
+void addExtract(cli::CommandLine& app, Work& run);
+void addWhy(cli::CommandLine& app, Work& run);
+void addCache(cli::CommandLine& app, Work& run);
+void addPlan(cli::CommandLine& app, Work& run);
+void addRun(cli::CommandLine& app, Work& run);
+void addMerge(cli::CommandLine& app, Work& run);
+void addFarm(cli::CommandLine& app, Work& run);
+void addConfig(cli::CommandLine& app, Work& run);
+void addCompletion(cli::CommandLine& app, Work& run);
+void addDoctor(cli::CommandLine& app, Work& run);
+void addReport(cli::CommandLine& app, Work& run);
+void addExplain(cli::CommandLine& app, Work& run);
+void addMan(cli::CommandLine& app, Work& run);
+void addSchema(cli::CommandLine& app, Work& run);
+void addVersion(cli::CommandLine& app, Work& run);
 
 } // namespace hearth::command

@@ -1,17 +1,17 @@
 // hearth-import: reads a source asset and writes the import part.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/clips/clip_settings.h"
+#include "cook/command_line/command_line.h"
 #include "cook/tools/batch.h"
 #include "cook/tools/lines.h"
 #include "cook/tools/lod_files.h"
 #include "cook/tools/private_folder.h"
 #include "cook/tools/read_list.h"
 #include "cook/tools/whole_file.h"
+#include "formats/program.h"
 #include "pipelines/import/authored_files.h"
 #include "pipelines/import/part_clips.h"
 #include "pipelines/import/read_source.h"
-
-#include <CLI/CLI.hpp>
 
 #include <cstdio>
 
@@ -94,47 +94,38 @@ Status run(const Arguments& arguments)
 
 int program(int argc, char** argv)
 {
-    CLI::App app("Reads a glTF scene, a scan or an image and writes the import part that the cookers read.");
+    cli::CommandLine app(
+        "Reads a glTF scene, a scan or an image and writes the import part that the cookers read.");
     Arguments arguments;
-    app.add_option("source", arguments.source, "glTF, GLB, OBJ, PLY, STL, OFF, Draco or image file")
-        ->required();
-    app.add_option("-o,--output", arguments.output, "import part to write")->required();
-    app.add_option("--lod", arguments.lods,
-                   "N=FILE: level of detail N of the source's only mesh, made by hand")
-        ->allow_extra_args(false);
-    app.add_option("--crease-angle", arguments.crease_angle_deg,
-                   "degrees: sharper edges of a mesh without normals stay hard; 180: none does")
-        ->capture_default_str()
-        ->check(CLI::Range(0.0, 180.0));
-    auto* profile =
-        app.add_option("--profile", arguments.profile, "TOML file: the error that clips may have");
-    app.add_option("--set", arguments.settings, "KEY=VALUE: a line of a profile, as animation.error=0.001")
-        ->allow_extra_args(false)
-        ->excludes(profile);
-    app.add_option("--depfile", arguments.depfile,
-                   "write which files were read, and which were looked for in vain, as sha256sum would");
-    app.add_option(
-        "--stats", arguments.statistics,
-        "write what was read, what was left out and what was counted, as the part's META has it; - "
-        "is standard output");
-    app.footer("Examples:\n"
-               "  hearth-import scene.glb -o scene.import.part\n"
-               "  hearth-import rock.glb --lod 1=rock_mid.glb --lod 2=rock_low.glb -o rock.import.part\n"
-               "Exit codes: 0 done, 2 usage, 65 malformed input, 66 input missing, 70 internal, 73 cannot "
-               "write, 74 I/O, 78 wrong settings");
-    try
-    {
-        app.parse(argc, argv);
-    }
-    catch (const CLI::ParseError& error)
-    {
-        return app.exit(error) == 0 ? 0 : 2;
-    }
+    app.addOption("source", arguments.source, "glTF, GLB, OBJ, PLY, STL, OFF, Draco or image file")
+        .required();
+    app.addOption("-o,--output", arguments.output, "import part to write").required();
+    app.addOption("--lod", arguments.lods,
+                  "N=FILE: level of detail N of the source's only mesh, made by hand")
+        .oneValueEach();
+    app.addOption("--crease-angle", arguments.crease_angle_deg,
+                  "degrees: sharper edges of a mesh without normals stay hard; 180: none does")
+        .showDefault()
+        .range(0.0, 180.0);
+    const cli::Option profile =
+        app.addOption("--profile", arguments.profile, "TOML file: the error that clips may have");
+    app.addOption("--set", arguments.settings, "KEY=VALUE: a line of a profile, as animation.error=0.001")
+        .oneValueEach()
+        .excludes(profile);
+    app.addOption("--depfile", arguments.depfile,
+                  "write which files were read, and which were looked for in vain, as sha256sum would");
+    app.addOption("--stats", arguments.statistics,
+                  "write what was read, what was left out and what was counted, as the part's META has it; - "
+                  "is standard output");
+    app.setFooter("Examples:\n"
+                  "  hearth-import scene.glb -o scene.import.part\n"
+                  "  hearth-import rock.glb --lod 1=rock_mid.glb --lod 2=rock_low.glb -o rock.import.part\n"
+                  "Exit codes: 0 done, 2 usage, 65 malformed input, 66 input missing, 70 internal, 73 cannot "
+                  "write, 74 I/O, 78 wrong settings");
+    if (const std::optional<int> exit_code = app.parse(argc, argv))
+        return *exit_code;
     const Status status = run(arguments);
-    if (status.ok())
-        return 0;
-    std::fprintf(stderr, "%s\n", formatMessage(import::shortened(status.error())).c_str());
-    return exitCode(status.error());
+    return status.ok() ? 0 : reportFailure(import::shortened(status.error()));
 }
 
 } // namespace

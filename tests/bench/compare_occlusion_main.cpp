@@ -1,12 +1,12 @@
 // How far the ambient occlusion of one bake is from that of another, at the vertices of the finest level: what noise costs,
 // where the other one has many times the rays or samples. `./dev bench visibility` runs it.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/command_line/command_line.h"
 #include "cook/tools/open_part.h"
 #include "cook/visibility/level_meshes.h"
 #include "formats/issues.h"
 #include "formats/program.h"
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -65,15 +65,15 @@ Status compare(const std::string& baked_path, const std::string& reference_path)
 
 int program(int argc, char** argv)
 {
-    CLI::App app("Compares the ambient occlusion of two clusters parts of one source.");
+    cli::CommandLine app("Compares the ambient occlusion of two clusters parts of one source.");
     std::string baked, reference;
-    app.add_option("baked", baked, "clusters part with visibility")->required();
-    app.add_option("reference", reference, "the same, baked better")->required();
-    CLI11_PARSE(app, argc, argv);
+    app.addOption("baked", baked, "clusters part with visibility").required();
+    app.addOption("reference", reference, "the same, baked better").required();
+    if (const std::optional<int> exit_code = app.parse(argc, argv))
+        return *exit_code;
     if (const Status status = compare(baked, reference); !status.ok())
     {
-        std::fprintf(stderr, "%s\n", formatMessage(status.error()).c_str());
-        return exitCode(status.error());
+        return reportFailure(status.error());
     }
     return 0;
 }

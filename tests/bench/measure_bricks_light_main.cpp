@@ -1,6 +1,7 @@
 // hearth_measure_bricks_light: holds the light that is gathered from bricks against paths through the real geometry.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/bricks/grid_part.h"
+#include "cook/command_line/command_line.h"
 #include "cook/tools/open_part.h"
 #include "cook/tools/whole_file.h"
 #include "formats/program.h"
@@ -8,7 +9,6 @@
 #include "tests/bench/light_plot.h"
 #include "tests/reference/png_image.h"
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -206,28 +206,27 @@ Status run(const Arguments& arguments)
 int program(int argc, char** argv)
 {
     std::setvbuf(stdout, nullptr, _IOLBF, 0); // a line for each size as it is there
-    CLI::App app("Holds the light that is gathered from bricks against paths through the real geometry.");
+    cli::CommandLine app(
+        "Holds the light that is gathered from bricks against paths through the real geometry.");
     Arguments arguments;
-    app.add_option(
+    app.addOption(
            "SCENES", arguments.scenes,
            "for each scene PREFIX: PREFIX.hearth and its PREFIX.import.part, .clusters.part, .textures.part")
-        ->required();
-    app.add_option("--voxel-sizes", arguments.sizes, "metres")->delimiter(',');
-    app.add_option("--points", arguments.points, "of surfaces");
-    app.add_option("--paths", arguments.paths, "of each point");
-    app.add_option("--gather-rays", arguments.gather_rays, "of each point through the bricks");
-    app.add_option("--plot", arguments.plot, "SVG file of the errors");
-    app.add_option(
+        .required();
+    app.addOption("--voxel-sizes", arguments.sizes, "metres").delimiter(',');
+    app.addOption("--points", arguments.points, "of surfaces");
+    app.addOption("--paths", arguments.paths, "of each point");
+    app.addOption("--gather-rays", arguments.gather_rays, "of each point through the bricks");
+    app.addOption("--plot", arguments.plot, "SVG file of the errors");
+    app.addOption(
         "--picture", arguments.picture_voxel,
         "also write PREFIX.light.png at this voxel size: irradiance by paths, by bricks, their difference");
-    app.add_option("--picture-paths", arguments.picture_paths,
-                   "of each pixel, and rays of each through the bricks");
-    CLI11_PARSE(app, argc, argv);
+    app.addOption("--picture-paths", arguments.picture_paths,
+                  "of each pixel, and rays of each through the bricks");
+    if (const std::optional<int> exit_code = app.parse(argc, argv))
+        return *exit_code;
     const Status end = run(arguments);
-    if (end.ok())
-        return 0;
-    std::fprintf(stderr, "%s\n", formatMessage(end.error()).c_str());
-    return exitCode(end.error());
+    return end.ok() ? 0 : reportFailure(end.error());
 }
 
 } // namespace

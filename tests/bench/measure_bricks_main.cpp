@@ -2,10 +2,9 @@
 // beside the talk's, and the finest voxels that fit what the talk takes.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/bricks/grid_part.h"
+#include "cook/command_line/command_line.h"
 #include "cook/tools/open_part.h"
 #include "formats/program.h"
-
-#include <CLI/CLI.hpp>
 
 #include <cstdio>
 #include <ctime>
@@ -125,24 +124,15 @@ Status measure(const std::vector<std::string>& paths)
 
 int program(int argc, char** argv)
 {
-    CLI::App app("Measures how a land becomes bricks.", "hearth_measure_bricks");
+    cli::CommandLine app("Measures how a land becomes bricks.", "hearth_measure_bricks");
     std::vector<std::string> parts;
-    app.add_option("PARTS", parts, "import, clusters and textures part of hearth-samples land")
-        ->required()
-        ->expected(3);
-    try
-    {
-        app.parse(argc, argv);
-    }
-    catch (const CLI::ParseError& error)
-    {
-        return app.exit(error) == 0 ? 0 : 2;
-    }
+    app.addOption("PARTS", parts, "import, clusters and textures part of hearth-samples land")
+        .required()
+        .expected(3);
+    if (const std::optional<int> exit_code = app.parse(argc, argv))
+        return *exit_code;
     const Status done = measure(parts);
-    if (done.ok())
-        return 0;
-    std::fprintf(stderr, "%s\n", formatMessage(done.error()).c_str());
-    return exitCode(done.error());
+    return done.ok() ? 0 : reportFailure(done.error());
 }
 
 } // namespace

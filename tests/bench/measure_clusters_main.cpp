@@ -4,6 +4,7 @@
 #include "cook/clusters/authored_levels.h"
 #include "cook/clusters/levels.h"
 #include "cook/clusters/manual_lods.h"
+#include "cook/command_line/command_line.h"
 #include "formats/pack_view.h"
 #include "formats/program.h"
 #include "tests/bench/cut_quality.h"
@@ -13,7 +14,6 @@
 
 #include <meshoptimizer.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -323,15 +323,16 @@ bench::MeshCurve measureMesh(const std::string& name, const mesh::SourceMesh& me
 
 int program(int argc, char** argv)
 {
-    CLI::App app("Measures the cluster hierarchies of the meshes of import parts.");
+    cli::CommandLine app("Measures the cluster hierarchies of the meshes of import parts.");
     std::vector<std::string> parts;
     size_t samples = 200000;
-    app.add_option("PART", parts, "import parts; their file names name the meshes")->required();
-    app.add_option("--samples", samples,
-                   "points on each of two surfaces that are compared; 0: quality is not measured");
+    app.addOption("PART", parts, "import parts; their file names name the meshes").required();
+    app.addOption("--samples", samples,
+                  "points on each of two surfaces that are compared; 0: quality is not measured");
     std::string plot;
-    app.add_option("--plot", plot, "write the error of all cuts as an SVG picture");
-    CLI11_PARSE(app, argc, argv);
+    app.addOption("--plot", plot, "write the error of all cuts as an SVG picture");
+    if (const std::optional<int> exit_code = app.parse(argc, argv))
+        return *exit_code;
     std::vector<bench::MeshCurve> curves;
     for (const std::string& path : parts)
     {
@@ -340,8 +341,7 @@ int program(int argc, char** argv)
             reader.ok() ? mesh::readSourceMesh(*reader, 0) : Result<mesh::SourceMesh>(reader.error());
         if (!mesh.ok())
         {
-            std::fprintf(stderr, "%s\n", formatMessage(mesh.error()).c_str());
-            return exitCode(mesh.error());
+            return reportFailure(mesh.error());
         }
         const std::string file = path.substr(path.find_last_of('/') + 1);
         curves.push_back(measureMesh(file.substr(0, file.find('.')), *mesh, samples));

@@ -1,10 +1,10 @@
 // Measures what a game waits for before its first page: opening a pack whose file is not in memory and one whose file is,
 // and what the check of a page adds to its decoding. `./dev bench runtime` runs this.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/command_line/command_line.h"
 #include "formats/program.h"
 #include "runtime/pack/pack.h"
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -119,15 +119,13 @@ Status measure(const std::string& path)
 
 int program(int argc, char** argv)
 {
-    CLI::App app("Measures opening a pack and checking its pages.", "hearth_measure_opening");
+    cli::CommandLine app("Measures opening a pack and checking its pages.", "hearth_measure_opening");
     std::string path;
-    app.add_option("PACK", path, "the pack")->required();
-    CLI11_PARSE(app, argc, argv);
+    app.addOption("PACK", path, "the pack").required();
+    if (const std::optional<int> exit_code = app.parse(argc, argv))
+        return *exit_code;
     const Status measured = measure(path);
-    if (measured.ok())
-        return 0;
-    std::fprintf(stderr, "%s\n", formatMessage(measured.error()).c_str());
-    return exitCode(measured.error());
+    return measured.ok() ? 0 : reportFailure(measured.error());
 }
 
 } // namespace

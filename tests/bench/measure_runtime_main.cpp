@@ -1,6 +1,7 @@
 // Reads what hearth-render left of the scene of the talk and prints it beside the talk's figures. `./dev bench runtime`
 // makes the scene, draws it and runs this.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/command_line/command_line.h"
 #include "formats/program.h"
 #include "formats/shared/records.h"
 #include "tests/bench/visible_figures.h"
@@ -8,7 +9,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
 #include <cstdio>
@@ -201,23 +201,21 @@ Status measure(const Arguments& arguments)
 
 int program(int argc, char** argv)
 {
-    CLI::App app("Prints what hearth-render drew of a pack, beside the figures of the talk.");
+    cli::CommandLine app("Prints what hearth-render drew of a pack, beside the figures of the talk.");
     Arguments arguments;
-    app.add_option("PACK", arguments.pack, "the pack that was drawn")->required();
-    app.add_option("--path", arguments.path_stats, "statistics along a camera path, everything resident")
-        ->required();
-    app.add_option("--visibility", arguments.visibility, "dumps of the frames of that path that count")
-        ->required();
-    app.add_option("--cold", arguments.cold_stats, "statistics of equal frames within a budget")->required();
-    app.add_option("--resident", arguments.resident, "the picture of these frames, everything resident")
-        ->required();
-    app.add_option("--converged", arguments.converged, "the last picture within the budget")->required();
-    CLI11_PARSE(app, argc, argv);
+    app.addOption("PACK", arguments.pack, "the pack that was drawn").required();
+    app.addOption("--path", arguments.path_stats, "statistics along a camera path, everything resident")
+        .required();
+    app.addOption("--visibility", arguments.visibility, "dumps of the frames of that path that count")
+        .required();
+    app.addOption("--cold", arguments.cold_stats, "statistics of equal frames within a budget").required();
+    app.addOption("--resident", arguments.resident, "the picture of these frames, everything resident")
+        .required();
+    app.addOption("--converged", arguments.converged, "the last picture within the budget").required();
+    if (const std::optional<int> exit_code = app.parse(argc, argv))
+        return *exit_code;
     const Status measured = measure(arguments);
-    if (measured.ok())
-        return 0;
-    std::fprintf(stderr, "%s\n", formatMessage(measured.error()).c_str());
-    return exitCode(measured.error());
+    return measured.ok() ? 0 : reportFailure(measured.error());
 }
 
 } // namespace

@@ -1,12 +1,12 @@
 // Measures how fast rays of the visibility cooker are, beside bare loops over the very same rays: what sampling, summing
 // and sharing out of work cost. `./dev bench visibility` runs it.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/command_line/command_line.h"
 #include "cook/sampling/hemisphere.h"
 #include "cook/sampling/owen_sobol.h"
 #include "cook/visibility/rays.h"
 #include "tests/cook/shapes.h"
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -294,15 +294,15 @@ void measureNearestHit(const Occluders& occluders, std::span<const SamplePoint> 
 
 int run(int argc, char** argv)
 {
-    CLI::App app{"Rays of the visibility cooker beside bare loops of Embree"};
+    cli::CommandLine app{"Rays of the visibility cooker beside bare loops of Embree"};
     uint32_t side = 130;
     int rounds = 5;
     int threads = 2;
-    app.add_option("--side", side, "of the six n x n sides of a rock of 12 n^2 triangles")
-        ->check(CLI::Range(10, 1000));
-    app.add_option("--rounds", rounds, "of which the fastest counts")->check(CLI::Range(1, 100));
-    app.add_option("--threads", threads)->check(CLI::Range(1, 256));
-    CLI11_PARSE(app, argc, argv);
+    app.addOption("--side", side, "of the six n x n sides of a rock of 12 n^2 triangles").range(10, 1000);
+    app.addOption("--rounds", rounds, "of which the fastest counts").range(1, 100);
+    app.addOption("--threads", threads, "that trace rays").range(1, 256);
+    if (const std::optional<int> exit_code = app.parse(argc, argv))
+        return *exit_code;
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                     static_cast<size_t>(threads));
 

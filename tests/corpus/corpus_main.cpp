@@ -1,8 +1,8 @@
 // hearth_corpus: cooks every file of the asset corpus and holds what comes of it against the manifest.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/command_line/command_line.h"
+#include "formats/program.h"
 #include "tests/corpus/report.h"
-
-#include <CLI/CLI.hpp>
 
 #include <atomic>
 #include <csignal>
@@ -142,8 +142,7 @@ int run(const Arguments& arguments)
     const Result<std::vector<Asset>> assets = readManifest(folder);
     if (!assets.ok())
     {
-        std::fprintf(stderr, "%s\n", formatMessage(assets.error()).c_str());
-        return exitCode(assets.error());
+        return reportFailure(assets.error());
     }
     const std::string bin = fs::canonical(arguments.programs).string();
     Programs programs{bin + "/hearth", arguments.no_render ? "" : bin + "/hearth-render", {bin, {}}};
@@ -168,33 +167,28 @@ int run(const Arguments& arguments)
 int main(int argc, char** argv)
 try
 {
-    CLI::App app("Cooks the files of $HEARTH_ASSETS/manifest.json and checks each against its class.");
+    cli::CommandLine app(
+        "Cooks the files of $HEARTH_ASSETS/manifest.json and checks each against its class.");
     Arguments arguments;
-    app.add_option("--bin", arguments.programs, "folder of the programs to test")
-        ->required()
-        ->check(CLI::ExistingDirectory);
-    app.add_option("-j,--jobs", arguments.jobs, "files at once")
-        ->check(CLI::Range(1, 256))
-        ->capture_default_str();
-    app.add_option("--filter", arguments.filter, "only files whose path contains this");
-    app.add_option("--class", arguments.class_name, "only files of this class");
-    app.add_option("--category", arguments.category, "only files of this category");
-    app.add_flag("--good", arguments.good, "only good files");
-    app.add_flag("--bad", arguments.bad, "only bad files");
-    app.add_flag("--list-medium", arguments.list_medium,
-                 "print the files of medium confidence that come out otherwise than their class");
-    app.add_flag("--no-render", arguments.no_render, "do not draw the packs");
-    app.footer(
+    app.addOption("--bin", arguments.programs, "folder of the programs to test")
+        .required()
+        .typeName("DIR")
+        .check([](const std::string& path)
+               { return fs::is_directory(path) ? "" : "'" + path + "' is no folder"; });
+    app.addOption("-j,--jobs", arguments.jobs, "files at once").range(1, 256).showDefault();
+    app.addOption("--filter", arguments.filter, "only files whose path contains this");
+    app.addOption("--class", arguments.class_name, "only files of this class");
+    app.addOption("--category", arguments.category, "only files of this category");
+    app.addFlag("--good", arguments.good, "only good files");
+    app.addFlag("--bad", arguments.bad, "only bad files");
+    app.addFlag("--list-medium", arguments.list_medium,
+                "print the files of medium confidence that come out otherwise than their class");
+    app.addFlag("--no-render", arguments.no_render, "do not draw the packs");
+    app.setFooter(
         "Example: HEARTH_ASSETS=../shared/assets hearth_corpus --bin build/release/bin --category gen-uri\n"
         "Exit codes: 0 every file meets its class, 1 some do not, 2 usage, 77 skipped: no assets");
-    try
-    {
-        app.parse(argc, argv);
-    }
-    catch (const CLI::ParseError& error)
-    {
-        return app.exit(error) == 0 ? 0 : 2;
-    }
+    if (const std::optional<int> exit_code = app.parse(argc, argv))
+        return *exit_code;
     // the children inherit these: no core files, and no file without end
     const rlimit no_core{0, 0};
     const rlimit file_size{kMaxFileBytes, kMaxFileBytes};

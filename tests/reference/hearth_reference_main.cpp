@@ -1,12 +1,12 @@
 // hearth-reference: draws a pack with rays, slowly, and can say how far another picture is from that.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/command_line/command_line.h"
 #include "formats/animation.h"
 #include "formats/pack_check.h"
+#include "formats/program.h"
 #include "runtime/pack/pose_player.h"
 #include "tests/reference/flip.h"
 #include "tests/reference/reference_renderer.h"
-
-#include <CLI/CLI.hpp>
 
 #include <cmath>
 #include <cstdio>
@@ -16,12 +16,6 @@ namespace
 
 using namespace hearth;
 using namespace hearth::reference;
-
-int fail(const Error& error)
-{
-    std::fprintf(stderr, "%s\n", formatMessage(error).c_str());
-    return exitCode(error);
-}
 
 struct Arguments
 {
@@ -124,36 +118,30 @@ Status run(Arguments& arguments)
 
 int main(int argc, char** argv)
 {
-    CLI::App app("Draws the finest level of a pack with rays: what hearth-render should draw.\n"
-                 "Example: hearth-reference scene.hearth -o scene.png --scene-camera 0 --size 640x360");
+    cli::CommandLine app(
+        "Draws the finest level of a pack with rays: what hearth-render should draw.\n"
+        "Example: hearth-reference scene.hearth -o scene.png --scene-camera 0 --size 640x360");
     Arguments arguments;
-    app.add_option("PACK", arguments.pack, "pack to draw")->required();
-    app.add_option("-o,--output", arguments.output, "PNG to write")->required();
-    app.add_option("--size", arguments.size, "width x height");
-    app.add_option("--camera", arguments.camera, "px,py,pz,tx,ty,tz,fovdeg")->delimiter(',')->expected(7);
-    app.add_option("--scene-camera", arguments.scene_camera, "the pack's camera of that number (default 0)");
-    app.add_option("--animation", arguments.animation, "in the pose of a clip, by its name or number");
-    app.add_option("--time", arguments.seconds, "of the clip, seconds");
-    app.add_option("--samples-per-side", arguments.options.samples_per_side, "rays per pixel: its square")
-        ->check(CLI::Range(1u, 64u));
-    app.add_flag("--shadows", arguments.options.shadows, "shadows of suns and spots");
-    app.add_option(
-        "--sky-rays", arguments.options.sky.rays,
-        "rays to the sky for each sample and lobe: what hides it counts (default 0: nothing does)");
-    app.add_option("--bounces", arguments.options.sky.bounces,
-                   "diffuse bounces of what hides the sky (default 0: it is black)");
-    app.add_flag("--integrate-sky", arguments.options.sky.integrate,
-                 "the sky as one radiance, in place of the runtime's forms of it");
-    app.add_option("--compare", arguments.compare, "print how far this PNG is from that, by FLIP and RMSE");
-    app.add_option("--flip-map", arguments.flip_map, "write that difference as a picture");
-    try
-    {
-        app.parse(argc, argv);
-    }
-    catch (const CLI::ParseError& error)
-    {
-        return app.exit(error) == 0 ? 0 : 2;
-    }
+    app.addOption("PACK", arguments.pack, "pack to draw").required();
+    app.addOption("-o,--output", arguments.output, "PNG to write").required();
+    app.addOption("--size", arguments.size, "width x height");
+    app.addOption("--camera", arguments.camera, "px,py,pz,tx,ty,tz,fovdeg").delimiter(',').expected(7);
+    app.addOption("--scene-camera", arguments.scene_camera, "the pack's camera of that number (default 0)");
+    app.addOption("--animation", arguments.animation, "in the pose of a clip, by its name or number");
+    app.addOption("--time", arguments.seconds, "of the clip, seconds");
+    app.addOption("--samples-per-side", arguments.options.samples_per_side, "rays per pixel: its square")
+        .range(1u, 64u);
+    app.addFlag("--shadows", arguments.options.shadows, "shadows of suns and spots");
+    app.addOption("--sky-rays", arguments.options.sky.rays,
+                  "rays to the sky for each sample and lobe: what hides it counts (default 0: nothing does)");
+    app.addOption("--bounces", arguments.options.sky.bounces,
+                  "diffuse bounces of what hides the sky (default 0: it is black)");
+    app.addFlag("--integrate-sky", arguments.options.sky.integrate,
+                "the sky as one radiance, in place of the runtime's forms of it");
+    app.addOption("--compare", arguments.compare, "print how far this PNG is from that, by FLIP and RMSE");
+    app.addOption("--flip-map", arguments.flip_map, "write that difference as a picture");
+    if (const std::optional<int> exit_code = app.parse(argc, argv))
+        return *exit_code;
     const Status status = run(arguments);
-    return status.ok() ? 0 : fail(status.error());
+    return status.ok() ? 0 : reportFailure(status.error());
 }
