@@ -83,7 +83,7 @@ Status checkCall(const hearth_scene& scene, const hearth_targets* targets, VkCom
     return success();
 }
 
-/// That no other scene has drawn what the targets hold.
+/// Checks that the targets do not belong to another scene.
 Status checkOwner(const hearth_scene& scene, const hearth_targets& targets)
 {
     const std::shared_ptr<const gpu::Scene> owner = targets.scene.lock();

@@ -7,8 +7,8 @@
  *   thread is started, and there are no globals. Vulkan 1.1 without optional features is enough.
  * - A call returns HEARTH_OK, or why it changed nothing. Its message, one line with what to do, is that of
  *   hearth_last_error, or goes to `message` (message_size bytes; may be NULL and 0) where a call has no renderer.
- *   hearth_pack_close leaves its message to hearth_pack_last_error. Messages are written by calls that fail only. Where a
- *   handle is NULL there is but the result.
+ *   hearth_pack_close leaves its message to hearth_pack_last_error. Messages are written by calls that fail only.
+ *   Where a handle is NULL there is but the result.
  * - Structs begin with their size, which the HEARTH_..._INIT macros set beside the defaults. Structs in arrays, and those
  *   that stand inside others, have no size and never change.
  * - A renderer and all that is made from it are used by one thread at a time; hearth_read_done, and packs while they are
@@ -328,9 +328,9 @@ HEARTH_API hearth_result hearth_scene_shadows(const hearth_scene* scene, hearth_
 
 /* ---- Targets: the images of a frame. Each camera has its own: they remember what it saw. ----
  *
- * They belong to the scene that is first recorded with them, until it is destroyed: a frame draws one scene, and a second
- * one would draw over the picture. To record another scene with them is an error. hearth_record_prefetch, which draws
- * nothing, takes the targets of any scene. */
+ * They belong to the scene that is first recorded with them, until it is destroyed: a frame draws one scene, and a
+ * second one would draw over the picture. To record another scene with them is an error. hearth_record_prefetch,
+ * which draws nothing, takes the targets of any scene. */
 
 /* width, height  1 to what the device can render; pixels
  * errors: USAGE, DEVICE_LIMIT, DEVICE_FAILED, OUT_OF_MEMORY. */
@@ -573,7 +573,7 @@ typedef struct hearth_frame
             0, HEARTH_AMBIENT_OCCLUSION_EXACT, HEARTH_SPECULAR_OCCLUSION_FIT, 0, NULL, NULL, 0, 0            \
     }
 
-/* ---- Tables of a pack (1.6): its records have the numbers that moves, poses, clips and light changes name. Any thread. ---- */
+/* ---- Tables of a pack (1.6), on any thread. Moves, poses, clips and light changes name records by these numbers. ---- */
 
 enum
 {
@@ -592,14 +592,14 @@ enum
 HEARTH_API hearth_result hearth_pack_get_count(const hearth_pack* pack, uint32_t table, uint32_t* count,
                                                char* message, size_t message_size);
 
-/* A name in UTF-8, which holds while the pack is open. No zero ends it: print it by "%.*s", (int)length, text. */
+/* A name in UTF-8, which holds while the pack is open. No zero ends it: print it by "%.*s", length, text. */
 typedef struct hearth_name
 {
     const char* text; /* not NULL */
     size_t length;    /* bytes; 0: the source gave no name */
 } hearth_name;
 
-/* Reads the name of a record; that of an instance is the name of its node. Names need not differ from each other.
+/* Reads the name of a record; an instance has the name of its node. Several records may have one name.
  * errors: USAGE, also where there is no such record. */
 HEARTH_API hearth_result hearth_pack_get_name(const hearth_pack* pack, uint32_t table, uint32_t index,
                                               hearth_name* name, char* message, size_t message_size);

@@ -529,7 +529,7 @@ hearth_camera hearth_fit_camera(const float box_min[3], const float box_max[3], 
         camera.target[axis] = is_empty ? 0 : box_min[axis] + half;
         square += half * half;
     }
-    /* the sphere around the box touches the sides of the picture; a box without extent is seen from afar enough */
+    /* the sphere around the box touches the sides of the picture; a box without extent has a distance too */
     distance = margin * sqrtf(square) / sinf(half_angle);
     distance = distance > 1e-6f ? distance : 1e-6f;
     for (axis = 0; axis < 3; ++axis)

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: LicenseRef-Hearth-Undecided
  *
- * Optional helpers for tools, tests and first steps, which have no Vulkan device of their own: a device without a window,
- * commands that run at once, pictures read back, a camera that fits. hearth.h does not need them; its rules hold here too.
- * examples/draw_picture.c is a whole program.
+ * Optional helpers for tools, tests and first steps, which have no Vulkan device of their own: a device without
+ * a window, commands that run at once, pictures read back, a camera that fits. hearth.h does not need them; its
+ * rules hold here too. examples/draw_picture.c is a whole program.
  *
- * A static library in C99 that opens the Vulkan loader at run time. A device and all that is made on it are used by one
- * thread at a time. */
+ * A static library in C99 that opens the Vulkan loader at run time. A device and all that is made on it are used
+ * by one thread at a time. */
 #ifndef HEARTH_HELPERS_H
 #define HEARTH_HELPERS_H
 
@@ -32,7 +32,7 @@ typedef struct hearth_device_options
 HEARTH_API hearth_result hearth_device_create(const hearth_device_options* options, hearth_device** device,
                                               char* message, size_t message_size);
 
-/* What was made on the device, the renderer first of all, is destroyed before it. errors: none. */
+/* Destroys a device on which nothing is alive any more: the renderer is destroyed before it. errors: none. */
 HEARTH_API hearth_result hearth_device_destroy(hearth_device* device);
 
 /* The message of the last call that failed on the device; "" where none did. Holds until the next call. */
@@ -57,8 +57,8 @@ typedef struct hearth_device_info
 /* errors: USAGE. */
 HEARTH_API hearth_result hearth_device_get_info(hearth_device* device, hearth_device_info* info);
 
-/* Sets the handles of a renderer's description, and HEARTH_FEATURE_SAMPLER_ANISOTROPY where the device has it; the rest
- * stays. errors: USAGE. */
+/* Sets the handles of a renderer's description, and HEARTH_FEATURE_SAMPLER_ANISOTROPY where the device has it;
+ * the rest stays. errors: USAGE. */
 HEARTH_API hearth_result hearth_device_describe(hearth_device* device,
                                                 hearth_renderer_description* description);
 
@@ -82,12 +82,13 @@ HEARTH_API hearth_result hearth_device_discard(hearth_device* device);
  * width, height  of the targets
  * texels         4 bytes each, rows from top to bottom without gaps
  * size           bytes of `texels`: width * height * 4 or more
- * errors: USAGE, also between hearth_device_begin and its end; DEVICE where no memory of it can be read; DEVICE_FAILED. */
+ * errors: USAGE, also between hearth_device_begin and its end; DEVICE where no memory of it can be read;
+ * DEVICE_FAILED. */
 HEARTH_API hearth_result hearth_device_read_image(hearth_device* device, const hearth_image* image,
                                                   uint32_t width, uint32_t height, void* texels, size_t size);
 
 /* Returns a camera that shows the whole box from the right, front and above.
- * box_min, box_max  metres; an empty box, as of a scene without instances, is taken for a cube around the origin
+ * box_min, box_max  metres; an empty box (of a scene without instances) is taken for a cube around the origin
  * aspect            width / height of the picture, above 0 */
 HEARTH_API hearth_camera hearth_fit_camera(const float box_min[3], const float box_max[3], float aspect);
 

@@ -72,7 +72,7 @@ uint32_t countOf(const hearth_pack& pack, uint32_t table)
                        [](const auto& records) { return static_cast<uint32_t>(records.size()); });
 }
 
-/// That the pack is there and has the record. `table` is one of HEARTH_TABLE_*.
+/// Checks that the pack is there and has the record. `table` is one of HEARTH_TABLE_*.
 Status checkRecord(const hearth_pack* pack, uint32_t table, uint32_t index)
 {
     HEARTH_TRY(checkTable(pack, table));

@@ -38,7 +38,8 @@ std::vector<std::string> sources()
     return paths;
 }
 
-/// The includes of a source. A quoted name without a folder, as in headers that are installed together, is a file beside it.
+/// The includes of a source. A quoted name without a folder, as in headers that are installed together, is a file
+/// beside it.
 std::vector<Include> includesIn(const std::string& file)
 {
     std::vector<Include> includes = includesOf(contentOf(kRoot / file));

@@ -52,7 +52,8 @@ private:
 TEST_F(NoDisplay, isSaidWithWhatToDo)
 {
     const std::string said = view();
-    EXPECT_NE(said.find("error: there is no display: neither DISPLAY nor WAYLAND_DISPLAY is set"), std::string::npos) << said;
+    EXPECT_NE(said.find("there is no display: neither DISPLAY nor WAYLAND_DISPLAY is set"), std::string::npos)
+        << said;
     EXPECT_NE(said.find("[E4007] hint: set DISPLAY"), std::string::npos) << said;
     EXPECT_NE(said.find("hearth-render"), std::string::npos) << said;
 }
