@@ -38,12 +38,13 @@ install(TARGETS ${exports} EXPORT hearthTargets
   LIBRARY COMPONENT runtime NAMELINK_COMPONENT development
   ARCHIVE COMPONENT development
   INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/hearth)
-install(FILES runtime/c/hearth.h runtime/c/hearth.hpp
+install(FILES runtime/c/hearth.h runtime/c/hearth.hpp runtime/c/hearth_helpers.h
   DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/hearth COMPONENT development)
 # format_tables.h is of no library that is installed
 install(DIRECTORY formats DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/hearth COMPONENT development
   FILES_MATCHING PATTERN "*.h" PATTERN format_tables.h EXCLUDE)
 install(FILES formats/FORMAT.md runtime/c/README.md DESTINATION ${CMAKE_INSTALL_DOCDIR}/development COMPONENT development)
+install(DIRECTORY runtime/c/examples DESTINATION ${CMAKE_INSTALL_DOCDIR}/development COMPONENT development)
 
 # find_package(hearth CONFIG)
 set(config_folder ${CMAKE_INSTALL_LIBDIR}/cmake/hearth)
@@ -59,8 +60,10 @@ install(FILES
     ${PROJECT_BINARY_DIR}/hearthConfigVersion.cmake
   DESTINATION ${config_folder} COMPONENT development)
 
-# pkg-config
+# pkg-config: paths from the folder of the file itself, so that all may be moved together
 file(RELATIVE_PATH prefix_from_pkgconfig /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)
 string(REGEX REPLACE "/$" "" prefix_from_pkgconfig ${prefix_from_pkgconfig})
-configure_file(cmake/hearth.pc.in ${PROJECT_BINARY_DIR}/hearth.pc @ONLY)
-install(FILES ${PROJECT_BINARY_DIR}/hearth.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT development)
+foreach(module hearth hearth-helpers)
+  configure_file(cmake/${module}.pc.in ${PROJECT_BINARY_DIR}/${module}.pc @ONLY)
+  install(FILES ${PROJECT_BINARY_DIR}/${module}.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT development)
+endforeach()

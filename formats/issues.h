@@ -138,6 +138,8 @@ enum class IssueClass : uint8_t
       "close other programs, or split the source")                                                           \
     X(streaming_budget, 4006, usage, "the geometry that must stay in memory exceeds the budget",             \
       "raise the budget to what the message says")                                                           \
+    X(no_display, 4007, internal, "there is no display to open a window on",                                 \
+      "set DISPLAY or WAYLAND_DISPLAY to a display that runs, or draw into a file with hearth-render")       \
     X(cache_failed, 4100, warning, "a cache cannot be used as it should; the cook goes on without it",       \
       "check the folder or the server, its rights and the space left")                                       \
     X(plan_syntax, 5000, malformed, "a plan is not valid", "make it again with hearth plan")                 \

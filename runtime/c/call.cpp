@@ -51,6 +51,24 @@ std::string textOf(const char* function, const Error& error)
            " [E1000] hint: see hearth.h";
 }
 
+/// "2 scenes and 1 player are alive [E1000] hint: destroy them before the pack".
+std::string inUseText(std::initializer_list<LiveObjects> objects, const char* owner)
+{
+    std::string list;
+    uint32_t total = 0;
+    for (const LiveObjects& kind : objects)
+    {
+        total += kind.count;
+        if (kind.count > 0)
+            list += (list.empty() ? "" : " and ") + std::to_string(kind.count) + " " +
+                    (kind.count == 1 ? kind.one : kind.several);
+    }
+    return list +
+           (total == 1 ? " is alive [E1000] hint: destroy it before the "
+                       : " are alive [E1000] hint: destroy them before the ") +
+           owner;
+}
+
 void write(MessageRoom message, const char* text, size_t length)
 {
     if (message.text == nullptr || message.size == 0)
@@ -58,6 +76,20 @@ void write(MessageRoom message, const char* text, size_t length)
     const size_t kept = std::min(length, message.size - 1);
     std::memcpy(message.text, text, kept);
     message.text[kept] = '\0';
+}
+
+/// The text that `make` returns, or that of the result where there is no memory for it.
+template <typename Make>
+void writeText(MessageRoom message, hearth_result result, const Make& make) noexcept
+try
+{
+    const std::string text = make();
+    write(message, text.data(), text.size());
+}
+catch (const std::bad_alloc&)
+{
+    const char* text = hearth_result_string(result);
+    write(message, text, std::strlen(text));
 }
 
 } // namespace
@@ -70,17 +102,18 @@ Error usage(std::string detail)
 hearth_result fail(MessageRoom message, const char* function, const Error& error)
 {
     const hearth_result result = resultOf(error);
-    try
-    {
-        const std::string text = textOf(function, error);
-        write(message, text.data(), text.size());
-    }
-    catch (const std::bad_alloc&)
-    {
-        const char* text = hearth_result_string(result);
-        write(message, text, std::strlen(text));
-    }
+    writeText(message, result, [&] { return textOf(function, error); });
     return result;
+}
+
+hearth_result checkUnused(MessageRoom message, const char* function, const char* owner,
+                          std::initializer_list<LiveObjects> objects) noexcept
+{
+    if (std::all_of(objects.begin(), objects.end(), [](const LiveObjects& kind) { return kind.count == 0; }))
+        return HEARTH_OK;
+    writeText(message, HEARTH_ERROR_IN_USE,
+              [&] { return std::string(function) + ": error: " + inUseText(objects, owner); });
+    return HEARTH_ERROR_IN_USE;
 }
 
 Status checkStruct(const char* name, const uint32_t* struct_size, size_t expected_size)

@@ -6,6 +6,7 @@
 #include "runtime/c/hearth.h"
 
 #include <exception>
+#include <initializer_list>
 #include <new>
 
 namespace hearth::c
@@ -23,6 +24,19 @@ Error usage(std::string detail);
 
 /// Write the message of an error, and return the result that stands for it. `function` names the call that is wrong.
 hearth_result fail(MessageRoom message, const char* function, const Error& error);
+
+/// Objects of one kind that were made from a handle and are alive.
+struct LiveObjects
+{
+    uint32_t count;
+    const char* one;     ///< their kind in the singular
+    const char* several; ///< and in the plural
+};
+
+/// HEARTH_ERROR_IN_USE, where there are any; else HEARTH_OK. The message counts them: "2 scenes and 1 player are alive".
+/// owner  what they were made from: "pack"
+hearth_result checkUnused(MessageRoom message, const char* function, const char* owner,
+                          std::initializer_list<LiveObjects> objects) noexcept;
 
 /// Run a call: `body` returns a Status, and changes nothing where it fails.
 template <typename Body>

@@ -83,6 +83,16 @@ Status checkCall(const hearth_scene& scene, const hearth_targets* targets, VkCom
     return success();
 }
 
+/// Checks that the targets do not belong to another scene.
+Status checkOwner(const hearth_scene& scene, const hearth_targets& targets)
+{
+    const std::shared_ptr<const gpu::Scene> owner = targets.scene.lock();
+    if (owner != nullptr && owner != scene.scene)
+        return usage("the targets belong to another scene, whose picture this one would draw over: create "
+                     "targets for each scene, or destroy the other scene first");
+    return success();
+}
+
 /// That a frame of the scene may begin.
 Status checkBegun(const hearth_scene& scene)
 {
@@ -209,6 +219,7 @@ hearth_result recordParts(const char* function, PartsRecorded before, PartsRecor
     const auto work = [&]() -> Status
     {
         HEARTH_TRY(checkCall(*scene, targets, commands, frame));
+        HEARTH_TRY(checkOwner(*scene, *targets));
         HEARTH_TRY(before == kNothing ? beginFrame(*scene, *frame) : checkOrder(*scene, targets, before));
         HEARTH_ASSIGN_OR_RETURN(const gpu::FrameInput input, makeInput(*scene, targets->targets, *frame));
         if (before == kNothing)
@@ -216,6 +227,7 @@ hearth_result recordParts(const char* function, PartsRecorded before, PartsRecor
         (scene->renderer->renderer.get()->*record)(commands, *scene->scene, targets->targets, input);
         scene->parts_recorded = after;
         scene->parts_targets = targets;
+        targets->scene = scene->scene;
         return success();
     };
     return call(scene->renderer->message(), function, work);

@@ -15,7 +15,11 @@ struct hearth_pack
     explicit hearth_pack(hearth::pack::Pack opened) : pack(std::move(opened)) {}
 
     hearth::pack::Pack pack;
-    std::atomic<uint32_t> child_count = 0; ///< scenes of any renderer, and players; on any thread
+    std::atomic<uint32_t> scene_count = 0; ///< of any renderer, on any thread
+    std::atomic<uint32_t> player_count = 0;
+    char last_error[256] = ""; ///< of hearth_pack_close
+
+    hearth::c::MessageRoom message() { return {last_error, sizeof(last_error)}; }
 };
 
 struct hearth_player
@@ -33,7 +37,8 @@ struct hearth_renderer
     hearth_memory_hooks memory{}; ///< the renderer below refers to them
     std::unique_ptr<hearth::gpu::Renderer> renderer;
     bool shows_overdraw = false;
-    uint32_t child_count = 0; ///< scenes and targets
+    uint32_t scene_count = 0;
+    uint32_t targets_count = 0;
     char last_error[512] = "";
 
     hearth::c::MessageRoom message() { return {last_error, sizeof(last_error)}; }
@@ -43,7 +48,7 @@ struct hearth_scene
 {
     hearth_renderer* renderer;
     hearth_pack* pack;
-    std::unique_ptr<hearth::gpu::Scene> scene;
+    std::shared_ptr<hearth::gpu::Scene> scene; ///< the only owner
 
     /// The frame that was begun; of a streamed scene only.
     uint64_t serial = 0, completed_serial = 0;
@@ -64,4 +69,5 @@ struct hearth_targets
 {
     hearth_renderer* renderer;
     hearth::gpu::FrameTargets targets;
+    std::weak_ptr<const hearth::gpu::Scene> scene{}; ///< to which they belong, once a frame is recorded
 };

@@ -6,8 +6,9 @@
  * - The caller owns instance, device, queue, command buffers and their submission. Nothing is submitted or waited for, no
  *   thread is started, and there are no globals. Vulkan 1.1 without optional features is enough.
  * - A call returns HEARTH_OK, or why it changed nothing. Its message, one line with what to do, is that of
- *   hearth_last_error, or goes to `message` (message_size bytes; may be NULL and 0) where a call has no renderer. Messages
- *   are written by calls that fail only. Where a handle is NULL there is but the result.
+ *   hearth_last_error, or goes to `message` (message_size bytes; may be NULL and 0) where a call has no renderer.
+ *   hearth_pack_close leaves its message to hearth_pack_last_error. Messages are written by calls that fail only.
+ *   Where a handle is NULL there is but the result.
  * - Structs begin with their size, which the HEARTH_..._INIT macros set beside the defaults. Structs in arrays, and those
  *   that stand inside others, have no size and never change.
  * - A renderer and all that is made from it are used by one thread at a time; hearth_read_done, and packs while they are
@@ -29,14 +30,14 @@
 #endif
 
 /* Major version << 16 | minor version. A library takes callers of its major version and of no later minor version. */
-#define HEARTH_API_VERSION 0x00010005u
+#define HEARTH_API_VERSION 0x00010006u
 
 typedef int32_t hearth_result;
 enum
 {
     HEARTH_OK = 0,
     HEARTH_ERROR_USAGE = 1,            /* an argument, or the order of calls, breaks a rule of this header */
-    HEARTH_ERROR_IN_USE = 2,           /* something that was made from it has not been destroyed */
+    HEARTH_ERROR_IN_USE = 2,           /* something that was made from it is alive; the message counts it */
     HEARTH_ERROR_FILE_MISSING = 3,     /* a file does not exist or cannot be read */
     HEARTH_ERROR_FILE_MALFORMED = 4,   /* a file is damaged, of another kind or of another version */
     HEARTH_ERROR_READ = 5,             /* reading failed half way */
@@ -89,8 +90,11 @@ HEARTH_API hearth_result hearth_pack_find_animation(const hearth_pack* pack, con
                                                     uint32_t* animation, double* seconds, char* message,
                                                     size_t message_size);
 
-/* errors: IN_USE, while a scene or a player has been made from it. */
+/* errors: IN_USE, while scenes or players that were made from it are alive. */
 HEARTH_API hearth_result hearth_pack_close(hearth_pack* pack);
+
+/* The message of the last hearth_pack_close of the pack that failed (1.6); "" where none did. */
+HEARTH_API const char* hearth_pack_last_error(const hearth_pack* pack);
 
 /* ---- Renderer ---- */
 
@@ -169,7 +173,7 @@ HEARTH_API hearth_result hearth_renderer_create(const hearth_renderer_descriptio
                                                 hearth_renderer** renderer, char* message,
                                                 size_t message_size);
 
-/* errors: IN_USE. */
+/* errors: IN_USE, while scenes or targets that were made from it are alive. */
 HEARTH_API hearth_result hearth_renderer_destroy(hearth_renderer* renderer);
 
 /* The message of the last call that failed on the renderer or what was made from it; "" where none did. Holds until the
@@ -322,7 +326,11 @@ typedef struct hearth_shadow_counters
 /* errors: USAGE, also where the scene has no shadows. */
 HEARTH_API hearth_result hearth_scene_shadows(const hearth_scene* scene, hearth_shadow_counters* counters);
 
-/* ---- Targets: the images of a frame. Each camera has its own: they remember what it saw. ---- */
+/* ---- Targets: the images of a frame. Each camera has its own: they remember what it saw. ----
+ *
+ * They belong to the scene that is first recorded with them, until it is destroyed: a frame draws one scene, and a
+ * second one would draw over the picture. To record another scene with them is an error. hearth_record_prefetch,
+ * which draws nothing, takes the targets of any scene. */
 
 /* width, height  1 to what the device can render; pixels
  * errors: USAGE, DEVICE_LIMIT, DEVICE_FAILED, OUT_OF_MEMORY. */
@@ -565,6 +573,94 @@ typedef struct hearth_frame
             0, HEARTH_AMBIENT_OCCLUSION_EXACT, HEARTH_SPECULAR_OCCLUSION_FIT, 0, NULL, NULL, 0, 0            \
     }
 
+/* ---- Tables of a pack (1.6), on any thread. Moves, poses, clips and light changes name records by these numbers. ---- */
+
+enum
+{
+    HEARTH_TABLE_NODES = 0,
+    HEARTH_TABLE_INSTANCES = 1,
+    HEARTH_TABLE_MESHES = 2,
+    HEARTH_TABLE_MATERIALS = 3,
+    HEARTH_TABLE_IMAGES = 4,
+    HEARTH_TABLE_CAMERAS = 5,
+    HEARTH_TABLE_LIGHTS = 6,
+    HEARTH_TABLE_SKINS = 7,
+    HEARTH_TABLE_ANIMATIONS = 8
+};
+
+/* Counts the records of a table (HEARTH_TABLE_*). errors: USAGE. */
+HEARTH_API hearth_result hearth_pack_get_count(const hearth_pack* pack, uint32_t table, uint32_t* count,
+                                               char* message, size_t message_size);
+
+/* A name in UTF-8, which holds while the pack is open. No zero ends it: print it by "%.*s", length, text. */
+typedef struct hearth_name
+{
+    const char* text; /* not NULL */
+    size_t length;    /* bytes; 0: the source gave no name */
+} hearth_name;
+
+/* Reads the name of a record; an instance has the name of its node. Several records may have one name.
+ * errors: USAGE, also where there is no such record. */
+HEARTH_API hearth_result hearth_pack_get_name(const hearth_pack* pack, uint32_t table, uint32_t index,
+                                              hearth_name* name, char* message, size_t message_size);
+
+/* A mesh that is drawn. */
+typedef struct hearth_pack_instance
+{
+    uint32_t struct_size;
+    uint32_t mesh;
+    uint32_t node;                 /* from which it came */
+    uint32_t reserved;             /* 0 */
+    float world_from_object[3][4]; /* rows; at rest */
+} hearth_pack_instance;
+
+#define HEARTH_PACK_INSTANCE_INIT                                                                            \
+    {                                                                                                        \
+        sizeof(hearth_pack_instance), 0, 0, 0,                                                               \
+        {                                                                                                    \
+            {                                                                                                \
+                0                                                                                            \
+            }                                                                                                \
+        }                                                                                                    \
+    }
+
+/* errors: USAGE, also where there is no such instance. */
+HEARTH_API hearth_result hearth_pack_get_instance(const hearth_pack* pack, uint32_t index,
+                                                  hearth_pack_instance* instance, char* message,
+                                                  size_t message_size);
+
+enum
+{
+    HEARTH_CAMERA_PERSPECTIVE = 0,
+    HEARTH_CAMERA_ORTHOGRAPHIC = 1 /* frames cannot draw it */
+};
+
+/* A camera that the artist placed. */
+typedef struct hearth_pack_camera
+{
+    uint32_t struct_size;
+    uint32_t type;                 /* HEARTH_CAMERA_* */
+    uint32_t node;                 /* from which it came */
+    float aspect;                  /* width / height; 0: that of the picture */
+    float half_width, half_height; /* metres; of an orthographic camera */
+    float z_far;                   /* metres; 0: infinite */
+    float world_from_camera[3][4]; /* rows; at rest; looks along -z */
+    hearth_camera view;            /* for hearth_frame; y_fov_rad is 0 of an orthographic camera */
+} hearth_pack_camera;
+
+#define HEARTH_PACK_CAMERA_INIT                                                                              \
+    {                                                                                                        \
+        sizeof(hearth_pack_camera), HEARTH_CAMERA_PERSPECTIVE, 0, 0, 0, 0, 0, {{0}},                         \
+        {                                                                                                    \
+            {0, 0, 0}, {0, 0, -1}, {0, 1, 0}, 0, 0                                                           \
+        }                                                                                                    \
+    }
+
+/* errors: USAGE, also where there is no such camera. */
+HEARTH_API hearth_result hearth_pack_get_camera(const hearth_pack* pack, uint32_t index,
+                                                hearth_pack_camera* camera, char* message,
+                                                size_t message_size);
+
 /* ---- Clips (1.2): played on the CPU, for a frame's moves and poses. ---- */
 
 /* A moment of a clip, which rests before its first and after its last key. */
@@ -613,7 +709,7 @@ HEARTH_API hearth_result hearth_player_inform(const hearth_player* player,
 
 /* Records culling and drawing, outside a render pass. Clobbers compute and graphics state. Frames of a scene, and frames
  * with the same targets, go to one queue, which draws and computes, in the order in which they were recorded.
- * errors: USAGE. */
+ * errors: USAGE, also where the targets belong to another scene. */
 HEARTH_API hearth_result hearth_record_frame(hearth_scene* scene, hearth_targets* targets,
                                              VkCommandBuffer commands, const hearth_frame* frame);
 

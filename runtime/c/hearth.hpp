@@ -6,6 +6,7 @@
 
 #include <cassert>
 #include <string>
+#include <string_view>
 #include <utility>
 
 namespace hearth
@@ -97,6 +98,42 @@ public:
             message, [&](char* text, size_t text_size)
             { return hearth_pack_read_page(get(), page, destination, size, text, text_size); });
     }
+
+    [[nodiscard]] hearth_result getCount(uint32_t table, uint32_t& count,
+                                         std::string* message = nullptr) const
+    {
+        return callWithMessage(message, [&](char* text, size_t size)
+                               { return hearth_pack_get_count(get(), table, &count, text, size); });
+    }
+
+    /// The name holds while the pack is open.
+    [[nodiscard]] hearth_result getName(uint32_t table, uint32_t index, std::string_view& name,
+                                        std::string* message = nullptr) const
+    {
+        hearth_name read{};
+        const hearth_result result =
+            callWithMessage(message, [&](char* text, size_t size)
+                            { return hearth_pack_get_name(get(), table, index, &read, text, size); });
+        if (result == HEARTH_OK)
+            name = {read.text, read.length};
+        return result;
+    }
+
+    [[nodiscard]] hearth_result getInstance(uint32_t index, hearth_pack_instance& instance,
+                                            std::string* message = nullptr) const
+    {
+        return callWithMessage(message, [&](char* text, size_t size)
+                               { return hearth_pack_get_instance(get(), index, &instance, text, size); });
+    }
+
+    [[nodiscard]] hearth_result getCamera(uint32_t index, hearth_pack_camera& camera,
+                                          std::string* message = nullptr) const
+    {
+        return callWithMessage(message, [&](char* text, size_t size)
+                               { return hearth_pack_get_camera(get(), index, &camera, text, size); });
+    }
+
+    const char* lastError() const { return hearth_pack_last_error(get()); }
 };
 
 /// Plays the clips of a pack, which outlives it.

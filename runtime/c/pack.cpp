@@ -77,8 +77,17 @@ hearth_result hearth_pack_read_page(const hearth_pack* pack, uint32_t page, void
 
 hearth_result hearth_pack_close(hearth_pack* pack)
 {
-    if (pack != nullptr && pack->child_count != 0)
-        return HEARTH_ERROR_IN_USE;
-    delete pack;
-    return HEARTH_OK;
+    if (pack == nullptr)
+        return HEARTH_OK;
+    const hearth_result unused =
+        checkUnused(pack->message(), __func__, "pack",
+                    {{pack->scene_count, "scene", "scenes"}, {pack->player_count, "player", "players"}});
+    if (unused == HEARTH_OK)
+        delete pack;
+    return unused;
+}
+
+const char* hearth_pack_last_error(const hearth_pack* pack)
+{
+    return pack == nullptr ? "" : pack->last_error;
 }

@@ -93,7 +93,7 @@ hearth_result hearth_player_create(hearth_pack* pack, hearth_player** player, ch
                              posed.morph_weights.data(), static_cast<uint32_t>(posed.morph_weights.size()),
                              0});
                     refresh(*made);
-                    ++pack->child_count;
+                    ++pack->player_count;
                     *player = made.release();
                     return success();
                 });
@@ -104,7 +104,7 @@ hearth_result hearth_player_destroy(hearth_player* player)
     if (player == nullptr)
         return HEARTH_OK;
     const std::unique_ptr<hearth_player> dying(player);
-    --dying->pack.child_count;
+    --dying->pack.player_count;
     return HEARTH_OK;
 }
 

@@ -114,10 +114,15 @@ hearth_result hearth_renderer_create(const hearth_renderer_description* descript
 
 hearth_result hearth_renderer_destroy(hearth_renderer* renderer)
 {
-    if (renderer != nullptr && renderer->child_count != 0)
-        return HEARTH_ERROR_IN_USE;
-    delete renderer;
-    return HEARTH_OK;
+    if (renderer == nullptr)
+        return HEARTH_OK;
+    const hearth_result unused =
+        checkUnused(renderer->message(), __func__, "renderer",
+                    {{renderer->scene_count, "scene", "scenes"},
+                     {renderer->targets_count, "set of targets", "sets of targets"}});
+    if (unused == HEARTH_OK)
+        delete renderer;
+    return unused;
 }
 
 const char* hearth_last_error(const hearth_renderer* renderer)

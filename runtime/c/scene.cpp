@@ -114,8 +114,8 @@ hearth_result hearth_scene_upload(hearth_renderer* renderer, hearth_pack* pack, 
                     made->pack = pack;
                     HEARTH_ASSIGN_OR_RETURN(
                         made->scene, renderer->renderer->upload(pack->pack.view(), commands, scene_options));
-                    ++renderer->child_count;
-                    ++pack->child_count;
+                    ++renderer->scene_count;
+                    ++pack->scene_count;
                     *scene = made.release();
                     return success();
                 });
@@ -135,8 +135,8 @@ hearth_result hearth_scene_destroy(hearth_scene* scene)
         return HEARTH_OK;
     const std::unique_ptr<hearth_scene> dying(scene);
     scene->scene.reset(); // reads the pack
-    --scene->renderer->child_count;
-    --scene->pack->child_count;
+    --scene->renderer->scene_count;
+    --scene->pack->scene_count;
     return HEARTH_OK;
 }
 

@@ -35,7 +35,7 @@ hearth_result hearth_targets_create(hearth_renderer* renderer, uint32_t width, u
                     HEARTH_ASSIGN_OR_RETURN(gpu::FrameTargets made,
                                             renderer->renderer->createTargets({width, height}));
                     *targets = new hearth_targets{renderer, std::move(made)};
-                    ++renderer->child_count;
+                    ++renderer->targets_count;
                     return success();
                 });
 }
@@ -43,7 +43,7 @@ hearth_result hearth_targets_create(hearth_renderer* renderer, uint32_t width, u
 hearth_result hearth_targets_destroy(hearth_targets* targets)
 {
     if (targets != nullptr)
-        --targets->renderer->child_count;
+        --targets->renderer->targets_count;
     delete targets;
     return HEARTH_OK;
 }

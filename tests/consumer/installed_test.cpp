@@ -26,6 +26,20 @@ protected:
                 return fs::relative(entry.path().parent_path(), folder() / "prefix").string();
         return "libhearth.so is not installed";
     }
+
+    /// pkg-config with what lies in a folder of libraries.
+    static std::string pkgConfig(const std::string& library_folder)
+    {
+        return "PKG_CONFIG_PATH=\"$PWD/" + library_folder + "/pkgconfig\" pkg-config ";
+    }
+
+    /// Compile the game's version.c as C99.
+    static void compile(const std::string& program, const std::string& flags)
+    {
+        run("cc -std=c99 -Wall -Wextra -Wpedantic -Werror "
+            "-Wno-missing-field-initializers " HEARTH_SOURCE_FOLDER "/tests/consumer/game/version.c -o " +
+            program + " " + flags);
+    }
 };
 
 class FolderOfAProject : public Installation
@@ -77,14 +91,33 @@ TEST_F(Installed, nothingKnowsWhereItWasBuiltOrInstalled)
 
 TEST_F(Installed, isFoundByPkgConfig)
 {
-    const std::string pkg_config =
-        "PKG_CONFIG_PATH=\"$PWD/prefix/" + libraryFolder() + "/pkgconfig\" pkg-config ";
-    const std::string source = HEARTH_SOURCE_FOLDER "/tests/consumer/game/version.c";
-    run("cc -std=c99 -Wall -Wextra -Wpedantic -Werror -Wno-missing-field-initializers " + source +
-        " -o version $(" + pkg_config + "--cflags --libs hearth)");
-    EXPECT_EQ(run("LD_LIBRARY_PATH=\"$PWD/prefix/" + libraryFolder() + "\" ./version"), "1.5: ok\n");
-    EXPECT_NE(run(pkg_config + "--static --libs hearth").find("-lzstd"), std::string::npos);
+    const std::string pkg_config = pkgConfig("prefix/" + libraryFolder());
+    compile("version", "$(" + pkg_config + "--cflags --libs hearth)");
+    EXPECT_EQ(run("LD_LIBRARY_PATH=\"$PWD/prefix/" + libraryFolder() + "\" ./version"), "1.6: ok\n");
     run(pkg_config + "--exists 'hearth >= 0.1, hearth < 1'");
+    for (const char* path : {"prefix", "includedir", "libdir"})
+        run("test -d $(" + pkg_config + "--variable=" + path + " hearth)");
+}
+
+TEST_F(Installed, isLinkedIntoAProgramByPkgConfig)
+{
+    // where there is no shared library the linker takes the archive
+    fs::remove_all(folder() / "archives");
+    run("cp -r prefix archives && rm archives/" + libraryFolder() + "/libhearth.so*");
+    const std::string pkg_config = pkgConfig("archives/" + libraryFolder());
+    compile("version_static", "$(" + pkg_config + "--static --cflags --libs hearth hearth-helpers)");
+    EXPECT_EQ(run("./version_static"), "1.6: ok\n");
+}
+
+TEST_F(Installed, pkgConfigFindsTheHelpers)
+{
+    folder().write("helpers.c",
+                   "#include <hearth_helpers.h>\n#include <stdio.h>\n"
+                   "int main(void) { hearth_device* device; char why[256] = \"\";\n"
+                   "return hearth_device_create(NULL, &device, why, sizeof(why)) != HEARTH_ERROR_USAGE; }\n");
+    const std::string pkg_config = pkgConfig("prefix/" + libraryFolder());
+    run("cc -std=c99 helpers.c -o helpers $(" + pkg_config + "--cflags --libs hearth-helpers)");
+    run("LD_LIBRARY_PATH=\"$PWD/prefix/" + libraryFolder() + "\" ./helpers");
 }
 
 /// The commands that build a project which has Hearth as a folder.
@@ -120,6 +153,23 @@ TEST_F(FolderOfAProject, cooksWithAnotherHearthWhereItBuildsNone)
     EXPECT_NE(text.find("/elsewhere/hearth cook "), std::string::npos);
     EXPECT_NE(text.find("libhearth.so"), std::string::npos);
     EXPECT_EQ(text.find("hearth-visibility"), std::string::npos);
+}
+
+TEST_F(FolderOfAProject, pkgConfigFindsAFolderOfLibrariesInAFolder)
+{
+    (void)commands("-DHEARTH_BUILD_COOKERS=OFF -DHEARTH_PROGRAM=/elsewhere/hearth -DHEARTH_INSTALL=ON "
+                   "-DCMAKE_INSTALL_LIBDIR=lib/some-machine");
+    fs::create_directories(folder() / "moved/include/hearth");
+    fs::create_directories(folder() / "moved/lib/some-machine/pkgconfig");
+    fs::copy(folder() / "outer-build/hearth/hearth.pc", folder() / "moved/lib/some-machine/pkgconfig");
+    const std::string pkg_config = "PKG_CONFIG_PATH=\"$PWD/moved/lib/some-machine/pkgconfig\" pkg-config ";
+    // --define-prefix takes "moved/lib" for the prefix
+    for (const char* prefix : {"", "--define-prefix "})
+    {
+        const std::string variable = pkg_config + prefix + "--variable=";
+        EXPECT_EQ(run("realpath $(" + variable + "includedir hearth)"), run("realpath moved/include/hearth"));
+        EXPECT_EQ(run("realpath $(" + variable + "libdir hearth)"), run("realpath moved/lib/some-machine"));
+    }
 }
 
 } // namespace hearth::test

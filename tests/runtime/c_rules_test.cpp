@@ -227,7 +227,7 @@ TEST_F(CApiTest, otherVersionsAreRefused)
         description.api_version = version;
         EXPECT_EQ(hearth_renderer_create(&description, &renderer, message_, sizeof(message_)),
                   HEARTH_ERROR_USAGE);
-        EXPECT_THAT(message_, HasSubstr("the library is 1.5"));
+        EXPECT_THAT(message_, HasSubstr("the library is 1.6"));
     }
     description = c_caller_description(caller_);
     description.features = 1u << 31;
@@ -378,12 +378,52 @@ TEST_F(CFrameRulesTest, whatIsUsedCannotBeDestroyed)
 {
     ASSERT_EQ(upload(HEARTH_SCENE_OPTIONS_INIT), HEARTH_OK) << hearth_last_error(renderer_);
     EXPECT_EQ(hearth_pack_close(pack_), HEARTH_ERROR_IN_USE);
+    EXPECT_STREQ(hearth_pack_last_error(pack_), "hearth_pack_close: error: 1 scene is alive [E1000] "
+                                                "hint: destroy it before the pack");
+    hearth_player* player = nullptr;
+    ASSERT_EQ(hearth_player_create(pack_, &player, nullptr, 0), HEARTH_OK);
+    EXPECT_EQ(hearth_pack_close(pack_), HEARTH_ERROR_IN_USE);
+    EXPECT_THAT(hearth_pack_last_error(pack_), HasSubstr("1 scene and 1 player are alive [E1000] "
+                                                         "hint: destroy them before the pack"));
+    EXPECT_EQ(hearth_player_destroy(player), HEARTH_OK);
     EXPECT_EQ(hearth_renderer_destroy(renderer_), HEARTH_ERROR_IN_USE);
+    EXPECT_THAT(hearth_last_error(renderer_),
+                HasSubstr("hearth_renderer_destroy: error: 1 scene and 1 set of "
+                          "targets are alive [E1000] hint: destroy them before "
+                          "the renderer"));
     hearth_targets* targets = nullptr;
     EXPECT_EQ(hearth_targets_create(renderer_, 1u << 20, 16, &targets), HEARTH_ERROR_DEVICE_LIMIT);
     EXPECT_THAT(hearth_last_error(renderer_), HasSubstr("1048576x16"));
     EXPECT_EQ(targets, nullptr);
     EXPECT_EQ(record(makeFrame()), "") << "the renderer is as it was";
+}
+
+TEST_F(CFrameRulesTest, targetsBelongToTheFirstSceneUntilItIsDestroyed)
+{
+    Reader reader{.pack = pack_, .threads = {}};
+    hearth_scene* second = nullptr;
+    ASSERT_EQ(upload(HEARTH_SCENE_OPTIONS_INIT), HEARTH_OK) << hearth_last_error(renderer_);
+    std::swap(scene_, second);
+    ASSERT_EQ(upload(streamedBy(reader)), HEARTH_OK) << hearth_last_error(renderer_);
+    std::swap(scene_, second);
+    EXPECT_EQ(record(makeFrame()), "");
+    EXPECT_EQ(record(makeFrame()), "") << "a picture may be drawn again";
+
+    const hearth_frame frame = makeFrame();
+    ASSERT_EQ(hearth_scene_begin_frame(second, 1, 0), HEARTH_OK);
+    VkCommandBuffer commands = c_caller_begin(caller_);
+    EXPECT_EQ(hearth_record_frame(second, targets_, commands, &frame), HEARTH_ERROR_USAGE);
+    EXPECT_THAT(hearth_last_error(renderer_), HasSubstr("the targets belong to another scene"));
+    EXPECT_THAT(hearth_last_error(renderer_), HasSubstr("create targets for each scene"));
+    EXPECT_EQ(hearth_record_cull(second, targets_, commands, &frame), HEARTH_ERROR_USAGE);
+    EXPECT_EQ(hearth_record_prefetch(second, targets_, commands, &frame), HEARTH_OK) << "it draws nothing";
+    EXPECT_EQ(c_caller_submit(caller_), VK_SUCCESS);
+    EXPECT_EQ(record(makeFrame()), "") << "they are still the first scene's";
+
+    ASSERT_EQ(hearth_scene_destroy(scene_), HEARTH_OK);
+    scene_ = second;
+    ASSERT_EQ(hearth_scene_begin_frame(scene_, 2, 1), HEARTH_OK);
+    EXPECT_EQ(record(makeFrame()), "");
 }
 
 } // namespace hearth::test

@@ -3,6 +3,10 @@
 
 #include <SDL.h>
 #include <SDL_vulkan.h>
+#include <cstdlib>
+#include <fcntl.h>
+#include <string_view>
+#include <unistd.h>
 
 namespace hearth::viewer
 {
@@ -15,14 +19,72 @@ Error windowError(const char* what)
     return {Issue::device, "", "", std::string("cannot ") + what + ": " + SDL_GetError()};
 }
 
+/// Sends stderr to nowhere while it lives.
+class SilentStderr
+{
+public:
+    SilentStderr() : stderr_(::dup(STDERR_FILENO))
+    {
+        const int nowhere = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
+        if (stderr_ >= 0 && nowhere >= 0)
+            ::dup2(nowhere, STDERR_FILENO);
+        ::close(nowhere);
+    }
+    SilentStderr(const SilentStderr&) = delete;
+    SilentStderr& operator=(const SilentStderr&) = delete;
+    ~SilentStderr()
+    {
+        if (stderr_ >= 0)
+            ::dup2(stderr_, STDERR_FILENO);
+        ::close(stderr_);
+    }
+
+private:
+    int stderr_;
+};
+
+/// The displays that the environment names: "DISPLAY=:0".
+std::string namedDisplays()
+{
+    std::string list;
+    for (const char* name : {"WAYLAND_DISPLAY", "DISPLAY"})
+        if (const char* value = std::getenv(name); value != nullptr && *value != '\0')
+            list += (list.empty() ? "" : ", ") + std::string(name) + "=" + value;
+    return list;
+}
+
+Error noDisplay(const std::string& reason)
+{
+    const std::string named = namedDisplays();
+    return {Issue::no_display, "", "",
+            (named.empty() ? "there is no display: neither DISPLAY nor WAYLAND_DISPLAY is set"
+                           : "there is no display at " + named) +
+                " (SDL: " + reason + ")"};
+}
+
+/// Start SDL on a display. errors: no_display.
+Status openDisplay()
+{
+    {
+        // libraries of each display that SDL tries write there; what SDL says of them is enough
+        const SilentStderr silent;
+        if (SDL_Init(SDL_INIT_VIDEO) != 0)
+            return noDisplay(SDL_GetError());
+    }
+    // SDL takes these where there is no other; nobody sees what they show
+    const std::string_view driver = SDL_GetCurrentVideoDriver();
+    if (driver == "offscreen" || driver == "dummy")
+        return noDisplay("video driver " + std::string(driver));
+    return success();
+}
+
 } // namespace
 
 Result<std::unique_ptr<SdlWindow>> SdlWindow::create(const std::string& title, uint32_t width,
                                                      uint32_t height)
 {
     std::unique_ptr<SdlWindow> window(new SdlWindow);
-    if (SDL_Init(SDL_INIT_VIDEO) != 0)
-        return windowError("open a display");
+    HEARTH_TRY(openDisplay());
     window->window_ = SDL_CreateWindow(title.c_str(), SDL_WINDOWPOS_UNDEFINED, SDL_WINDOWPOS_UNDEFINED,
                                        static_cast<int>(width), static_cast<int>(height),
                                        SDL_WINDOW_VULKAN | SDL_WINDOW_RESIZABLE | SDL_WINDOW_ALLOW_HIGHDPI);

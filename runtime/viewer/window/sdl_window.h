@@ -14,7 +14,7 @@ class SdlWindow
 {
 public:
     /// width, height  of what is drawn into, in units of the desktop (pixels, but for scaled ones)
-    /// errors: device, where there is no display or no Vulkan.
+    /// errors: no_display; device, where there is no Vulkan.
     static Result<std::unique_ptr<SdlWindow>> create(const std::string& title, uint32_t width,
                                                      uint32_t height);
     ~SdlWindow();

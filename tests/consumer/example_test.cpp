@@ -1,0 +1,110 @@
+// The example that is installed with the runtime: a project by itself, which draws what hearth-render draws.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "runtime/viewer/compare/picture.h"
+#include "tests/consumer/installation.h"
+
+#include <algorithm>
+#include <cstdlib>
+
+namespace hearth::test
+{
+
+namespace
+{
+
+constexpr uint32_t kWidth = 640, kHeight = 480; // of the example's picture
+
+class Example : public Installation
+{
+protected:
+    static void SetUpTestSuite()
+    {
+        Installation::SetUpTestSuite();
+        run(HEARTH_CMAKE
+            " -S prefix/share/doc/hearth/development/examples -B examples -G Ninja "
+            "-DCMAKE_PREFIX_PATH=\"$PWD/prefix\" -DCMAKE_C_FLAGS='-Wall -Wextra -Wpedantic -Werror "
+            "-Wno-missing-field-initializers'");
+        run(HEARTH_CMAKE " --build examples");
+    }
+
+    void SetUp() override
+    {
+        if (shell("prefix/bin/hearth-render --name-device").exit_code != 0)
+            GTEST_SKIP() << "there is no Vulkan device";
+    }
+
+    /// Cook a source into a pack of the folder.
+    static void cook(const std::string& source, const std::string& pack)
+    {
+        run("prefix/bin/hearth cook '" + source + "' -o " + pack);
+    }
+
+    /// Draw a pack by the example, while the validation layer listens.
+    static viewer::Picture draw(const std::string& pack)
+    {
+        const std::string said = run("VK_INSTANCE_LAYERS=VK_LAYER_KHRONOS_validation examples/draw_picture " +
+                                     pack + " picture.png");
+        EXPECT_EQ(said, "");
+        Result<viewer::Picture> picture = viewer::readPng(folder() / "picture.png");
+        EXPECT_TRUE(picture.ok()) << formatMessage(picture.error());
+        return picture.ok() ? std::move(picture).value() : viewer::Picture(kWidth, kHeight);
+    }
+};
+
+/// The largest difference of a channel; 255 where the sizes differ.
+int largestStep(const viewer::Picture& a, const viewer::Picture& b)
+{
+    int largest = a.rgb.size() == b.rgb.size() ? 0 : 255;
+    for (size_t i = 0; i < std::min(a.rgb.size(), b.rgb.size()); ++i)
+        largest = std::max(largest, std::abs(int{a.rgb[i]} - int{b.rgb[i]}));
+    return largest;
+}
+
+} // namespace
+
+TEST_F(Example, drawsThePictureOfHearthRender)
+{
+    cook(HEARTH_SOURCE_FOLDER "/tests/consumer/game/assets/sign.gltf", "sign.hearth");
+    const viewer::Picture drawn = draw("sign.hearth");
+    ASSERT_EQ(drawn.width, kWidth);
+    ASSERT_EQ(drawn.height, kHeight);
+    // the board's left half is red, its right half green
+    const uint8_t* left = drawn.at(130, 240);
+    const uint8_t* right = drawn.at(320, 240);
+    EXPECT_GT(left[0], 2 * left[1]);
+    EXPECT_GT(right[1], 2 * right[0]);
+    run("prefix/bin/hearth-render sign.hearth --scene-camera 0 --size 640x480 -o rendered.png");
+    const Result<viewer::Picture> rendered = viewer::readPng(folder() / "rendered.png");
+    ASSERT_TRUE(rendered.ok()) << formatMessage(rendered.error());
+    EXPECT_LE(largestStep(drawn, *rendered), 1);
+}
+
+TEST_F(Example, showsAllOfAPackWithoutCameras)
+{
+    folder().write("triangle.obj", "v -1 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    cook("triangle.obj", "triangle.hearth");
+    const viewer::Picture drawn = draw("triangle.hearth");
+    size_t surface = 0;
+    for (uint32_t y = 0; y < kHeight; ++y)
+        for (uint32_t x = 0; x < kWidth; ++x)
+        {
+            const bool is_white = drawn.at(x, y)[0] > 180; // the sky is darker
+            surface += is_white ? 1u : 0u;
+            const bool is_margin = x == 0 || x + 1 == kWidth || y == 0 || y + 1 == kHeight;
+            EXPECT_FALSE(is_white && is_margin) << "the picture cuts it at " << x << " " << y;
+        }
+    EXPECT_GT(surface, size_t{kWidth} * kHeight / 20);
+}
+
+TEST_F(Example, saysWhatIsWrong)
+{
+    folder().write("bad.hearth", "no pack");
+    const ProgramEnd bad = shell("examples/draw_picture bad.hearth picture.png");
+    EXPECT_EQ(bad.exit_code, 1);
+    EXPECT_NE(bad.err.find("bad.hearth: error: "), std::string::npos) << bad.err;
+    const ProgramEnd nothing = shell("examples/draw_picture");
+    EXPECT_EQ(nothing.exit_code, 1);
+    EXPECT_NE(nothing.err.find("usage: draw_picture PACK.hearth OUT.png"), std::string::npos) << nothing.err;
+}
+
+} // namespace hearth::test
