@@ -103,6 +103,9 @@ void addCook(CLI::App& app, Work& run)
     verb->add_option("--format", options->dry_run_format, "of --dry-run; json: the whole plan")
         ->check(CLI::IsMember({"text", "json"}))
         ->needs(dry_run);
+    verb->add_flag("--check", options->dry_run_checks,
+                   "of --dry-run: end with code 1 where something would run")
+        ->needs(dry_run);
     verb->add_flag(
             "--watch", options->watches,
             "cook, and again whenever a file changes that it reads or looks for, or a source comes or goes; "

@@ -148,7 +148,7 @@ void addMerge(CLI::App& app, Work& run)
     verb->add_option("-o,--output", options->output, "pack to write")->required();
     verb->add_option("--missing", options->missing,
                      "what becomes of results that are not there: cook them here, or list them and end with "
-                     "code 1")
+                     "code 75: shards that are run again may make them")
         ->check(CLI::IsMember({"cook", "list"}))
         ->capture_default_str();
     verb->add_option("--report", options->report_files,

@@ -345,6 +345,28 @@ TEST_F(SecondCook, aDryRunWritesNothing)
     EXPECT_EQ(nlohmann::json::parse(plan.out)["actions"].size(), 5u);
 }
 
+TEST_F(SecondCook, aDryRunChecksWhetherAllIsCooked)
+{
+    std::vector<std::string> arguments{"house.obj", "-o", "a.hearth", "--dry-run", "--check"};
+    const ProgramEnd before = cook(arguments);
+    EXPECT_EQ(before.exit_code, 1);
+    EXPECT_NE(before.out.find("5 of 5 cookers would run\n"), std::string::npos) << before.out;
+    ran(cook({"house.obj", "-o", "a.hearth"}));
+    EXPECT_EQ(cook(arguments).exit_code, 0);
+    const std::string pack = folder.read("a.hearth");
+    folder.write("a.hearth", "damaged");
+    EXPECT_EQ(cook(arguments).exit_code, 1) << "the pack would be put in its place";
+    folder.write("a.hearth", pack);
+    writeObj(folder, "house", 3);
+    EXPECT_EQ(cook(arguments).exit_code, 1);
+    arguments.insert(arguments.end(), {"--format", "json"});
+    const ProgramEnd json = cook(arguments);
+    EXPECT_EQ(json.exit_code, 1);
+    EXPECT_EQ(nlohmann::json::parse(json.out)["actions"].size(), 5u);
+    EXPECT_EQ(cook({"house.obj", "-o", "a.hearth", "--dry-run"}).exit_code, 0) << "not asked for";
+    EXPECT_EQ(cook({"house.obj", "-o", "a.hearth", "--check"}).exit_code, 2) << "there is nothing to check";
+}
+
 TEST_F(SecondCook, aKilledCookIsTakenUpWhereItWas)
 {
     ran(cook({"house.obj", "tree.gltf", "-o", "whole.hearth", "--no-cache"}));
