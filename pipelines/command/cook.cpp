@@ -13,6 +13,7 @@
 #include "pipelines/command/event_log.h"
 #include "pipelines/command/messages.h"
 #include "pipelines/command/progress.h"
+#include "pipelines/command/progress_lines.h"
 #include "pipelines/graph/causes.h"
 #include "pipelines/graph/executor.h"
 #include "pipelines/report/write_report.h"
@@ -76,12 +77,17 @@ std::string joined(const std::vector<std::string>& words, const char* between)
     return text;
 }
 
+ProgressStyle styleOf(const CookOptions& options)
+{
+    return options.verbosity == Verbosity::quiet ? ProgressStyle::none : progressStyle(options.progress);
+}
+
 /// What the events of a cook go to.
 struct Listeners
 {
     EventLog* log = nullptr; ///< null: none
-    ProgressStyle style = ProgressStyle::plain;
     ProgressBar bar;
+    std::optional<ProgressLines> lines; ///< of plain progress
     size_t fatal_warnings = 0;
 };
 
@@ -102,6 +108,8 @@ graph::ExecutorEvents eventsFor(const CookOptions& options, Listeners& listeners
         if (options.verbosity == Verbosity::all)
             print(faint(joined(command, " ")));
         listeners.bar.started(action.cooker + " " + action.subject);
+        if (listeners.lines)
+            listeners.lines->starting(action);
     };
     events.ended = [&options, &listeners, log, &recorder](const graph::Action& action,
                                                           const graph::ActionOutcome& outcome,
@@ -111,10 +119,16 @@ graph::ExecutorEvents eventsFor(const CookOptions& options, Listeners& listeners
         if (log != nullptr)
             log->end(action, outcome);
         listeners.fatal_warnings += passOn(messages, options);
-        if (outcome.ending == Ending::cooked && options.verbosity != Verbosity::quiet &&
-            listeners.style == ProgressStyle::plain)
+        if (outcome.ending == Ending::cooked && options.verbosity == Verbosity::all)
             printStage(action, outcome);
         listeners.bar.ended();
+        if (listeners.lines)
+            listeners.lines->ended(action, outcome);
+    };
+    events.waiting = [&listeners]
+    {
+        if (listeners.lines)
+            listeners.lines->waiting();
     };
     events.failed = [log, &recorder](const Failure& failure)
     {
@@ -278,9 +292,10 @@ void cookGraph(const graph::Graph& graph, CookMemory* memory, const CookOptions&
     graph::Resolver resolver(
         graph, cache, actions, [&]() -> const std::optional<graph::Journal>& { return memory->journal(); },
         options.force);
-    const ProgressStyle style =
-        options.verbosity == Verbosity::quiet ? ProgressStyle::none : progressStyle(options.progress);
-    Listeners listeners{log, style, {style, graph.actions.size()}, 0};
+    const ProgressStyle style = styleOf(options);
+    Listeners listeners{log, {style, graph.actions.size()}, std::nullopt, 0};
+    if (style == ProgressStyle::plain)
+        listeners.lines.emplace(graph, printFaint);
     graph::Executor executor(graph, resolver, cache, actions,
                              {limitsOf(options.jobs, options.memory_bytes), !options.fail_fast,
                               options.lists_files, programFolder(), options.output},

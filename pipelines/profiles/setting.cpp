@@ -238,7 +238,7 @@ std::vector<Setting> makeCommandSettings()
         withVariable(
             withOption(choiceOf("progress",
                                 "what is shown meanwhile; auto: a bar on a terminal, else a line for each "
-                                "cooker",
+                                "source and one every ten seconds",
                                 "auto", {"auto", "bar", "plain", "none"}),
                        "--progress", "NAME"),
             "HEARTH_PROGRESS"),

@@ -73,7 +73,7 @@ TEST_F(Farm, makesTheSameBytesElsewhere)
         elsewhere, {"merge", folder / "plan.json", "-o", "farm.hearth", "--cache", folder.cacheSpec()});
     ::umask(mask);
     EXPECT_EQ(end.exit_code, 0) << end.err;
-    EXPECT_EQ(countOf(end.err, "import  "), 0u) << "nothing was left to cook: " << end.err;
+    EXPECT_EQ(countOf(end.err, "source  "), 0u) << "nothing was left to cook: " << end.err;
     EXPECT_TRUE(elsewhere.read("farm.hearth") == pack);
 }
 

@@ -40,10 +40,11 @@ protected:
     }
 
     ProgramEnd hearth(const std::vector<std::string>& arguments,
-                      const std::vector<std::string>& environment = {})
+                      std::vector<std::string> environment = {})
     {
         std::vector<std::string> command{programs + "/hearth"};
         command.insert(command.end(), arguments.begin(), arguments.end());
+        environment.emplace_back("HEARTH_LOG=verbose"); // a line for each cooker
         return folder.run(command, environment);
     }
 
