@@ -12,6 +12,7 @@
 #include "pipelines/command/dry_run.h"
 #include "pipelines/command/event_log.h"
 #include "pipelines/command/messages.h"
+#include "pipelines/command/picture_progress.h"
 #include "pipelines/command/progress.h"
 #include "pipelines/command/progress_lines.h"
 #include "pipelines/graph/causes.h"
@@ -374,13 +375,17 @@ int writeReports(const CookOptions& options, CookOutcome& outcome)
         outcome.bytes_of_chunks = bytesOfChunks(options.output);
     const std::string json = report::reportJson(outcome);
     for (const std::string& file : options.report_files)
-        if (const Status status =
-                report::writeReport(json, file, outcome.exit_code == 0 ? options.output : "");
-            !status.ok())
-        {
-            print(formatMessage(status.error()));
-            return outcome.exit_code != 0 ? outcome.exit_code : exitCode(status.error());
-        }
+    {
+        PictureProgress progress(styleOf(options), printFaint);
+        const Status status =
+            report::writeReport(json, file, outcome.exit_code == 0 ? options.output : "", "report",
+                                [&](size_t drawn, size_t count) { progress.show(drawn, count); });
+        progress.end();
+        if (status.ok())
+            continue;
+        print(formatMessage(status.error()));
+        return outcome.exit_code != 0 ? outcome.exit_code : exitCode(status.error());
+    }
     return outcome.exit_code;
 }
 
@@ -413,13 +418,17 @@ int cook(const CookOptions& chosen, std::vector<std::string>* looked_for)
     if (looked_for != nullptr)
         *looked_for = recorder.lookedFor();
     outcome.seconds = recorder.seconds();
+    int exit_code = outcome.exit_code;
+    if (!options.report_files.empty() && exit_code != kInterrupted)
+        exit_code = writeReports(options, outcome);
+    // with the time of the reports, whose pictures may take longer than the cook
+    const double seconds = recorder.seconds();
     if (log)
-        log->done(outcome.exit_code, outcome.seconds);
+        log->done(exit_code, seconds);
     if (outcome.exit_code == 0 && options.verbosity != Verbosity::quiet)
         print(fmt::format("{:<10}{:>8.2f} s {:>12}  {}", outcome.is_up_to_date ? "up to date" : "cooked",
-                          outcome.seconds, readableSize(outcome.output_bytes), options.output));
-    return options.report_files.empty() || outcome.exit_code == kInterrupted ? outcome.exit_code
-                                                                             : writeReports(options, outcome);
+                          seconds, readableSize(outcome.output_bytes), options.output));
+    return exit_code;
 }
 
 } // namespace hearth::command

@@ -32,6 +32,8 @@ public:
 
     void started(const std::string& what);
     void ended();
+    /// How many have ended, where that is counted elsewhere.
+    void show(size_t ended, const std::string& what);
 
 private:
     void draw();
