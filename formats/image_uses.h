@@ -1,0 +1,26 @@
+// The materials that show an image, and the role it has in each.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "formats/scene.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <vector>
+
+namespace hearth::formats
+{
+
+struct ImageUse
+{
+    uint32_t material = 0; ///< index of the table
+    std::string_view
+        role; ///< as glTF calls it: "baseColor", "metallicRoughness", "normal", "occlusion", "emissive"
+};
+
+/// The uses of each image, in the order of the materials. A reference to an image that is not there is passed over.
+std::vector<std::vector<ImageUse>> imageUses(std::span<const MaterialRecord> materials, size_t image_count);
+
+} // namespace hearth::formats
