@@ -20,7 +20,8 @@ struct ImageUse
         role; ///< as glTF calls it: "baseColor", "metallicRoughness", "normal", "occlusion", "emissive"
 };
 
-/// The uses of each image, in the order of the materials. A reference to an image that is not there is passed over.
+/// The uses of each image, in the order of the materials. References to images that are not there are
+/// passed over.
 std::vector<std::vector<ImageUse>> imageUses(std::span<const MaterialRecord> materials, size_t image_count);
 
 } // namespace hearth::formats

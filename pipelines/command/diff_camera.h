@@ -9,8 +9,8 @@
 namespace hearth::command
 {
 
-/// From the side and above, so far away that the boxes of all instances are in view, those of either pack where they are of
-/// different sizes: one camera for both, so that only what differs differs.
+/// A camera at the side and above, so far away that the boxes of all instances of both packs are in view:
+/// one for both pictures, so that they differ only where the packs do.
 /// size     of the picture, "WIDTHxHEIGHT"; taken as square where it is none, of which hearth-render tells
 /// returns  PX,PY,PZ,TX,TY,TZ,FOV, as hearth-render takes it
 std::string cameraOfBoth(const formats::PackView& a, const formats::PackView& b, const std::string& size);

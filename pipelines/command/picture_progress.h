@@ -11,7 +11,8 @@
 namespace hearth::command
 {
 
-/// A bar, or lines: one at the start, one every ten seconds, and one at the end. Nothing where nothing is drawn.
+/// A bar, or lines: one at the start, one every ten seconds, and one at the end. Nothing where nothing is
+/// drawn.
 class PictureProgress
 {
 public:
@@ -19,7 +20,8 @@ public:
     PictureProgress(ProgressStyle style, PrintLine print,
                     MonotonicClock clock = std::chrono::steady_clock::now);
 
-    /// drawn  of `count` pictures; called before the first, and once a second or more often while they are drawn
+    /// To be called before the first picture, and once a second or more often while they are drawn.
+    /// drawn  of `count` pictures
     void show(size_t drawn, size_t count);
 
     /// No more are drawn.

@@ -1,4 +1,4 @@
-// Progress of a cook for logs: a line when a source is done, and every ten seconds a line of how far the cook is.
+// Progress of a cook for logs: a line when a source is done, and one every ten seconds of how far it is.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
