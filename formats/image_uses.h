@@ -16,8 +16,8 @@ namespace hearth::formats
 struct ImageUse
 {
     uint32_t material = 0; ///< index of the table
-    std::string_view
-        role; ///< as glTF calls it: "baseColor", "metallicRoughness", "normal", "occlusion", "emissive"
+    /// As glTF calls it: "baseColor", "metallicRoughness", "normal", "occlusion" or "emissive".
+    std::string_view role;
 };
 
 /// The uses of each image, in the order of the materials. References to images that are not there are
