@@ -112,9 +112,9 @@ TEST_F(Cook, tellsThatPicturesAreDrawnAndCountsTheirTime)
     const ProgramEnd end =
         cook({"good.gltf", "-o", "a.hearth", "--report", "page.html", "--events", "events"});
     EXPECT_EQ(end.exit_code, 0) << end.err;
-    // of the scene and of its mesh, three views each
-    const size_t begun = end.err.find("drawing 6 pictures for the report\n");
-    const size_t drawn = end.err.find("6 of 6  drawn for the report\n");
+    // of the scene and of its mesh, four views each
+    const size_t begun = end.err.find("drawing 8 pictures for the report\n");
+    const size_t drawn = end.err.find("8 of 8  drawn for the report\n");
     const size_t cooked = end.err.find("cooked  ");
     ASSERT_NE(begun, std::string::npos) << end.err;
     ASSERT_NE(drawn, std::string::npos) << end.err;
@@ -124,7 +124,7 @@ TEST_F(Cook, tellsThatPicturesAreDrawnAndCountsTheirTime)
     EXPECT_GE(std::stod(end.err.substr(cooked + 8)), 1.2) << end.err;
     const std::string events = folder.read("events");
     EXPECT_GE(nlohmann::json::parse(events.substr(events.find("{\"event\":\"done\"")))["seconds"], 1.2);
-    EXPECT_EQ(countOf(folder.read("page.html"), "data:image/jpeg"), 6u);
+    EXPECT_EQ(countOf(folder.read("page.html"), "data:image/jpeg"), 8u);
 
     std::filesystem::remove(folder / "a.hearth");
     EXPECT_EQ(cook({"good.gltf", "-q", "-o", "a.hearth", "--report", "page.html"}).err, "");
