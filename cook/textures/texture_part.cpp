@@ -4,6 +4,7 @@
 #include "cook/textures/mip_chain.h"
 #include "formats/container_reader.h"
 #include "formats/container_writer.h"
+#include "formats/image_uses.h"
 #include "formats/pack_view.h"
 #include "formats/scene.h"
 
@@ -57,13 +58,20 @@ ImageRecord withoutMips(ImageRecord image, uint32_t count)
     return image;
 }
 
+/// Empty where the name is not in the table.
+std::string nameOf(std::string_view strings, const StringRef& name)
+{
+    return insideTable({name.offset, name.length}, strings.size())
+               ? std::string(strings.substr(name.offset, name.length))
+               : "";
+}
+
 /// image, chain  with all mips
-ImageStatistics statisticsOf(const std::string_view strings, const ImageRecord& image,
+ImageStatistics statisticsOf(std::string_view strings, const ImageRecord& image,
                              std::span<const std::byte> chain, uint32_t left_out)
 {
     ImageStatistics statistics;
-    if (insideTable({image.name.offset, image.name.length}, strings.size()))
-        statistics.name = strings.substr(image.name.offset, image.name.length);
+    statistics.name = nameOf(strings, image.name);
     statistics.image = withoutMips(image, left_out);
     statistics.bytes = chain.size() - mipOffset(image, left_out);
     // the finest mip is the imported image, texel by texel: see buildMipChain
@@ -75,6 +83,20 @@ ImageStatistics statisticsOf(const std::string_view strings, const ImageRecord& 
     if (left_out + 1 < image.mip_count)
         statistics.half_error = mipError(image, chain, left_out + 1);
     return statistics;
+}
+
+/// The materials of the import part that show each image.
+Status addUses(const ContainerReader& part, std::string_view strings, std::span<ImageStatistics> statistics)
+{
+    HEARTH_ASSIGN_OR_RETURN(const Records<MaterialRecord> materials,
+                            part.records<MaterialRecord>(kChunkMaterials));
+    const std::span<const MaterialRecord> records(materials.begin(), materials.end());
+    const auto uses = imageUses(records, statistics.size());
+    for (size_t i = 0; i < statistics.size(); ++i)
+        for (const ImageUse& use : uses[i])
+            statistics[i].uses.push_back(
+                {nameOf(strings, records[use.material].name), std::string(use.role)});
+    return success();
 }
 
 /// How much of the part that was written is each image's.
@@ -116,7 +138,10 @@ Status cookTextures(const std::string& import_path, const std::string& output_pa
     }
     HEARTH_TRY(writer.addRecords<ImageRecord>(kChunkImages, images));
     HEARTH_TRY(writer.finish());
-    return statistics == nullptr ? success() : addStoredBytes(output_path, *statistics);
+    if (statistics == nullptr)
+        return success();
+    HEARTH_TRY(addUses(part, names, *statistics));
+    return addStoredBytes(output_path, *statistics);
 }
 
 } // namespace hearth::textures

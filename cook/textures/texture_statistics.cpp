@@ -72,6 +72,8 @@ Json imageJson(const ImageStatistics& image, size_t index)
               {"placeholder", (image.image.flags & kImagePlaceholder) != 0},
               {"bytes", image.bytes},
               {"bytes_stored", image.stored_bytes}};
+    for (const UseStatistics& use : image.uses)
+        json["uses"].push_back({{"material", use.material}, {"role", use.role}});
     if (image.error)
         json["error"] = errorJson(*image.error);
     if (image.half_error)

@@ -14,9 +14,17 @@
 namespace hearth::textures
 {
 
+/// A material that shows an image.
+struct UseStatistics
+{
+    std::string material; ///< its name, which may be empty
+    std::string role;     ///< as formats::ImageUse::role
+};
+
 struct ImageStatistics
 {
     std::string name;
+    std::vector<UseStatistics> uses{};
     formats::ImageRecord image{};
     uint64_t bytes = 0;        ///< of all mips
     uint64_t stored_bytes = 0; ///< as they lie in the file

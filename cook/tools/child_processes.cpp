@@ -25,6 +25,9 @@ namespace
 {
 
 // A child that writes more than this is broken; the rest is read and forgotten.
+// Callers of wait() show how long it takes, in seconds.
+constexpr int kBetweenCalls_ms = 1000;
+
 constexpr size_t kMaxMessages = size_t{1} << 20;
 
 double secondsOf(const timeval& time)
@@ -285,7 +288,7 @@ void ChildProcesses::reap()
     }
 }
 
-std::optional<ChildEnd> ChildProcesses::wait()
+std::optional<ChildEnd> ChildProcesses::wait(const std::function<void()>& waiting)
 {
     for (;;)
     {
@@ -302,7 +305,9 @@ std::optional<ChildEnd> ChildProcesses::wait()
         std::vector<pollfd> files{{signal_file_, POLLIN, 0}};
         for (const Child& child : children_)
             files.push_back({child.messages_pipe, POLLIN, 0});
-        ::poll(files.data(), files.size(), -1);
+        ::poll(files.data(), files.size(), waiting ? kBetweenCalls_ms : -1);
+        if (waiting)
+            waiting();
         for (Child& child : children_)
             drain(child);
         signalfd_siginfo signal{};

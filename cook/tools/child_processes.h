@@ -8,6 +8,7 @@
 #include <csignal>
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -61,7 +62,8 @@ public:
 
     /// Wait until a child, or a command line of a batch, ends; nullopt where a signal asks this process to end. At least
     /// one is running.
-    std::optional<ChildEnd> wait();
+    /// waiting  is called meanwhile, once a second or more often; empty: is not
+    std::optional<ChildEnd> wait(const std::function<void()>& waiting = {});
 
 private:
     struct Child

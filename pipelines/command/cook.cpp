@@ -12,7 +12,9 @@
 #include "pipelines/command/dry_run.h"
 #include "pipelines/command/event_log.h"
 #include "pipelines/command/messages.h"
+#include "pipelines/command/picture_progress.h"
 #include "pipelines/command/progress.h"
+#include "pipelines/command/progress_lines.h"
 #include "pipelines/graph/causes.h"
 #include "pipelines/graph/executor.h"
 #include "pipelines/report/write_report.h"
@@ -76,12 +78,17 @@ std::string joined(const std::vector<std::string>& words, const char* between)
     return text;
 }
 
+ProgressStyle styleOf(const CookOptions& options)
+{
+    return options.verbosity == Verbosity::quiet ? ProgressStyle::none : progressStyle(options.progress);
+}
+
 /// What the events of a cook go to.
 struct Listeners
 {
     EventLog* log = nullptr; ///< null: none
-    ProgressStyle style = ProgressStyle::plain;
     ProgressBar bar;
+    std::optional<ProgressLines> lines; ///< of plain progress
     size_t fatal_warnings = 0;
 };
 
@@ -102,6 +109,8 @@ graph::ExecutorEvents eventsFor(const CookOptions& options, Listeners& listeners
         if (options.verbosity == Verbosity::all)
             print(faint(joined(command, " ")));
         listeners.bar.started(action.cooker + " " + action.subject);
+        if (listeners.lines)
+            listeners.lines->starting(action);
     };
     events.ended = [&options, &listeners, log, &recorder](const graph::Action& action,
                                                           const graph::ActionOutcome& outcome,
@@ -111,10 +120,16 @@ graph::ExecutorEvents eventsFor(const CookOptions& options, Listeners& listeners
         if (log != nullptr)
             log->end(action, outcome);
         listeners.fatal_warnings += passOn(messages, options);
-        if (outcome.ending == Ending::cooked && options.verbosity != Verbosity::quiet &&
-            listeners.style == ProgressStyle::plain)
+        if (outcome.ending == Ending::cooked && options.verbosity == Verbosity::all)
             printStage(action, outcome);
         listeners.bar.ended();
+        if (listeners.lines)
+            listeners.lines->ended(action, outcome);
+    };
+    events.waiting = [&listeners]
+    {
+        if (listeners.lines)
+            listeners.lines->waiting();
     };
     events.failed = [log, &recorder](const Failure& failure)
     {
@@ -278,9 +293,10 @@ void cookGraph(const graph::Graph& graph, CookMemory* memory, const CookOptions&
     graph::Resolver resolver(
         graph, cache, actions, [&]() -> const std::optional<graph::Journal>& { return memory->journal(); },
         options.force);
-    const ProgressStyle style =
-        options.verbosity == Verbosity::quiet ? ProgressStyle::none : progressStyle(options.progress);
-    Listeners listeners{log, style, {style, graph.actions.size()}, 0};
+    const ProgressStyle style = styleOf(options);
+    Listeners listeners{log, {style, graph.actions.size()}, std::nullopt, 0};
+    if (style == ProgressStyle::plain)
+        listeners.lines.emplace(graph, printFaint);
     graph::Executor executor(graph, resolver, cache, actions,
                              {limitsOf(options.jobs, options.memory_bytes), !options.fail_fast,
                               options.lists_files, programFolder(), options.output},
@@ -359,13 +375,17 @@ int writeReports(const CookOptions& options, CookOutcome& outcome)
         outcome.bytes_of_chunks = bytesOfChunks(options.output);
     const std::string json = report::reportJson(outcome);
     for (const std::string& file : options.report_files)
-        if (const Status status =
-                report::writeReport(json, file, outcome.exit_code == 0 ? options.output : "");
-            !status.ok())
-        {
-            print(formatMessage(status.error()));
-            return outcome.exit_code != 0 ? outcome.exit_code : exitCode(status.error());
-        }
+    {
+        PictureProgress progress(styleOf(options), printFaint);
+        const Status status =
+            report::writeReport(json, file, outcome.exit_code == 0 ? options.output : "", "report",
+                                [&](size_t drawn, size_t count) { progress.show(drawn, count); });
+        progress.end();
+        if (status.ok())
+            continue;
+        print(formatMessage(status.error()));
+        return outcome.exit_code != 0 ? outcome.exit_code : exitCode(status.error());
+    }
     return outcome.exit_code;
 }
 
@@ -398,13 +418,17 @@ int cook(const CookOptions& chosen, std::vector<std::string>* looked_for)
     if (looked_for != nullptr)
         *looked_for = recorder.lookedFor();
     outcome.seconds = recorder.seconds();
+    int exit_code = outcome.exit_code;
+    if (!options.report_files.empty() && exit_code != kInterrupted)
+        exit_code = writeReports(options, outcome);
+    // with the time of the reports, whose pictures may take longer than the cook
+    const double seconds = recorder.seconds();
     if (log)
-        log->done(outcome.exit_code, outcome.seconds);
+        log->done(exit_code, seconds);
     if (outcome.exit_code == 0 && options.verbosity != Verbosity::quiet)
         print(fmt::format("{:<10}{:>8.2f} s {:>12}  {}", outcome.is_up_to_date ? "up to date" : "cooked",
-                          outcome.seconds, readableSize(outcome.output_bytes), options.output));
-    return options.report_files.empty() || outcome.exit_code == kInterrupted ? outcome.exit_code
-                                                                             : writeReports(options, outcome);
+                          seconds, readableSize(outcome.output_bytes), options.output));
+    return exit_code;
 }
 
 } // namespace hearth::command

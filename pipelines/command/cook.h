@@ -24,6 +24,7 @@ struct CookOptions : graph::CookSettings, Effort
     bool force = false;                  ///< run everything, whatever the cache has
     bool explain = false;                ///< say why each cooker runs
     bool dry_run = false;                ///< only say what would run
+    bool dry_run_checks = false;         ///< end with 1 where something would run
     std::string dry_run_format = "text"; ///< or "json": the plan
     /// Warnings that count as errors, as "W1302"; nothing: none does, an empty list: all do.
     std::optional<std::vector<std::string>> fatal_warnings;

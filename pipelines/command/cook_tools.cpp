@@ -29,10 +29,15 @@ void passOn(const std::vector<std::string>& lines, Verbosity verbosity)
             print(line);
 }
 
+void printFaint(const std::string& line)
+{
+    print(faint(line));
+}
+
 void printStage(const graph::Action& action, const graph::ActionOutcome& outcome)
 {
-    print(faint(fmt::format("{:<10}{:>8.2f} s {:>12}  {}", action.cooker, outcome.result.seconds,
-                            readableSize(outcome.result.outputs.front().bytes), action.subject)));
+    printFaint(fmt::format("{:<10}{:>8.2f} s {:>12}  {}", action.cooker, outcome.result.seconds,
+                           readableSize(outcome.result.outputs.front().bytes), action.subject));
 }
 
 graph::CrewLimits limitsOf(unsigned jobs, uint64_t memory_bytes)

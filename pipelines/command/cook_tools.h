@@ -23,6 +23,10 @@ int tell(const Error& error);
 /// Pass on a child's messages: errors always, the noise of libraries only when everything is asked for.
 void passOn(const std::vector<std::string>& lines, Verbosity verbosity);
 
+/// As print(), in grey where stderr shows colours.
+void printFaint(const std::string& line);
+
+/// A line of a cooker that has run.
 void printStage(const graph::Action& action, const graph::ActionOutcome& outcome);
 
 /// What cookers may take together; 0: two at once, of small sources one a core, and three quarters of the machine's memory.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+#include <numeric>
 
 namespace hearth::command
 {
@@ -33,15 +34,21 @@ std::string orNothing(const std::string& value)
     return value.empty() ? "nothing" : value;
 }
 
-std::string factLine(const FactChange& fact)
+std::string factLine(const FactChange& fact, bool shows_hashes)
 {
+    if (fact.is_hash && !shows_hashes)
+        return fmt::format("    {}: {}\n", fact.what,
+                           fact.a.empty()   ? "nothing -> some"
+                           : fact.b.empty() ? "some -> nothing"
+                                            : "other content");
     return fmt::format("    {}: {} -> {}\n", fact.what, orNothing(fact.a), orNothing(fact.b));
 }
 
 std::string thingLine(const ThingChange& change)
 {
     const std::string name = change.name.empty() ? "" : " " + change.name;
-    return fmt::format("{:<8} {}{}\n", nameOf(change.how), change.kind, name);
+    const std::string note = change.note.empty() ? "" : " (" + change.note + ")";
+    return fmt::format("{:<8} {}{}{}\n", nameOf(change.how), change.kind, name, note);
 }
 
 std::string chunkLine(const ChunkBytes& kind)
@@ -50,10 +57,62 @@ std::string chunkLine(const ChunkBytes& kind)
                        kind.a == kind.b ? ", other bytes" : "");
 }
 
-size_t countOf(const PackDiff& diff, ThingChange::How how)
+/// How many things of one kind, or of all, have changed how.
+struct Counts
 {
-    return static_cast<size_t>(std::count_if(diff.things.begin(), diff.things.end(),
-                                             [&](const ThingChange& change) { return change.how == how; }));
+    size_t changed = 0;
+    size_t added = 0;
+    size_t removed = 0;
+
+    void add(ThingChange::How how)
+    {
+        ++(how == ThingChange::How::added ? added : how == ThingChange::How::removed ? removed : changed);
+    }
+};
+
+std::string countsText(const Counts& counts)
+{
+    return fmt::format("{} changed, {} added, {} removed", counts.changed, counts.added, counts.removed);
+}
+
+/// "1.2 MiB -> 1.3 MiB (+8.3 %)"
+std::string sizesText(uint64_t a, uint64_t b)
+{
+    const double change = a == 0 ? 0 : 100 * (static_cast<double>(b) / static_cast<double>(a) - 1);
+    return fmt::format("{} -> {} ({:+.1f} %)", readableSize(a), readableSize(b), change);
+}
+
+/// What differs in all, by the kinds of things, and by bytes.
+std::string totalsText(const PackDiff& diff)
+{
+    Counts all;
+    std::vector<std::pair<std::string, Counts>> kinds; // in the order of the things
+    for (const ThingChange& change : diff.things)
+    {
+        auto kind = std::find_if(kinds.begin(), kinds.end(),
+                                 [&](const auto& known) { return known.first == change.kind; });
+        if (kind == kinds.end())
+            kind = kinds.insert(kinds.end(), {change.kind, {}});
+        kind->second.add(change.how);
+        all.add(change.how);
+    }
+    std::string text =
+        diff.isSameByMeaning() ? "the same by meaning, in other bytes\n" : countsText(all) + "\n";
+    for (const auto& [kind, counts] : kinds)
+        text += fmt::format("    {}: {}\n", kind, countsText(counts));
+    if (!diff.settings.empty())
+        text += fmt::format("    settings: {} changed\n", diff.settings.size());
+    const auto sum = [&](uint64_t ChunkBytes::*bytes)
+    {
+        return std::accumulate(diff.chunks.begin(), diff.chunks.end(), uint64_t{0},
+                               [&](uint64_t all_bytes, const ChunkBytes& kind)
+                               { return all_bytes + kind.*bytes; });
+    };
+    text += fmt::format("bytes    {}\n", sizesText(sum(&ChunkBytes::a), sum(&ChunkBytes::b)));
+    for (const ChunkBytes& kind : diff.chunks)
+        if (!kind.is_same)
+            text += chunkLine(kind);
+    return text;
 }
 
 Json factsJson(const std::vector<FactChange>& facts)
@@ -80,30 +139,24 @@ std::string pictureText(const PictureFigures& picture)
 
 } // namespace
 
-std::string diffText(const PackDiff& diff, const PictureFigures& picture)
+std::string diffText(const PackDiff& diff, const PictureFigures& picture, bool shows_hashes)
 {
-    std::string text = pictureText(picture);
     if (diff.isSame())
-        return text + "the same\n";
+        return "the same\n" + pictureText(picture);
+    std::string text = totalsText(diff) + pictureText(picture);
+    if (!diff.settings.empty())
+        text += "\nsettings\n";
+    for (const FactChange& setting : diff.settings)
+        text += factLine(setting, shows_hashes);
+    if (!diff.things.empty())
+        text += '\n';
     for (const ThingChange& change : diff.things)
     {
         text += thingLine(change);
         for (const FactChange& fact : change.facts)
-            text += factLine(fact);
+            text += factLine(fact, shows_hashes);
     }
-    if (!diff.settings.empty())
-        text += "settings\n";
-    for (const FactChange& setting : diff.settings)
-        text += factLine(setting);
-    text += "bytes\n";
-    for (const ChunkBytes& kind : diff.chunks)
-        if (!kind.is_same)
-            text += chunkLine(kind);
-    if (diff.isSameByMeaning())
-        return text + "the same by meaning, in other bytes\n";
-    return text + fmt::format("{} changed, {} added, {} removed\n", countOf(diff, ThingChange::How::changed),
-                              countOf(diff, ThingChange::How::added),
-                              countOf(diff, ThingChange::How::removed));
+    return text;
 }
 
 std::string diffJson(const PackDiff& diff, const std::string& file_a, const std::string& file_b,
@@ -118,10 +171,14 @@ std::string diffJson(const PackDiff& diff, const std::string& file_a, const std:
               {"settings", factsJson(diff.settings)},
               {"chunks", Json::array()}};
     for (const ThingChange& change : diff.things)
+    {
         json["changes"].push_back({{"kind", change.kind},
                                    {"name", change.name},
                                    {"change", nameOf(change.how)},
                                    {"facts", factsJson(change.facts)}});
+        if (!change.note.empty())
+            json["changes"].back()["note"] = change.note;
+    }
     for (const ChunkBytes& kind : diff.chunks)
         json["chunks"].push_back(
             {{"kind", kind.kind}, {"stored_a", kind.a}, {"stored_b", kind.b}, {"same", kind.is_same}});

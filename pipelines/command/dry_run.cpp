@@ -15,11 +15,20 @@ namespace hearth::command
 namespace
 {
 
-Result<std::string> dryRunText(const CookOptions& options)
+constexpr int kSomethingWouldRun = 1;
+
+struct DryRun
+{
+    std::string text;
+    bool is_up_to_date = false; ///< nothing would run, and the pack is in its place
+};
+
+Result<DryRun> forecastCook(const CookOptions& options)
 {
     HEARTH_ASSIGN_OR_RETURN(const graph::Graph graph, graph::makeCookGraph(options));
-    if (options.dry_run_format == "json")
-        return graph::planJson(graph);
+    const bool is_json = options.dry_run_format == "json";
+    if (is_json && !options.dry_run_checks)
+        return DryRun{graph::planJson(graph)};
     HEARTH_ASSIGN_OR_RETURN(const auto memory,
                             CookMemory::open(options.caches, options.output, graph::workingFolder(),
                                              [](const Error& warning) { tell(formatMessage(warning)); }));
@@ -31,11 +40,15 @@ Result<std::string> dryRunText(const CookOptions& options)
     const graph::Forecast forecast = graph::forecast(graph, resolver);
     const auto runs = std::count_if(forecast.actions.begin(), forecast.actions.end(),
                                     [](const graph::Forecast::Entry& entry) { return entry.runs; });
+    const std::string cause = packCause(forecast, memory->hashes().hashOf(options.output));
+    const bool is_up_to_date = runs == 0 && cause.empty();
+    if (is_json)
+        return DryRun{graph::planJson(graph), is_up_to_date};
     std::string text = forecastText(graph, forecast);
-    if (const std::string cause = packCause(forecast, memory->hashes().hashOf(options.output));
-        !cause.empty())
+    if (!cause.empty())
         text += fmt::format("{:<11}{}: {}\n", "pack", options.output, cause);
-    return text + fmt::format("{} of {} cookers would run\n", runs, graph.actions.size());
+    text += fmt::format("{} of {} cookers would run\n", runs, graph.actions.size());
+    return DryRun{text, is_up_to_date};
 }
 
 } // namespace
@@ -64,10 +77,10 @@ std::string packCause(const graph::Forecast& forecast, const std::optional<std::
 
 int dryRun(const CookOptions& options)
 {
-    const Result<std::string> text = dryRunText(options);
-    const Status printed = text.ok() ? tools::writeText("-", *text) : Status(text.error());
+    const Result<DryRun> dry_run = forecastCook(options);
+    const Status printed = dry_run.ok() ? tools::writeText("-", dry_run->text) : Status(dry_run.error());
     if (printed.ok())
-        return 0;
+        return options.dry_run_checks && !dry_run->is_up_to_date ? kSomethingWouldRun : 0;
     tell(formatMessage(printed.error()));
     return exitCode(printed.error());
 }

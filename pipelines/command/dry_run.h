@@ -10,7 +10,9 @@
 namespace hearth::command
 {
 
-/// Print what would run to stdout, and write nothing. returns  the exit code; problems have been told on stderr
+/// Print what would run to stdout, and write nothing.
+/// returns  the exit code; 1 where a cooker would run, or the pack would be put in its place, and options.dry_run_checks.
+///          Problems have been told on stderr
 int dryRun(const CookOptions& options);
 
 /// A line for each action that runs: cooker, subject, causes; empty where nothing does.

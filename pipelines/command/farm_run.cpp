@@ -4,8 +4,10 @@
 #include "cook/tools/whole_file.h"
 #include "pipelines/command/cook_memory.h"
 #include "pipelines/command/cook_tools.h"
+#include "pipelines/command/progress_lines.h"
 #include "pipelines/farm/run_shard.h"
 #include "pipelines/farm/shard_index.h"
+#include "pipelines/farm/shards.h"
 
 #include <algorithm>
 #include <cstdlib>
@@ -19,18 +21,26 @@ namespace
 {
 
 /// Shards write logs, which have no bar.
-graph::ExecutorEvents eventsFor(const Effort& effort)
+/// lines  of the shard's progress; null: none. They live as long as the events
+graph::ExecutorEvents eventsFor(const Effort& effort, ProgressLines* lines)
 {
     graph::ExecutorEvents events;
-    const bool shows_stages = effort.verbosity != Verbosity::quiet && effort.progress != "none";
-    events.ended = [verbosity = effort.verbosity, shows_stages](const graph::Action& action,
-                                                                const graph::ActionOutcome& outcome,
-                                                                const std::vector<std::string>& messages)
+    events.ended = [verbosity = effort.verbosity, lines](const graph::Action& action,
+                                                         const graph::ActionOutcome& outcome,
+                                                         const std::vector<std::string>& messages)
     {
         passOn(messages, verbosity);
-        if (outcome.ending == graph::Ending::cooked && shows_stages)
+        if (outcome.ending == graph::Ending::cooked && verbosity == Verbosity::all)
             printStage(action, outcome);
+        if (lines != nullptr)
+            lines->ended(action, outcome);
     };
+    if (lines != nullptr)
+    {
+        events.starting = [lines](const graph::Action& action, const graph::ActionOutcome&,
+                                  const std::vector<std::string>&) { lines->starting(action); };
+        events.waiting = [lines] { lines->waiting(); };
+    }
     events.failed = [](const graph::Failure& failure)
     {
         if (!failure.is_told)
@@ -73,10 +83,14 @@ int runHere(const RunOptions& options, const OpenedPlan& opened, size_t shard)
             {Issue::usage, "--cache", "", "a shard keeps its results in a cache that it may write to"});
     if (const Status entered = enterFolder(opened); !entered.ok())
         return tell(entered.error());
+    std::vector<size_t> action_of;
+    std::optional<ProgressLines> lines;
+    if (options.verbosity != Verbosity::quiet && options.progress != "none")
+        lines.emplace(farm::actionsOf(opened.plan.graph, opened.plan.shards[shard], action_of), printFaint);
     const auto record = farm::runShard(
         opened.plan, opened.hash, shard, {(*memory)->cache(), (*memory)->actions(), (*memory)->hashes()},
         {limitsOf(options.jobs, options.memory_bytes), tools::programFolder(), options.plan_file},
-        eventsFor(options));
+        eventsFor(options, lines ? &*lines : nullptr));
     (*memory)->finish();
     if (!record)
         return kInterrupted;

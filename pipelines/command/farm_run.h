@@ -45,7 +45,7 @@ int makePlanFile(const MakePlanOptions& options);
 /// Through a launcher, what the shard has left in the cache is looked at, whatever the launcher says.
 int runShard(const RunOptions& options);
 
-/// Read and hash every result, have what is missing cooked here (or list it: code 1), and link the pack.
+/// Read and hash every result, have what is missing cooked here (or list it: code 75), and link the pack.
 int merge(const MergeOptions& options);
 
 } // namespace hearth::command

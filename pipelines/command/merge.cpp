@@ -5,10 +5,12 @@
 #include "pipelines/command/cook_memory.h"
 #include "pipelines/command/cook_tools.h"
 #include "pipelines/command/farm_run.h"
+#include "pipelines/farm/run_shard.h"
 #include "pipelines/farm/shard_record.h"
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <set>
 
 namespace hearth::command
 {
@@ -16,7 +18,13 @@ namespace hearth::command
 namespace
 {
 
-constexpr int kSomeMissing = 1;
+/// Shards of which results are missing for one reason.
+struct Incomplete
+{
+    std::string reason;
+    std::vector<size_t> shards; ///< ascending
+    size_t results = 0;         ///< that are missing
+};
 
 /// Actions of a shard that are missing.
 std::vector<size_t> missingOf(const farm::Plan& plan, size_t shard, const std::vector<size_t>& missing)
@@ -34,27 +42,75 @@ std::string reasonOf(const OpenedPlan& opened, size_t shard, cache::Cache& cache
     const auto fields = cache.entry(farm::recordKey(opened.hash, shard));
     const auto record = fields ? farm::recordOf(*fields) : std::nullopt;
     if (!record)
-        return "it has left no record";
+        return "no record was left";
     const std::string where = record->machine.empty() ? "" : " on " + record->machine;
     if (record->exit_code == 0)
-        return "it ended well" + where +
-               ", but what it made is not in the cache, not whole, or of files that have changed since";
-    return fmt::format("it failed{} with code {}{}", where, record->exit_code,
+        return "ended well" + where +
+               ", but what was made is not in the cache, not whole, or of files that have changed since";
+    return fmt::format("failed{} with code {}{}", where, record->exit_code,
                        record->errors.empty() ? "" : ": " + record->errors.front());
 }
 
-/// Tell of shards that have left results out.
+std::vector<Incomplete> incompleteShards(const OpenedPlan& opened, const std::vector<size_t>& missing,
+                                         cache::Cache& cache)
+{
+    std::vector<Incomplete> groups;
+    for (size_t shard = 0; shard < opened.plan.shards.size(); ++shard)
+    {
+        const size_t results = missingOf(opened.plan, shard, missing).size();
+        if (results == 0)
+            continue;
+        const std::string reason = reasonOf(opened, shard, cache);
+        auto group = std::find_if(groups.begin(), groups.end(),
+                                  [&](const Incomplete& known) { return known.reason == reason; });
+        if (group == groups.end())
+            group = groups.insert(groups.end(), {reason, {}, 0});
+        group->shards.push_back(shard);
+        group->results += results;
+    }
+    return groups;
+}
+
+/// "shard 3/16" of one, "shards 0, 3-5 of 16" of several.
+std::string namesOf(const std::vector<size_t>& shards, size_t count)
+{
+    if (shards.size() == 1)
+        return fmt::format("shard {}/{}", shards.front(), count);
+    std::string text = "shards ";
+    for (size_t i = 0; i < shards.size();)
+    {
+        size_t last = i;
+        while (last + 1 < shards.size() && shards[last + 1] == shards[last] + 1)
+            ++last;
+        text += (i == 0 ? "" : ", ") + std::to_string(shards[i]) +
+                (last == i ? "" : "-" + std::to_string(shards[last]));
+        i = last + 1;
+    }
+    return text + fmt::format(" of {}", count);
+}
+
+/// Tell of shards that have left results out, a line for each reason.
 void printMissing(const OpenedPlan& opened, const std::vector<size_t>& missing, const MergeOptions& options,
                   cache::Cache& cache)
 {
-    const farm::Plan& plan = opened.plan;
+    for (const Incomplete& group : incompleteShards(opened, missing, cache))
+        tell({Issue::shard_incomplete, options.plan_file, namesOf(group.shards, opened.plan.shards.size()),
+              fmt::format("{} results are missing{}: {}", group.results,
+                          options.cooks_missing ? ", and cooked here" : "", group.reason)});
+}
+
+/// The line behind that of the cook: what machines were to cook, and this one has.
+void printCookedHere(const farm::Plan& plan, const std::vector<size_t>& missing)
+{
+    std::set<size_t> sources;
+    for (const size_t action : missing)
+        sources.insert(plan.graph.actions[action].source);
+    std::vector<size_t> shards;
     for (size_t shard = 0; shard < plan.shards.size(); ++shard)
-        if (const std::vector<size_t> of_shard = missingOf(plan, shard, missing); !of_shard.empty())
-            tell({Issue::shard_incomplete, options.plan_file,
-                  fmt::format("shard {}/{}", shard, plan.shards.size()),
-                  fmt::format("{} results are missing{}: {}", of_shard.size(),
-                              options.cooks_missing ? ", and cooked here" : "",
-                              reasonOf(opened, shard, cache))});
+        if (!missingOf(plan, shard, missing).empty())
+            shards.push_back(shard);
+    print(fmt::format("{:<10}{} of {} sources were cooked here: those of {} were missing", "merged",
+                      sources.size(), plan.graph.source_count, namesOf(shards, plan.shards.size())));
 }
 
 std::string listOf(const farm::Plan& plan, const std::vector<size_t>& missing)
@@ -106,10 +162,15 @@ Result<int> mergePlan(const MergeOptions& options)
         return Error{Issue::usage, "--cache", "", "results of shards are in a cache: say which"};
     HEARTH_TRY(enterFolder(opened));
     HEARTH_ASSIGN_OR_RETURN(const std::vector<size_t> missing, findMissing(opened, options, *memory));
-    if (missing.empty() || options.cooks_missing)
-        return cookPack(opened, options);
-    HEARTH_TRY(tools::writeText("-", listOf(opened.plan, missing)));
-    return kSomeMissing;
+    if (!missing.empty() && !options.cooks_missing)
+    {
+        HEARTH_TRY(tools::writeText("-", listOf(opened.plan, missing)));
+        return farm::kTryAgain;
+    }
+    const int exit_code = cookPack(opened, options);
+    if (exit_code == 0 && !missing.empty() && options.verbosity != Verbosity::quiet)
+        printCookedHere(opened.plan, missing);
+    return exit_code;
 }
 
 } // namespace

@@ -23,11 +23,11 @@ std::vector<FactChange> diffFacts(std::span<const Fact> a, std::span<const Fact>
         const auto other = values_of_b.extract(fact.what);
         const std::string value = other.empty() ? "" : other.mapped();
         if (other.empty() || value != fact.value)
-            changes.push_back({fact.what, fact.value, value});
+            changes.push_back({fact.what, fact.value, value, fact.is_hash});
     }
     for (const Fact& fact : b)
         if (values_of_b.contains(fact.what))
-            changes.push_back({fact.what, "", fact.value});
+            changes.push_back({fact.what, "", fact.value, fact.is_hash});
     return changes;
 }
 
@@ -69,6 +69,26 @@ void leaveOutEqual(Namesakes& things)
                       return is_paired;
                   });
     std::erase_if(things.b, [&](const Thing* thing) { return leaves(paired, thing); });
+}
+
+/// Move pairs of one note to the front of both sides, each in its order.
+void alignNotes(Namesakes& things)
+{
+    const auto moveTo = [](std::vector<const Thing*>& side, size_t place, size_t from)
+    {
+        const auto begin = side.begin();
+        std::rotate(begin + static_cast<std::ptrdiff_t>(place), begin + static_cast<std::ptrdiff_t>(from),
+                    begin + static_cast<std::ptrdiff_t>(from) + 1);
+    };
+    size_t aligned = 0;
+    for (size_t i = 0; i < things.a.size(); ++i)
+        for (size_t k = aligned; k < things.b.size(); ++k)
+            if (things.a[i]->note == things.b[k]->note)
+            {
+                moveTo(things.b, aligned, k);
+                moveTo(things.a, aligned++, i);
+                break;
+            }
 }
 
 std::vector<ChunkBytes> diffChunks(const PackView& a, const PackView& b)
@@ -130,9 +150,11 @@ std::vector<ThingChange> diffThings(std::span<const Thing> a, std::span<const Th
     {
         Namesakes& things = namesakes[key];
         leaveOutEqual(things);
+        alignNotes(things);
         for (size_t i = 0; i < std::max(things.a.size(), things.b.size()); ++i)
         {
-            ThingChange change{key.first, key.second, ThingChange::How::changed, {}};
+            ThingChange change{key.first, key.second};
+            change.note = (i < things.b.size() ? things.b : things.a)[i]->note;
             if (i >= things.b.size())
                 change.how = ThingChange::How::removed;
             else if (i >= things.a.size())

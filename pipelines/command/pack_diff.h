@@ -18,6 +18,7 @@ struct FactChange
     std::string what;
     std::string a;
     std::string b;
+    bool is_hash = false; ///< as Fact::is_hash
 };
 
 struct ThingChange
@@ -31,7 +32,8 @@ struct ThingChange
     std::string kind;
     std::string name;
     How how = How::changed;
-    std::vector<FactChange> facts; ///< that differ, where it is changed
+    std::vector<FactChange> facts{}; ///< that differ, where it is changed
+    std::string note{};              ///< as Thing::note; of B, where it is there
 };
 
 /// All chunks of one type.
@@ -53,8 +55,8 @@ struct PackDiff
     bool isSame() const;
 };
 
-/// Things are the same where kind and name are. Where several have one name, equal ones are paired first, then the rest in
-/// their order.
+/// Things are the same where kind and name are. Where several have one name, equal ones are paired first, then those of one
+/// note, then the rest in their order.
 std::vector<ThingChange> diffThings(std::span<const Thing> a, std::span<const Thing> b);
 
 /// errors: those of thingsOf
@@ -67,8 +69,9 @@ struct PictureFigures
     std::string json;     ///< schema hearth.compare/1; empty: no picture was asked for
 };
 
-/// For people.
-std::string diffText(const PackDiff& diff, const PictureFigures& picture = {});
+/// For people: how many things differ and the bytes of both first, then the things.
+/// shows_hashes  of contents; else only that they differ
+std::string diffText(const PackDiff& diff, const PictureFigures& picture = {}, bool shows_hashes = false);
 
 /// Schema "hearth.diff/1".
 std::string diffJson(const PackDiff& diff, const std::string& file_a, const std::string& file_b,

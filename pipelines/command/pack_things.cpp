@@ -3,6 +3,7 @@
 
 #include "cook/tools/sha256.h"
 #include "formats/channel_keys.h"
+#include "formats/image_uses.h"
 #include "formats/texel_format_name.h"
 #include "pipelines/command/inspect.h"
 
@@ -76,11 +77,12 @@ std::optional<std::string> referenceText(const PackView& pack, const Field& fiel
     return std::nullopt;
 }
 
+// A longer field is a table of its own, told by its hash.
+constexpr size_t kMaxFieldText_bytes = 256;
+
 std::string fieldText(const PackView& pack, const Field& field, const std::byte* bytes)
 {
-    // a table of its own
-    constexpr size_t kLong_bytes = 256;
-    if (field.size > kLong_bytes)
+    if (field.size > kMaxFieldText_bytes)
         return contentText({reinterpret_cast<const char*>(bytes), field.size});
     if (field.type.starts_with("f32"))
         return numbersText<float>(bytes, field.size);
@@ -117,7 +119,8 @@ void addFields(std::vector<Fact>& facts, const PackView& pack, const Record& rec
                     addFields(facts, pack, texture, std::string(field.name) + ".");
                 continue;
             }
-        facts.push_back({prefix + std::string(field.name), fieldText(pack, field, bytes)});
+        facts.push_back({prefix + std::string(field.name), fieldText(pack, field, bytes),
+                         field.size > kMaxFieldText_bytes});
     }
 }
 
@@ -219,21 +222,32 @@ Result<Thing> meshThing(const PackView& pack, uint32_t index, const MeshSummary&
     add("groups", std::to_string(summary.groups));
     add("clusters", std::to_string(summary.clusters));
     add("stored bytes", std::to_string(summary.stored_page_bytes));
-    add("hierarchy", hierarchyText(pack, mesh));
+    thing.facts.push_back({"hierarchy", hierarchyText(pack, mesh), true});
     HEARTH_ASSIGN_OR_RETURN(const std::string geometry, geometryText(pack, mesh));
-    add("geometry", geometry);
-    add("bounds in motion", boundsText(pack, index));
+    thing.facts.push_back({"geometry", geometry, true});
+    thing.facts.push_back({"bounds in motion", boundsText(pack, index), true});
     return thing;
 }
 
 // ---- the scene
 
-Result<Thing> textureThing(const PackView& pack, uint32_t index)
+/// "baseColor of Bark, normal of Bark and 3 more"
+std::string usesText(const PackView& pack, const std::vector<ImageUse>& uses)
 {
-    Thing thing{"texture", std::string(pack.text(pack.images()[index].name)), {}};
+    constexpr size_t kMaxUses = 2;
+    std::string text;
+    for (size_t i = 0; i < std::min(uses.size(), kMaxUses); ++i)
+        text += fmt::format("{}{} of {}", i == 0 ? "" : ", ", uses[i].role,
+                            nameOf(pack, pack.materials(), uses[i].material));
+    return uses.size() <= kMaxUses ? text : text + fmt::format(" and {} more", uses.size() - kMaxUses);
+}
+
+Result<Thing> textureThing(const PackView& pack, uint32_t index, const std::vector<ImageUse>& uses)
+{
+    Thing thing{"texture", std::string(pack.text(pack.images()[index].name)), {}, usesText(pack, uses)};
     addFields(thing.facts, pack, pack.images()[index]);
     HEARTH_ASSIGN_OR_RETURN(const ChunkData texels, pack.imageData(index));
-    thing.facts.push_back({"texels", contentText(bytesOf(texels.bytes()))});
+    thing.facts.push_back({"texels", contentText(bytesOf(texels.bytes())), true});
     return thing;
 }
 
@@ -265,10 +279,13 @@ Thing animationThing(const PackView& pack, const AnimationRecord& animation)
     Thing thing{"animation", std::string(pack.text(animation.name)), {}};
     addFields(thing.facts, pack, animation);
     for (const AnimationChannelRecord& channel : recordsOf(pack.channels(), animation.channels))
+    {
+        const std::string what =
+            fmt::format("{} of {}", kPaths[channel.path % 4], nameOf(pack, pack.nodes(), channel.node));
         thing.facts.push_back(
-            {fmt::format("{} of {}", kPaths[channel.path % 4], nameOf(pack, pack.nodes(), channel.node)),
-             fmt::format("{} keys, interpolation {}, {}", channel.key_count, channel.interpolation,
-                         keysText(pack, channel))});
+            {what, fmt::format("{} keys, interpolation {}", channel.key_count, channel.interpolation)});
+        thing.facts.push_back({"keys of " + what, keysText(pack, channel), true});
+    }
     return thing;
 }
 
@@ -284,7 +301,7 @@ Thing skinThing(const PackView& pack, const SkinRecord& skin)
         bytes += nameOf(pack, pack.nodes(), joint.node) + '\n';
         bytes += bytesOf(joint.joint_from_bind);
     }
-    thing.facts.push_back({"bind pose", contentText(bytes)});
+    thing.facts.push_back({"bind pose", contentText(bytes), true});
     return thing;
 }
 
@@ -312,7 +329,7 @@ void addLight(std::vector<Thing>& things, const PackView& pack)
         things.push_back({"bricks", "", {}});
         addFields(things.back().facts, pack, grid);
         const auto add = [&](const char* what, std::string_view bytes) {
-            things.back().facts.push_back({what, contentText(bytes)});
+            things.back().facts.push_back({what, contentText(bytes), true});
         };
         add("voxels", std::string(bytesOf(pack.brickGroups())) + std::string(bytesOf(pack.bricks())));
         add("opacity", bytesOf(pack.brickOpacity()));
@@ -327,7 +344,7 @@ void addMeta(std::vector<Thing>& things, const MetaSummary& meta)
 {
     for (const SourceSummary& source : meta.sources)
         things.push_back(
-            {"source", source.name, {{"bytes", std::to_string(source.bytes)}, {"xxh3", source.hash}}});
+            {"source", source.name, {{"bytes", std::to_string(source.bytes)}, {"xxh3", source.hash, true}}});
     for (const MessageSummary& message : meta.messages)
         things.push_back(
             {"message", message.source + message.where, {{"code", message.code}, {"text", message.text}}});
@@ -347,9 +364,10 @@ Result<std::vector<Thing>> thingsOf(const PackView& pack)
         things.push_back(std::move(mesh));
     }
     addTable(things, pack, "material", pack.materials());
+    const auto uses = imageUses(pack.materials(), pack.images().size());
     for (uint32_t i = 0; i < pack.images().size(); ++i)
     {
-        HEARTH_ASSIGN_OR_RETURN(Thing texture, textureThing(pack, i));
+        HEARTH_ASSIGN_OR_RETURN(Thing texture, textureThing(pack, i, uses[i]));
         things.push_back(std::move(texture));
     }
     for (const AnimationRecord& animation : pack.animations())

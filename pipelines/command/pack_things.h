@@ -14,7 +14,8 @@ namespace hearth::command
 struct Fact
 {
     std::string what;
-    std::string value; ///< contents of many bytes by the start of their SHA-256
+    std::string value;
+    bool is_hash = false; ///< the value is the hash of many bytes, or its start: it tells contents apart
     friend bool operator==(const Fact&, const Fact&) = default;
 };
 
@@ -23,6 +24,8 @@ struct Thing
     std::string kind; ///< "mesh", "material", ...
     std::string name; ///< may be empty, and that of others as well
     std::vector<Fact> facts;
+    /// What tells those of one name apart, for people: of a texture "baseColor of Bark"; else empty.
+    std::string note{};
 };
 
 /// Of a pack that has been checked. Sorted by kind: meshes, materials, textures, animations, skins, instances, lights,

@@ -83,6 +83,13 @@ void ProgressBar::ended()
     draw();
 }
 
+void ProgressBar::show(size_t ended, const std::string& what)
+{
+    ended_ = ended;
+    what_ = what;
+    draw();
+}
+
 void ProgressBar::draw()
 {
     const auto now = std::chrono::steady_clock::now();

@@ -1,4 +1,4 @@
-// How far a cook is, on stderr: a bar at the bottom of a terminal, or a line for each cooker.
+// How far a cook is, on stderr: a bar at the bottom of a terminal, or lines (progress_lines.h).
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -13,7 +13,7 @@ namespace hearth::command
 enum class ProgressStyle : uint8_t
 {
     none,
-    plain, ///< a line for each cooker that has run
+    plain, ///< lines, as ProgressLines has them
     bar,   ///< one line that changes
 };
 
@@ -32,6 +32,8 @@ public:
 
     void started(const std::string& what);
     void ended();
+    /// How many have ended, where that is counted elsewhere.
+    void show(size_t ended, const std::string& what);
 
 private:
     void draw();

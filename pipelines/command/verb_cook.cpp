@@ -107,6 +107,9 @@ void addCook(cli::CommandLine& app, Work& run)
     verb.addOption("--format", options->dry_run_format, "of --dry-run; json: the whole plan")
         .choices({"text", "json"})
         .needs(dry_run);
+    verb.addFlag("--check", options->dry_run_checks,
+                 "of --dry-run: end with code 1 where something would run")
+        .needs(dry_run);
     verb.addFlag(
             "--watch", options->watches,
             "cook, and again whenever a file changes that it reads or looks for, or a source comes or goes; "

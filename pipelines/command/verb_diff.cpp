@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "pipelines/command/diff_camera.h"
 #include "pipelines/command/open_pack.h"
 #include "pipelines/command/pack_diff.h"
 #include "pipelines/command/picture_diff.h"
@@ -20,6 +21,7 @@ struct DiffOptions
     std::string a;
     std::string b;
     std::string format = "text";
+    bool shows_hashes = false;
     std::string picture; ///< empty: none
     std::string camera;
     std::string scene_camera;
@@ -27,12 +29,16 @@ struct DiffOptions
     std::string view = "final";
 };
 
-PictureOptions pictureOptions(const DiffOptions& options)
+PictureOptions pictureOptions(const DiffOptions& options, const formats::PackView& a,
+                              const formats::PackView& b)
 {
     PictureOptions picture{options.picture, {"--size", options.size, "--view", options.view}};
-    const bool is_of_scene = options.camera.empty();
-    picture.view.insert(picture.view.end(), {is_of_scene ? "--scene-camera" : "--camera",
-                                             is_of_scene ? options.scene_camera : options.camera});
+    if (!options.scene_camera.empty())
+        picture.view.insert(picture.view.end(), {"--scene-camera", options.scene_camera});
+    else
+        picture.view.insert(
+            picture.view.end(),
+            {"--camera", options.camera.empty() ? cameraOfBoth(a, b, options.size) : options.camera});
     return picture;
 }
 
@@ -50,7 +56,7 @@ int diff(const DiffOptions& options)
     PictureFigures picture;
     if (!options.picture.empty())
     {
-        const PictureDiff drawn = diffPictures(options.a, options.b, pictureOptions(options));
+        const PictureDiff drawn = diffPictures(options.a, options.b, pictureOptions(options, *a, *b));
         if (drawn.exit_code != 0)
         {
             std::fprintf(stderr, "%s\n", drawn.error.c_str());
@@ -60,7 +66,7 @@ int diff(const DiffOptions& options)
     }
     const int printed =
         printResult(options.format == "json" ? diffJson(*difference, options.a, options.b, picture)
-                                             : diffText(*difference, picture));
+                                             : diffText(*difference, picture, options.shows_hashes));
     return printed == 0 && !difference->isSame() ? kDifferent : printed;
 }
 
@@ -74,34 +80,27 @@ void addDiff(cli::CommandLine& app, Work& run)
     verb.addOption("A", options->a, "pack").required();
     verb.addOption("B", options->b, "pack").required();
     addFormat(verb, options->format);
+    verb.addFlag("--hashes", options->shows_hashes,
+                 "show the hashes of texels, geometry and the like, not only that they differ");
     const cli::Option picture = verb.addOption("--picture", options->picture,
-                                               "draw both, and write a heat map of how they differ: a PNG");
+                                               "draw both, and write a heat map of how they differ: a PNG; "
+                                               "all of the scene is in view, unless a camera is given");
     const cli::Option camera =
         verb.addOption("--camera", options->camera,
                        "PX,PY,PZ,TX,TY,TZ,FOV: from where it is drawn, as for hearth-render")
             .needs(picture);
-    const cli::Option scene_camera = verb.addOption("--scene-camera", options->scene_camera,
-                                                    "N: from the packs' own cameras of that number")
-                                         .needs(picture)
-                                         .excludes(camera);
+    verb.addOption("--scene-camera", options->scene_camera, "N: from the packs' own cameras of that number")
+        .needs(picture)
+        .excludes(camera);
     verb.addOption("--size", options->size, "of the picture").needs(picture).showDefault();
     verb.addOption("--view", options->view, "what is drawn: final, clusters, lod, ...")
         .needs(picture)
         .showDefault();
     verb.setFooter("Examples:\n"
                    "  hearth diff before.hearth after.hearth\n"
-                   "  hearth diff before.hearth after.hearth --picture heat.png --scene-camera 0\n"
+                   "  hearth diff before.hearth after.hearth --picture heat.png\n"
                    "Exit code 0: they are the same; 1: they differ.");
-    verb.setAction(
-        [options, camera, scene_camera, &run]
-        {
-            run = [options, camera, scene_camera]
-            {
-                if (!options->picture.empty() && camera.count() + scene_camera.count() == 0)
-                    return usageError("--picture needs --camera or --scene-camera");
-                return diff(*options);
-            };
-        });
+    verb.setAction([options, &run] { run = [options] { return diff(*options); }; });
 }
 
 } // namespace hearth::command

@@ -149,7 +149,7 @@ void addMerge(cli::CommandLine& app, Work& run)
     verb.addOption("-o,--output", options->output, "pack to write").required();
     verb.addOption("--missing", options->missing,
                    "what becomes of results that are not there: cook them here, or list them and end with "
-                   "code 1")
+                   "code 75: shards that are run again may make them")
         .choices({"cook", "list"})
         .showDefault();
     verb.addOption("--report", options->report_files,

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/cache/folder_level.h"
+#include "pipelines/command/cook_tools.h"
+#include "pipelines/command/picture_progress.h"
 #include "pipelines/command/verb_tools.h"
 #include "pipelines/command/verbs.h"
 #include "pipelines/report/write_report.h"
@@ -37,10 +39,17 @@ int report(const Options& options)
     if (!json)
         return fail({Issue::input_missing, options.file, "", "cannot be read"});
     for (const std::string& path : {options.page, options.junit, options.table})
-        if (!path.empty())
-            if (const Status status = report::writeReport(*json, path, options.pack, options.file);
-                !status.ok())
-                return fail(status.error());
+    {
+        if (path.empty())
+            continue;
+        PictureProgress progress(progressStyle("auto"), printFaint);
+        const Status status =
+            report::writeReport(*json, path, options.pack, options.file,
+                                [&](size_t drawn, size_t count) { progress.show(drawn, count); });
+        progress.end();
+        if (!status.ok())
+            return fail(status.error());
+    }
     return 0;
 }
 

@@ -135,9 +135,9 @@ Status Crew::start(size_t action, uint64_t part_bytes, const std::vector<std::st
     return success();
 }
 
-std::optional<CrewEnd> Crew::wait()
+std::optional<CrewEnd> Crew::wait(const std::function<void()>& waiting)
 {
-    std::optional<tools::ChildEnd> end = children_.wait();
+    std::optional<tools::ChildEnd> end = children_.wait(waiting);
     if (!end)
         return std::nullopt;
     CrewEnd crew_end;

@@ -6,6 +6,7 @@
 #include "pipelines/graph/action.h"
 
 #include <deque>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -46,7 +47,8 @@ public:
     bool isIdle() const;
 
     /// Wait until an action ends; nullopt where a signal asks this process to end. Something runs.
-    std::optional<CrewEnd> wait();
+    /// waiting  as that of tools::ChildProcesses::wait()
+    std::optional<CrewEnd> wait(const std::function<void()>& waiting = {});
 
 private:
     struct Process

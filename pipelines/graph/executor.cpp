@@ -434,7 +434,7 @@ bool Executor::run(const std::optional<std::string>& hash_there)
                 return true;
             continue;
         }
-        const std::optional<CrewEnd> end = crew_.wait();
+        const std::optional<CrewEnd> end = crew_.wait(events_.waiting);
         if (!end)
             return false;
         takeEnd(*end);

@@ -49,6 +49,8 @@ struct ExecutorEvents
                        const std::vector<std::string>& messages)>
         ended;
     std::function<void(const Failure& failure)> failed;
+    /// Cookers run: called once a second or more often.
+    std::function<void()> waiting;
 };
 
 /// While it lives, SIGINT, SIGTERM and SIGHUP end run() instead of the process; its temporary files go with it.

@@ -88,6 +88,12 @@ Setting withSwitches(Setting setting, std::vector<Switch> switches)
     return setting;
 }
 
+Setting cheaper(std::string_view cooker, std::string_view advice, Setting setting)
+{
+    setting.saving = {cooker, advice};
+    return setting;
+}
+
 Setting ofPack(Setting setting)
 {
     setting.scope = Scope::pack;
@@ -149,10 +155,11 @@ std::vector<Setting> makeProfileSettings()
                             "degrees: sharper edges of a mesh without normals stay hard; 180: none does",
                             "60", 0, 180),
                    "--crease-angle", "DEGREES"),
-        numberOf("animation.error",
-                 "metres that a vertex may be off when a clip plays; 0: keys as in the source",
-                 "2e-6 of the size of each model", 0, kMostAnimationError),
-        levelsOf("clusters.levels"),
+        cheaper("import", "0 takes the keys of clips as they are",
+                numberOf("animation.error",
+                         "metres that a vertex may be off when a clip plays; 0: keys as in the source",
+                         "2e-6 of the size of each model", 0, kMostAnimationError)),
+        cheaper("clusters", "a smaller keep makes fewer levels", levelsOf("clusters.levels")),
     };
     for (Setting& setting : meshSettings("clusters."))
         settings.push_back(std::move(setting));
@@ -162,23 +169,29 @@ std::vector<Setting> makeProfileSettings()
                  "",
                  {needed({"name", Kind::text, "materials whose name this pattern matches", ""}),
                   needed(levelsOf("levels"))}),
-        withOption(wholeOf("textures.max_size",
-                           "texels: the longer side of the textures that are kept; finer mips are left out",
-                           "as in the source", 1, kMostTexels),
-                   "--max-texture-size", "TEXELS"),
+        cheaper("textures", "smaller textures are less to compress",
+                withOption(
+                    wholeOf("textures.max_size",
+                            "texels: the longer side of the textures that are kept; finer mips are left out",
+                            "as in the source", 1, kMostTexels),
+                    "--max-texture-size", "TEXELS")),
         flagOf("visibility.enabled",
                "bake what each vertex sees of its surroundings: ambient and specular occlusion",
                Scope::source, "--visibility"),
-        withOption(
-            choiceOf("visibility.quality", "rays that baking takes", "default", {"draft", "default", "high"}),
-            "--visibility-quality", "NAME"),
-        withOption(choiceOf("visibility.occluders",
-                            "what is in the way: all of the source's scene, or each asset alone", "scene",
-                            {"scene", "asset"}),
-                   "--visibility-occluders", "NAME"),
-        withOption(aboveLow(numberOf("visibility.distance", "metres: what is farther away hides nothing",
-                                     "no limit", 0, kNoLimit)),
-                   "--visibility-distance", "METRES"),
+        cheaper("visibility", "draft takes fewer rays",
+                withOption(choiceOf("visibility.quality", "rays that baking takes", "default",
+                                    {"draft", "default", "high"}),
+                           "--visibility-quality", "NAME")),
+        cheaper("visibility", "asset traces each mesh alone, not in its scene",
+                withOption(choiceOf("visibility.occluders",
+                                    "what is in the way: all of the source's scene, or each asset alone",
+                                    "scene", {"scene", "asset"}),
+                           "--visibility-occluders", "NAME")),
+        cheaper(
+            "visibility", "a limit makes rays shorter",
+            withOption(aboveLow(numberOf("visibility.distance", "metres: what is farther away hides nothing",
+                                         "no limit", 0, kNoLimit)),
+                       "--visibility-distance", "METRES")),
         withOption(numberOf("visibility.power",
                             "visibility of what is t metres away is (t / distance)^power; needs a distance",
                             "0", 0, 16),
@@ -188,19 +201,23 @@ std::vector<Setting> makeProfileSettings()
                     "for each clip",
                     "[]"},
                    "--visibility-poses", "POSES"),
-        flagOf("visibility.refine",
-               "cones by nine harmonics instead of four moments; the report says what that gained",
-               Scope::source, "--visibility-refine"),
+        cheaper("visibility", "false leaves the fit to harmonics out",
+                flagOf("visibility.refine",
+                       "cones by nine harmonics instead of four moments; the report says what that gained",
+                       Scope::source, "--visibility-refine")),
         flagOf("bricks.enabled", "make the grid of bricks that global illumination is marched through",
                Scope::pack, "--bricks"),
-        ofPack(withOption(aboveLow(numberOf("bricks.voxel_size", "metres, of the bricks' voxels",
-                                            "as their memory allows", 0, kNoLimit)),
-                          "--voxel-size", "METRES")),
+        cheaper("bricks", "larger voxels are fewer",
+                ofPack(withOption(aboveLow(numberOf("bricks.voxel_size", "metres, of the bricks' voxels",
+                                                    "as their memory allows", 0, kNoLimit)),
+                                  "--voxel-size", "METRES"))),
         ofPack(withOption({"bricks.memory", Kind::size, "bytes that the bricks may take on the GPU", "20M"},
                           "--brick-memory", "SIZE")),
-        ofPack(withOption(wholeOf("bricks.bake", "bake the light that bricks start with, of so many bounces",
-                                  "none is baked", 0, kMostBounces),
-                          "--brick-bake", "BOUNCES")),
+        cheaper("bricks", "fewer bounces, or none",
+                ofPack(withOption(wholeOf("bricks.bake",
+                                          "bake the light that bricks start with, of so many bounces",
+                                          "none is baked", 0, kMostBounces),
+                                  "--brick-bake", "BOUNCES"))),
     };
     settings.insert(settings.end(), more.begin(), more.end());
     return settings;
@@ -238,7 +255,7 @@ std::vector<Setting> makeCommandSettings()
         withVariable(
             withOption(choiceOf("progress",
                                 "what is shown meanwhile; auto: a bar on a terminal, else a line for each "
-                                "cooker",
+                                "source and one every ten seconds",
                                 "auto", {"auto", "bar", "plain", "none"}),
                        "--progress", "NAME"),
             "HEARTH_PROGRESS"),

@@ -39,6 +39,13 @@ struct Switch
     std::string_view value;
 };
 
+/// How a setting makes cooking cheaper.
+struct Saving
+{
+    std::string_view cooker; ///< "visibility" is hearth-visibility; empty: it does not
+    std::string_view advice; ///< "draft takes fewer rays"
+};
+
 struct Setting
 {
     std::string key; ///< "clusters.influences"; of the command: "jobs"; of a member of tables: its name
@@ -57,6 +64,7 @@ struct Setting
     std::vector<Switch> switches{}; ///< instead of it; the first that is set counts
     bool is_required = false;       ///< a member without which its table makes no sense
     std::vector<Setting> members{}; ///< of tables
+    Saving saving{};                ///< for reports of what was slow
 };
 
 /// What a profile can set: of sources, then of the pack.

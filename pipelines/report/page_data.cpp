@@ -2,6 +2,7 @@
 #include "pipelines/report/page_data.h"
 
 #include "formats/issues.h"
+#include "pipelines/profiles/setting.h"
 #include "pipelines/report/base64.h"
 
 #include <algorithm>
@@ -62,8 +63,17 @@ Json psnrOf(const Json& texture, const char* key)
     return error.is_object() ? error.value("psnr_db", Json()) : Json();
 }
 
+/// Material and role of each use.
+Json usesRow(const Json& texture)
+{
+    Json uses = Json::array();
+    for (const Json& use : listOf(texture, "uses"))
+        uses.push_back(Json::array({use.value("material", ""), use.value("role", "")}));
+    return uses;
+}
+
 /// name, asset, width, height, mips, format, content, bytes in the file, bytes in memory, RMS and PSNR of what is stored, PSNR
-/// of half the size, whether that was measured, whether it is a placeholder
+/// of half the size, whether that was measured, whether it is a placeholder, uses
 Json textureRow(const Json& texture, size_t asset)
 {
     return Json::array({texture.value("name", ""), asset, texture.value("width", 0),
@@ -72,7 +82,7 @@ Json textureRow(const Json& texture, size_t asset)
                         texture.value("bytes", uint64_t{0}),
                         texture.value("error", Json::object()).value("rms", 0.0), psnrOf(texture, "error"),
                         psnrOf(texture, "half_size_error"), texture.contains("half_size_error"),
-                        texture.value("placeholder", false)});
+                        texture.value("placeholder", false), usesRow(texture)});
 }
 
 Json assetOf(const Json& asset)
@@ -110,6 +120,17 @@ Json explanations(const Json& report)
         if (codes.contains(codeOf(info)))
             texts[codeOf(info)] = {{"summary", info.summary}, {"hint", info.hint}};
     return texts;
+}
+
+/// The settings that make each cooker cheaper: key, option of hearth cook, and how.
+Json savings()
+{
+    Json of_cooker = Json::object();
+    for (const profiles::Setting& setting : profiles::profileSettings())
+        if (!setting.saving.cooker.empty())
+            of_cooker[std::string(setting.saving.cooker)].push_back(
+                Json::array({setting.key, setting.option, setting.saving.advice}));
+    return of_cooker;
 }
 
 uint64_t bytesOf(const Json& mesh)
@@ -154,6 +175,7 @@ std::string pageData(const std::string& report_text)
         if (report.contains(cooker))
             data["stages"].push_back(stageRow(report[cooker]));
     data["explain"] = explanations(report);
+    data["savings"] = savings();
     return data.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 

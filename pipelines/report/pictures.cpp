@@ -32,19 +32,23 @@ constexpr size_t kMeshesOfRun = 12;
 constexpr uint64_t kLargePack = uint64_t{64} << 20;
 constexpr const char* kGeometryBudget = "512M";
 
+/// Read and remove.
 std::optional<std::string> takeFile(const std::string& path)
 {
     std::ifstream file(path, std::ios::binary);
     if (!file)
         return std::nullopt;
-    return std::string(std::istreambuf_iterator<char>(file), {});
+    std::string content(std::istreambuf_iterator<char>(file), {});
+    std::error_code ignored;
+    std::filesystem::remove(path, ignored);
+    return content;
 }
 
 /// Draws with hearth-render into a folder of its own.
 class Painter
 {
 public:
-    explicit Painter(std::string pack) : pack_(std::move(pack)) {}
+    Painter(std::string pack, PicturesDrawn told) : pack_(std::move(pack)), told_(std::move(told)) {}
 
     bool prepare()
     {
@@ -53,6 +57,13 @@ public:
             return false;
         folder_.emplace(std::move(folder).value());
         return true;
+    }
+
+    /// How many pictures there will be.
+    void expect(size_t count)
+    {
+        count_ = count;
+        tell();
     }
 
     /// Of each mesh, or of the scene where there are none, a picture in each view; nothing where that fails, and why() says
@@ -88,13 +99,28 @@ public:
                 if (!file)
                     return {};
                 pictures[i].push_back(*file);
+                ++taken_;
             }
+        tell();
         return pictures;
     }
 
     const std::string& why() const { return why_; }
 
 private:
+    /// What lies in the folder counts as drawn.
+    void tell() const
+    {
+        if (!told_)
+            return;
+        std::error_code error;
+        size_t files = 0;
+        for (auto file = std::filesystem::directory_iterator(folder_->path(), error);
+             !error && file != std::filesystem::directory_iterator(); file.increment(error))
+            ++files;
+        told_(std::min(taken_ + files, count_), count_);
+    }
+
     bool run(const std::vector<std::string>& command)
     {
         tools::ChildProcesses children;
@@ -103,7 +129,7 @@ private:
             why_ = "hearth-render cannot be started";
             return false;
         }
-        const auto end = children.wait();
+        const auto end = children.wait([this] { tell(); });
         if (!end)
         {
             why_ = "interrupted";
@@ -116,6 +142,9 @@ private:
     }
 
     std::string pack_;
+    PicturesDrawn told_;
+    size_t count_ = 0;
+    size_t taken_ = 0; ///< out of the folder
     std::optional<tools::PrivateFolder> folder_;
     std::string why_;
 };
@@ -165,12 +194,12 @@ uint64_t bytesOf(const Pictures& pictures)
 } // namespace
 
 Pictures takePictures(const std::string& pack_path, const std::vector<MeshOfPack>& meshes,
-                      const PictureLimits& limits)
+                      const PicturesDrawn& told, const PictureLimits& limits)
 {
     Pictures pictures;
     pictures.left_out = meshes.size();
     const auto reader = openPack(pack_path);
-    Painter painter(pack_path);
+    Painter painter(pack_path, told);
     if (!reader.ok() || !painter.prepare())
     {
         pictures.why_left_out = reader.ok() ? "there is no folder for them" : formatMessage(reader.error());
@@ -182,6 +211,9 @@ Pictures takePictures(const std::string& pack_path, const std::vector<MeshOfPack
     pictures.views = {"final", "clusters", "lod"};
     if (hasVisibility(*reader))
         pictures.views.emplace_back("ao");
+    const std::vector<uint32_t> drawn = drawable(*reader, meshes);
+    const size_t count = std::min(drawn.size(), limits.meshes);
+    painter.expect((1 + count) * pictures.views.size());
     const auto scene = painter.draw(pictures.views, "480x270", {});
     if (scene.empty())
     {
@@ -190,8 +222,6 @@ Pictures takePictures(const std::string& pack_path, const std::vector<MeshOfPack
         return pictures;
     }
     pictures.scene = scene.front();
-    const std::vector<uint32_t> drawn = drawable(*reader, meshes);
-    const size_t count = std::min(drawn.size(), limits.meshes);
     for (size_t first = 0; first < count && !isLate() && bytesOf(pictures) < limits.bytes;
          first += kMeshesOfRun)
     {

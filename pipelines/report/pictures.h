@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -33,8 +34,12 @@ struct Pictures
     std::string why_left_out;
 };
 
+/// Told before the first picture is drawn, and once a second or more often while they are.
+using PicturesDrawn = std::function<void(size_t drawn, size_t count)>;
+
 /// meshes  most important first; what the pack does not have under that number and name, or nowhere draws, is passed over
+/// told    empty: is not
 Pictures takePictures(const std::string& pack, const std::vector<MeshOfPack>& meshes,
-                      const PictureLimits& limits = {});
+                      const PicturesDrawn& told = {}, const PictureLimits& limits = {});
 
 } // namespace hearth::report

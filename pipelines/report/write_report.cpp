@@ -4,7 +4,6 @@
 #include "cook/tools/whole_file.h"
 #include "pipelines/report/page.h"
 #include "pipelines/report/page_data.h"
-#include "pipelines/report/pictures.h"
 #include "pipelines/report/tables.h"
 
 #include <nlohmann/json.hpp>
@@ -13,7 +12,7 @@ namespace hearth::report
 {
 
 Status writeReport(const std::string& json, const std::string& path, const std::string& pack,
-                   const std::string& name)
+                   const std::string& name, const PicturesDrawn& told)
 {
     const auto report = nlohmann::ordered_json::parse(json, nullptr, false);
     if (!report.is_object() || report.value("schema", nlohmann::ordered_json()) != "hearth.report/1")
@@ -23,7 +22,8 @@ Status writeReport(const std::string& json, const std::string& path, const std::
         if (path.ends_with(".html"))
         {
             const std::string data = pageData(json);
-            const Pictures pictures = pack.empty() ? Pictures{} : takePictures(pack, importantMeshes(json));
+            const Pictures pictures =
+                pack.empty() ? Pictures{} : takePictures(pack, importantMeshes(json), told);
             return tools::writeText(path, reportPage(data, picturesData(pictures)));
         }
         if (path.ends_with(".xml"))

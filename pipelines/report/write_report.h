@@ -3,6 +3,7 @@
 #pragma once
 
 #include "formats/result.h"
+#include "pipelines/report/pictures.h"
 
 #include <string>
 
@@ -14,8 +15,9 @@ namespace hearth::report
 ///
 /// json     of schema hearth.report/1
 /// pack     that was cooked, for the page's pictures; empty: none
+/// told     of the page's pictures; empty: is not
 /// errors   json_syntax, naming `name`; cannot_write; read_failed for standard output
 Status writeReport(const std::string& json, const std::string& path, const std::string& pack,
-                   const std::string& name = "report");
+                   const std::string& name = "report", const PicturesDrawn& told = {});
 
 } // namespace hearth::report

@@ -3,6 +3,7 @@
 #include "tests/command/cook_folder.h"
 #include "tests/command/json_schema.h"
 
+#include <filesystem>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -17,6 +18,24 @@ std::string faultOfReport(const nlohmann::json& report)
 {
     return faultOfSchema(HEARTH_SCHEMAS "/hearth.report.1.json", report);
 }
+
+/// Stands for hearth-render, and takes its time.
+constexpr const char* kRender = R"(#!/bin/sh
+output="${3%.jpg}"
+while [ $# -gt 0 ]; do
+  case "$1" in --views) views="$2" ;; --meshes) meshes="$2" ;; esac
+  shift
+done
+sleep 0.6
+for view in $(echo "$views" | tr , ' '); do
+  if [ -z "$meshes" ]; then echo scene > "$output-$view.jpg"; fi
+  number=0
+  for mesh in $(echo "$meshes" | tr , ' '); do
+    echo "$mesh" > "$output-$view-$(printf %04d $number).jpg"
+    number=$((number + 1))
+  done
+done
+)";
 
 } // namespace
 
@@ -85,6 +104,30 @@ TEST_F(Cook, reportsWhereItDoesNotEvenBegin)
     EXPECT_EQ(report["assets"][0]["state"], "not cooked");
     ASSERT_EQ(report["failures"].size(), 1u);
     EXPECT_EQ(report["failures"][0]["code"], "E4000");
+}
+
+TEST_F(Cook, tellsThatPicturesAreDrawnAndCountsTheirTime)
+{
+    programs.write("hearth-render", kRender, true);
+    const ProgramEnd end =
+        cook({"good.gltf", "-o", "a.hearth", "--report", "page.html", "--events", "events"});
+    EXPECT_EQ(end.exit_code, 0) << end.err;
+    // of the scene and of its mesh, four views each
+    const size_t begun = end.err.find("drawing 8 pictures for the report\n");
+    const size_t drawn = end.err.find("8 of 8  drawn for the report\n");
+    const size_t cooked = end.err.find("cooked  ");
+    ASSERT_NE(begun, std::string::npos) << end.err;
+    ASSERT_NE(drawn, std::string::npos) << end.err;
+    ASSERT_NE(cooked, std::string::npos) << end.err;
+    EXPECT_LT(begun, drawn);
+    EXPECT_LT(drawn, cooked) << "the total is the last line";
+    EXPECT_GE(std::stod(end.err.substr(cooked + 8)), 1.2) << end.err;
+    const std::string events = folder.read("events");
+    EXPECT_GE(nlohmann::json::parse(events.substr(events.find("{\"event\":\"done\"")))["seconds"], 1.2);
+    EXPECT_EQ(countOf(folder.read("page.html"), "data:image/jpeg"), 8u);
+
+    std::filesystem::remove(folder / "a.hearth");
+    EXPECT_EQ(cook({"good.gltf", "-q", "-o", "a.hearth", "--report", "page.html"}).err, "");
 }
 
 TEST_F(Cook, writesReportsForWhoeverReadsThem)

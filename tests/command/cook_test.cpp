@@ -23,9 +23,12 @@ TEST_F(Cook, makesAPackAndLeavesNothingElse)
     EXPECT_EQ(end.out, "");
     EXPECT_EQ(folder.list(), std::vector<std::string>{"a.hearth"});
     EXPECT_TRUE(command::verifyFile(folder / "a.hearth").ok());
-    for (const char* stage : {"import", "textures", "clusters", "skinning", "link", "cooked"})
-        EXPECT_EQ(countOf(end.err, std::string(stage) + " "), 1u) << end.err;
+    for (const char* line : {"source ", "cooked "})
+        EXPECT_EQ(countOf(end.err, line), 1u) << end.err;
     EXPECT_EQ(end.err.find('\033'), std::string::npos) << "colour without a terminal";
+    const std::string all = "\n" + cook({"a.gltf", "-v", "-o", "a.hearth", "--no-cache"}).err;
+    for (const char* stage : {"import", "textures", "clusters", "skinning", "link", "cooked"})
+        EXPECT_EQ(countOf(all, "\n" + std::string(stage) + " "), 1u) << all;
 }
 
 TEST_F(Cook, tellsCookersWhatItsProfileSaysByValue)

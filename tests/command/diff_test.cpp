@@ -145,6 +145,34 @@ TEST_F(Diff, texelsAreCompared)
     EXPECT_EQ(diff.things[0].kind, "texture");
     ASSERT_EQ(diff.things[0].facts.size(), 1u);
     EXPECT_EQ(diff.things[0].facts[0].what, "texels");
+    EXPECT_EQ(diff.things[0].note, "baseColor of paint");
+    EXPECT_EQ(Json::parse(command::diffJson(diff, "a", "b"))["changes"][0]["note"], diff.things[0].note);
+}
+
+TEST_F(Diff, textHasTotalsFirstAndHashesOnDemand)
+{
+    PackModel changed = smallPack();
+    changed.image_data[0][3] ^= std::byte{1};
+    changed.materials[0].metallic = 0.123F;
+    addNamed(changed, changed.lights, "sun");
+    const PackDiff diff = diffed(smallPack(), changed);
+    const std::string text = command::diffText(diff);
+    EXPECT_TRUE(text.starts_with("2 changed, 1 added, 0 removed\n"
+                                 "    material: 1 changed, 0 added, 0 removed\n"
+                                 "    texture: 1 changed, 0 added, 0 removed\n"
+                                 "    light: 0 changed, 1 added, 0 removed\n"
+                                 "bytes    "))
+        << text;
+    const std::string texture =
+        "changed  texture " + diff.things[1].name + " (" + diff.things[1].note + ")\n";
+    EXPECT_NE(text.find("\n\nchanged  material paint\n    metallic: "), std::string::npos) << text;
+    EXPECT_NE(text.find(texture + "    texels: other content\n"), std::string::npos) << text;
+    EXPECT_TRUE(text.ends_with("added    light sun\n")) << text;
+    const std::string with_hashes = command::diffText(diff, {}, true);
+    const command::FactChange& texels = diff.things[1].facts.at(0);
+    EXPECT_NE(with_hashes.find(texture + "    texels: " + texels.a + " -> " + texels.b + "\n"),
+              std::string::npos)
+        << with_hashes;
 }
 
 TEST_F(Diff, placesInTablesMeanNothing)
@@ -191,6 +219,18 @@ TEST(DiffThings, pairsThoseOfOneNameByWhatTheyAre)
     EXPECT_EQ(moved[0].facts[0].a, "1");
     EXPECT_EQ(moved[0].facts[0].b, "7");
     EXPECT_EQ(command::diffThings(b, a)[0].how, ThingChange::How::removed);
+    // two images without names of their own
+    const auto image = [](const std::string& note, const std::string& texels) {
+        return Thing{"texture", "image 0", {{"texels", texels, true}}, note};
+    };
+    const auto textures =
+        command::diffThings(std::vector{image("normal of Bark", "1"), image("normal of Leaf", "2")},
+                            std::vector{image("normal of Leaf", "3"), image("normal of Moss", "4")});
+    ASSERT_EQ(textures.size(), 2u);
+    EXPECT_EQ(textures[0].note, "normal of Leaf");
+    EXPECT_EQ(textures[0].facts.at(0).b, "3");
+    EXPECT_EQ(textures[1].facts.at(0).a, "1");
+    EXPECT_EQ(textures[1].facts.at(0).b, "4");
     const std::vector<Thing> other{{"light", "grass", {{"place", "1"}}}};
     EXPECT_EQ(command::diffThings(a, other).size(), 5u) << "kinds are not mixed";
 }
@@ -210,6 +250,7 @@ TEST_F(Diff, theCommandSaysSoByItsExitCode)
     const ProgramEnd end = diff({"a.hearth", "b.hearth"});
     EXPECT_EQ(end.exit_code, 1);
     EXPECT_NE(end.out.find("changed  material paint\n    metallic: "), std::string::npos) << end.out;
+    EXPECT_EQ(diff({"a.hearth", "b.hearth", "--hashes"}).exit_code, 1);
     EXPECT_EQ(Json::parse(diff({"a.hearth", "b.hearth", "--format", "json"}).out)["same"], false);
     EXPECT_EQ(diff({"a.hearth", "nowhere.hearth"}).exit_code, 66);
     EXPECT_EQ(diff({"a.hearth"}).exit_code, 2);

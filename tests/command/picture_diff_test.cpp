@@ -115,7 +115,14 @@ TEST_F(PictureDiff, packsAreDrawnAndCompared)
               1u)
         << wrong.err;
     EXPECT_FALSE(folder.has("none.png"));
-    EXPECT_EQ(run("hearth", {"diff", "a.hearth", "b.hearth", "--picture", "none.png"}).exit_code, 2);
+
+    // without a camera all of the scene is in view
+    const ProgramEnd fitted = run("hearth", {"diff", "a.hearth", "b.hearth", "--picture", "fitted.png",
+                                             "--size", "64x48", "--format", "json"});
+    EXPECT_EQ(fitted.exit_code, 1) << fitted.err;
+    const Json pixels = Json::parse(fitted.out)["picture"]["figures"]["different_pixels"];
+    EXPECT_GT(pixels, 64 * 48 / 50) << "it is not far away";
+    EXPECT_LT(pixels, 64 * 48) << "the sky is the same";
 }
 
 } // namespace hearth::test

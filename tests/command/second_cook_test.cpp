@@ -40,10 +40,11 @@ protected:
     }
 
     ProgramEnd hearth(const std::vector<std::string>& arguments,
-                      const std::vector<std::string>& environment = {})
+                      std::vector<std::string> environment = {})
     {
         std::vector<std::string> command{programs + "/hearth"};
         command.insert(command.end(), arguments.begin(), arguments.end());
+        environment.emplace_back("HEARTH_LOG=verbose"); // a line for each cooker
         return folder.run(command, environment);
     }
 
@@ -343,6 +344,28 @@ TEST_F(SecondCook, aDryRunWritesNothing)
     EXPECT_FALSE(fs::exists(folder.cachePath()));
     const ProgramEnd plan = cook({"house.obj", "-o", "a.hearth", "-n", "--format", "json"});
     EXPECT_EQ(nlohmann::json::parse(plan.out)["actions"].size(), 5u);
+}
+
+TEST_F(SecondCook, aDryRunChecksWhetherAllIsCooked)
+{
+    std::vector<std::string> arguments{"house.obj", "-o", "a.hearth", "--dry-run", "--check"};
+    const ProgramEnd before = cook(arguments);
+    EXPECT_EQ(before.exit_code, 1);
+    EXPECT_NE(before.out.find("5 of 5 cookers would run\n"), std::string::npos) << before.out;
+    ran(cook({"house.obj", "-o", "a.hearth"}));
+    EXPECT_EQ(cook(arguments).exit_code, 0);
+    const std::string pack = folder.read("a.hearth");
+    folder.write("a.hearth", "damaged");
+    EXPECT_EQ(cook(arguments).exit_code, 1) << "the pack would be put in its place";
+    folder.write("a.hearth", pack);
+    writeObj(folder, "house", 3);
+    EXPECT_EQ(cook(arguments).exit_code, 1);
+    arguments.insert(arguments.end(), {"--format", "json"});
+    const ProgramEnd json = cook(arguments);
+    EXPECT_EQ(json.exit_code, 1);
+    EXPECT_EQ(nlohmann::json::parse(json.out)["actions"].size(), 5u);
+    EXPECT_EQ(cook({"house.obj", "-o", "a.hearth", "--dry-run"}).exit_code, 0) << "not asked for";
+    EXPECT_EQ(cook({"house.obj", "-o", "a.hearth", "--check"}).exit_code, 2) << "there is nothing to check";
 }
 
 TEST_F(SecondCook, aKilledCookIsTakenUpWhereItWas)

@@ -33,7 +33,7 @@ public:
                                          "tree.gltf",          "-o",   "a.hearth"};
         for (const std::string& cache : caches)
             command.insert(command.end(), {"--cache", cache});
-        return folder.run(command, {"no_proxy=127.0.0.1"});
+        return folder.run(command, {"no_proxy=127.0.0.1", "HEARTH_LOG=verbose"});
     }
     /// With a folder of its own in front of the server.
     ProgramEnd cookWith(const std::string& server) { return cook({near(), server}); }
@@ -201,7 +201,7 @@ TEST_F(ServerCache, overTlsOnlyWhomTheMachineTrusts)
     const auto inOwnView = [&](Checkout& checkout, const std::string& command)
     {
         return checkout.folder.run({"/usr/bin/unshare", "-rm", "/bin/sh", "-c", trusting + command},
-                                   {"no_proxy=127.0.0.1"});
+                                   {"no_proxy=127.0.0.1", "HEARTH_LOG=verbose"});
     };
     Checkout third;
     if (inOwnView(third, "true").exit_code != 0)

@@ -150,7 +150,7 @@ TEST_F(Slurm, believesNoLauncher)
     EXPECT_NE(lied.err.find("[E5101]"), std::string::npos) << lied.err;
     const ProgramEnd list =
         folder.run({hearth, "merge", "demo.plan.json", "-o", "a.hearth", "--missing", "list"});
-    EXPECT_EQ(list.exit_code, 1);
+    EXPECT_EQ(list.exit_code, 75);
     EXPECT_EQ(countOf(list.out, "shard 1/2\n"), 4u) << list.out;
     EXPECT_EQ(countOf(list.out, "shard 0/2\n"), 0u) << list.out;
     EXPECT_EQ(folder.run({hearth, "merge", "demo.plan.json", "-o", "a.hearth"}).exit_code, 0);

@@ -86,6 +86,7 @@ Json reportOf(int assets)
                    {"clusters", {{"meshes", {meshOf(i)}}}},
                    {"textures",
                     {{{"name", "bark"},
+                      {"uses", {{{"material", "Old Oak"}, {"role", "metallicRoughness"}}}},
                       {"width", 64},
                       {"height", 64},
                       {"bytes_stored", 100},
@@ -119,17 +120,18 @@ protected:
     }
 
     /// What the page is once its script has run.
-    std::string open(const std::string& name)
+    std::string open(const std::string& name, int width = 1400)
     {
 #ifdef HEARTH_CHROMIUM
         return folder
             .run({HEARTH_CHROMIUM, "--headless=new", "--no-sandbox", "--disable-gpu", "--no-first-run",
                   "--disable-background-networking", "--host-resolver-rules=MAP * ~NOTFOUND",
-                  "--user-data-dir=" + (profile / "browser"), "--window-size=1400,900", "--dump-dom",
+                  "--user-data-dir=" + (profile / "browser"),
+                  "--window-size=" + std::to_string(width) + ",900", "--dump-dom",
                   "file://" + (folder / name)})
             .out;
 #else
-        return name;
+        return name + std::to_string(width);
 #endif
     }
 
@@ -160,6 +162,40 @@ TEST_F(Page, showsRowsAreasCurvesAndTheFailureFirst)
     EXPECT_LT(dom.find("points nowhere"), dom.find("id=\"assets\""));
     EXPECT_NE(dom.find("hearth explain E1103"), std::string::npos);
     EXPECT_EQ(dom.find("<b>asset"), std::string::npos) << "names are text";
+}
+
+TEST_F(Page, hasRoomForAllColumnsThatItShows)
+{
+    ASSERT_TRUE(writeReport(reportOf(40).dump(), folder / "page.html", "").ok());
+    for (const int width : {1500, 1280, 800})
+    {
+        const std::string dom = open("page.html", width);
+        EXPECT_EQ(numberOf(dom, "cut"), 0) << "tables of a page " << width << " pixels wide";
+        EXPECT_NE(dom.find(">Half size<"), std::string::npos) << width;
+    }
+    const std::string dom = open("page.html", 800);
+    EXPECT_NE(dom.find("No room for: Image, Asset, Mips, Format, In memory."), std::string::npos);
+}
+
+TEST_F(Page, namesImagesByMaterialAndRole)
+{
+    ASSERT_TRUE(writeReport(reportOf(40).dump(), folder / "page.html", "").ok());
+    const std::string dom = open("page.html");
+    EXPECT_NE(dom.find(">Old Oak<"), std::string::npos);
+    EXPECT_NE(dom.find(">metallicRoughness<"), std::string::npos);
+}
+
+TEST_F(Page, saysWhatWasSlowAndWhichSettingHelps)
+{
+    ASSERT_TRUE(writeReport(reportOf(40).dump(), folder / "page.html", "").ok());
+    const std::string dom = open("page.html");
+    const size_t slow = dom.find("id=\"slow\"");
+    ASSERT_NE(slow, std::string::npos);
+    const std::string part = dom.substr(slow, dom.find("</section>", slow) - slow);
+    EXPECT_EQ(countOf(part, "<tr>"), 5u) << "the head, and the cookers that ran: " << part;
+    EXPECT_NE(part.find("textures.max_size</code>: smaller textures are less to compress"), std::string::npos)
+        << part;
+    EXPECT_NE(part.find("no setting"), std::string::npos) << "of skinning: " << part;
 }
 
 TEST_F(Page, ofThousandsOfAssetsOpensAtOnce)

@@ -8,8 +8,10 @@
 #include "pipelines/report/tables.h"
 #include "tests/command/sandbox.h"
 
+#include <algorithm>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <set>
 
 namespace hearth::report
 {
@@ -35,7 +37,7 @@ Json smallReport()
                                  {"name": "large", "clusters": 2, "source": {"triangles": 9, "vertices": 9},
                                   "bytes": {"pages_stored": 50}, "levels": [{"clusters": 1, "triangles": 9, "max_error": 0.5}]}],
                       "totals": {"triangles": 17}},
-         "textures": [{"name": "bark", "width": 4}],
+         "textures": [{"name": "bark", "width": 4, "uses": [{"material": "Oak", "role": "normal"}]}],
          "messages": [{"code": "W1400", "severity": "warning", "text": "extras"}], "dropped": ["extras"]},
         {"source": "b<&\".glb", "state": "failed", "seconds": 0.5,
          "messages": [{"code": "E1103", "severity": "error", "text": "is <bad>", "pointer": "/meshes/0"}]},
@@ -119,6 +121,23 @@ TEST(PageData, isRowsOfWhatThePageShows)
     EXPECT_EQ(data["meshes"][2][1], 2) << "its asset";
     EXPECT_EQ(data["explain"]["E1103"]["summary"], issueInfo(Issue::gltf_reference).summary);
     EXPECT_TRUE(data["explain"].contains("W1400"));
+    EXPECT_EQ(data["textures"][0].back().dump(), R"([["Oak","normal"]])");
+}
+
+TEST(PageData, saysWhichSettingsMakeEachCookerCheaper)
+{
+    const Json savings = Json::parse(pageData(smallReport().dump()))["savings"];
+    const auto& visibility = savings["visibility"];
+    const auto quality = std::find_if(visibility.begin(), visibility.end(),
+                                      [](const Json& saving) { return saving[0] == "visibility.quality"; });
+    ASSERT_NE(quality, visibility.end()) << savings;
+    EXPECT_EQ((*quality)[1], "--visibility-quality");
+    EXPECT_EQ((*quality)[2], "draft takes fewer rays");
+    for (const auto& [cooker, list] : savings.items())
+        EXPECT_TRUE(std::set<std::string>({"import", "textures", "clusters", "visibility", "bricks"})
+                        .contains(cooker))
+            << cooker << " runs in no cook";
+    EXPECT_EQ(savings.size(), 5u) << savings;
 }
 
 TEST(ReportPage, cannotBeLeftByWhatIsInIt)

@@ -108,6 +108,7 @@ TEST(CookTextures, saysWhatBecameOfEachImage)
         EXPECT_EQ(statistics[i].stored_bytes, part->find(kChunkImageData, i)->stored_size);
         EXPECT_EQ(statistics[i].bytes, part->find(kChunkImageData, i)->size);
     }
+    EXPECT_TRUE(statistics[0].uses.empty()) << "there are no materials";
     EXPECT_GT(statistics[0].half_error, 0.1);
     EXPECT_FALSE(statistics[1].half_error);
     EXPECT_EQ(statistics[0].error, 0);
@@ -117,6 +118,45 @@ TEST(CookTextures, saysWhatBecameOfEachImage)
     EXPECT_EQ(smaller[0].image.width, 6u);
     EXPECT_EQ(smaller[0].error, statistics[0].half_error) << "it has half of its size now";
     EXPECT_GE(smaller[0].half_error, smaller[0].error);
+}
+
+TEST(CookTextures, saysWhichMaterialsShowAnImage)
+{
+    const TemporaryFolder folder;
+    const std::string_view strings = "Bark";
+    std::array<MaterialRecord, 2> materials{};
+    for (MaterialRecord& material : materials)
+        for (TextureRef* texture :
+             {&material.base_color_texture, &material.metallic_roughness_texture, &material.normal_texture,
+              &material.occlusion_texture, &material.emissive_texture})
+            texture->image = kNone;
+    materials[1].name = {0, 4};
+    materials[0].emissive_texture.image = 1;
+    materials[1].normal_texture.image = 1;
+    const ImageRecord image = recordOf(1, 1);
+    {
+        auto writer = ContainerWriter::create(folder.file("in.part"), ContainerKind::part);
+        ASSERT_TRUE(writer.ok());
+        for (uint32_t i = 0; i < 2; ++i)
+            ASSERT_TRUE(
+                writer->addChunk({.type = kChunkImageData, .index = i}, randomBytes(4, 1), 1, Codec::none)
+                    .ok());
+        ASSERT_TRUE(writer->addRecords<ImageRecord>(kChunkImages, std::array{image, image}).ok());
+        ASSERT_TRUE(writer->addRecords<MaterialRecord>(kChunkMaterials, materials).ok());
+        ASSERT_TRUE(
+            writer->addChunk({.type = kChunkStrings}, std::as_bytes(std::span(strings)), 1, Codec::none)
+                .ok());
+        ASSERT_TRUE(writer->finish().ok());
+    }
+    std::vector<ImageStatistics> statistics;
+    ASSERT_TRUE(cookTextures(folder.file("in.part"), folder.file("out.part"), 0, &statistics).ok());
+    ASSERT_EQ(statistics.size(), 2u);
+    EXPECT_TRUE(statistics[0].uses.empty());
+    ASSERT_EQ(statistics[1].uses.size(), 2u);
+    EXPECT_EQ(statistics[1].uses[0].material, "");
+    EXPECT_EQ(statistics[1].uses[0].role, "emissive");
+    EXPECT_EQ(statistics[1].uses[1].material, "Bark");
+    EXPECT_EQ(statistics[1].uses[1].role, "normal");
 }
 
 TEST(CookTextures, partWithoutImagesGivesAnEmptyTable)

@@ -84,6 +84,7 @@ TEST(TextureStatistics, sayWhatBecameOfAnImage)
 {
     ImageStatistics image;
     image.name = "bark";
+    image.uses = {{"Oak", "baseColor"}, {"", "emissive"}};
     image.image = withMips(recordOf(4, 2, TexelFormat::rgba8_srgb));
     image.bytes = 44;
     image.stored_bytes = 40;
@@ -93,6 +94,8 @@ TEST(TextureStatistics, sayWhatBecameOfAnImage)
     EXPECT_EQ(json["schema"], "hearth.textures/1");
     const auto& bark = json["images"][0];
     EXPECT_EQ(bark["name"], "bark");
+    EXPECT_EQ(bark["uses"], nlohmann::json::parse(R"([{"material": "Oak", "role": "baseColor"},
+                                                     {"material": "", "role": "emissive"}])"));
     EXPECT_EQ(bark["width"], 4);
     EXPECT_EQ(bark["mips"], 3);
     EXPECT_EQ(bark["format"], "rgba8-srgb");

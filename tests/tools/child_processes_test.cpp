@@ -77,6 +77,15 @@ TEST(ChildProcesses, runSeveralAtOnce)
     EXPECT_EQ(children.wait()->id, slow);
 }
 
+TEST(ChildProcesses, callWhileTheyWait)
+{
+    ChildProcesses children;
+    ASSERT_TRUE(children.start(shell("sleep 1.5")).ok());
+    int calls = 0;
+    EXPECT_EQ(children.wait([&] { ++calls; })->exit_code, 0);
+    EXPECT_GE(calls, 2) << "after a second, and at the end";
+}
+
 TEST(ChildProcesses, waitForAChildThatClosedItsStderr)
 {
     ChildProcesses children;

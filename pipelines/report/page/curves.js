@@ -8,7 +8,7 @@ const pointsOf = mesh => mesh.levels.filter(level => level[2] > 0 && level[1] > 
 
 function makeCurves(meshes, width, height) {
   const largest = [...meshes].sort((a, b) => b.triangles - a.triangles).slice(0, kMostFaint);
-  const left = 74, right = width - 10, top = 8, bottom = height - 34;
+  const left = 74, right = width - 22, top = 8, bottom = height - 34;
   const picture = svg('svg', {viewBox: `0 0 ${width} ${height}`, role: 'img', 'aria-label': 'Error over triangles, logarithmic'});
   const all = largest.flatMap(pointsOf);
   if (all.length === 0) return {picture: el('p.empty', {}, 'No mesh has a coarser level.'), show() {}};

@@ -4,7 +4,7 @@
 const named = (row, names) => Object.fromEntries(names.map((name, i) => [name, row[i]]));
 const kStage = ['stage', 'state', 'seconds', 'bytes', 'start', 'lane', 'cpu', 'peak', 'why'];
 const kMesh = ['name', 'asset', 'triangles', 'vertices', 'bytes', 'clusters', 'pages', 'levels'];
-const kTexture = ['name', 'asset', 'width', 'height', 'mips', 'format', 'content', 'bytes', 'memory', 'rms', 'psnr', 'half', 'halfKnown', 'placeholder'];
+const kTexture = ['name', 'asset', 'width', 'height', 'mips', 'format', 'content', 'bytes', 'memory', 'rms', 'psnr', 'half', 'halfKnown', 'placeholder', 'uses'];
 
 function readData() {
   const data = JSON.parse($('data').textContent);
@@ -30,6 +30,9 @@ function readData() {
   data.textures = data.textures.map(row => {
     const texture = named(row, kTexture);
     texture.asset = data.assets[texture.asset];
+    const more = texture.uses.length > 1 ? ` +${texture.uses.length - 1}` : '';
+    texture.material = texture.uses.length ? texture.uses[0][0] || '(no name)' : '(none)';
+    texture.role = texture.uses.length ? texture.uses[0][1] + more : '';
     return texture;
   });
   data.warnings = data.assets.reduce((sum, asset) => sum + asset.warnings, 0);
@@ -49,6 +52,9 @@ function themeButton(redraw) {
   return button;
 }
 
+/** Whether a table has all of its columns in view, and their figures whole. */
+const fits = table => table.scrollWidth <= table.clientWidth && [...table.querySelectorAll('.num')].every(cell => cell.scrollWidth <= cell.clientWidth);
+
 function showPage() {
   const data = readData();
   const pictures = JSON.parse($('pictures').textContent);
@@ -61,9 +67,10 @@ function showPage() {
   const assets = assetsOf(data, go);
   const meshes = meshesOf(data, pictures);
   const textures = texturesOf(data);
+  const slow = slowOf(data, go);
   const timeline = timelineOf(data, go);
   const parts = [failuresOf(data), totalsOf(data), sceneOf(pictures), assets.part, sizesOf(data, go), meshes && meshes.part, textures && textures.part,
-                 timeline.part, causesOf(data), messagesOf(data, go)].filter(Boolean);
+                 slow, timeline.part, causesOf(data), messagesOf(data, go)].filter(Boolean);
   $('main').replaceChildren(...parts);
 
   const ok = data.status === 'ok';
@@ -74,11 +81,13 @@ function showPage() {
     el('span.faint', {}, [when, `hearth ${data.tool.version}`].filter(Boolean).join(' · ')),
     el('nav', {'aria-label': 'Sections'}, parts.filter(part => part.id !== 'totals').map(part =>
        el('a', {href: '#' + part.id}, part.querySelector('h2').textContent.split(' and ')[0])), themeButton(timeline.draw)));
+  kFits.forEach(fit => fit());
   timeline.draw();
   // something to look at, but not what hides the question of which one
   if (meshes) meshes.choose(meshes.first());
   if (data.assets.length) assets.choose(assets.first());
   document.documentElement.dataset.ready = Math.round(performance.now());
+  document.documentElement.dataset.cut = [...document.querySelectorAll('.table')].filter(table => !fits(table)).length;
   document.documentElement.dataset.requests = performance.getEntriesByType('resource').filter(entry => !entry.name.startsWith('data:')).length;
 }
 

@@ -64,15 +64,15 @@ function assetsOf(data, go) {
   const slowest = data.assets.reduce((most, asset) => Math.max(most, asset.seconds), 1e-9);
   const table = makeTable('Assets', data.assets, [
     {name: 'Asset', of: asset => asset.source, show: asset => path(asset.source), width: 'minmax(170px, 2fr)'},
-    {name: 'State', of: asset => asset.state, show: asset => state(asset.state), width: '84px'},
+    {name: 'State', of: asset => asset.state, show: asset => state(asset.state), width: '118px'},
     {name: 'Time', number: true, of: asset => asset.seconds, show: asset => asset.seconds ? seconds(asset.seconds) : '–', tip: 'that its cookers ran in this cook'},
-    {name: '', of: asset => asset.seconds, tip: 'time beside that of the slowest', show: asset => asset.seconds ? el('span.bar', {style: `width:${100 * asset.seconds / slowest}%`}) : '', width: '70px'},
-    {name: 'Memory', number: true, of: asset => asset.peak_rss_bytes, show: asset => asset.peak_rss_bytes ? bytes(asset.peak_rss_bytes) : '–', tip: 'the most that one of its cookers took'},
-    {name: 'Source', number: true, of: asset => asset.bytes_in, show: asset => bytes(asset.bytes_in)},
+    {name: '', of: asset => asset.seconds, tip: 'time beside that of the slowest', show: asset => asset.seconds ? el('span.bar', {style: `width:${100 * asset.seconds / slowest}%`}) : '', width: '70px', drop: 3},
+    {name: 'Memory', number: true, of: asset => asset.peak_rss_bytes, show: asset => asset.peak_rss_bytes ? bytes(asset.peak_rss_bytes) : '–', tip: 'the most that one of its cookers took', drop: 1},
+    {name: 'Source', number: true, of: asset => asset.bytes_in, show: asset => bytes(asset.bytes_in), drop: 2},
     {name: 'Cooked', number: true, of: asset => asset.bytes, show: asset => bytes(asset.bytes), tip: 'geometry and textures, as they lie in the pack'},
     {name: 'Triangles', number: true, of: asset => asset.triangles, show: asset => count(asset.triangles)},
     {name: 'Warnings', number: true, of: asset => asset.warnings, show: asset => asset.warnings ? el('span.warn', {}, count(asset.warnings)) : '0', width: '72px'},
-  ], {select: show, sort: 2, text: asset => asset.source + ' ' + asset.state, minWidth: 830});
+  ], {select: show, sort: 2, text: asset => asset.source + ' ' + asset.state});
 
   function list(title, items, most = 40) {
     if (!items.length) return [];
@@ -111,7 +111,7 @@ const messageText = message => el('span', {}, el('span.' + (message.severity ===
 function sizesOf(data, go) {
   const items = [
     ...data.meshes.map(mesh => ({name: mesh.name || 'mesh', asset: mesh.asset, kind: 'geometry', color: 'geometry', bytes: mesh.bytes, open: () => go.mesh(mesh)})),
-    ...data.textures.map(texture => ({name: texture.name || 'texture', asset: texture.asset, kind: 'textures', color: 'textures', bytes: texture.bytes, open: () => go.texture(texture)}))];
+    ...data.textures.map(texture => ({name: `${texture.material} · ${texture.role || texture.name}`, asset: texture.asset, kind: 'textures', color: 'textures', bytes: texture.bytes, open: () => go.texture(texture)}))];
   const kinds = data.totals.sizes || {};
   for (const [kind, size] of Object.entries(kinds)) {
     const known = items.filter(item => item.kind === kind).reduce((sum, item) => sum + item.bytes, 0);
@@ -149,13 +149,13 @@ function meshesOf(data, pictures) {
     {name: 'Mesh', of: mesh => mesh.name, show: mesh => el('span', {title: mesh.name}, pictures.meshes[mesh.index] ? '▣ ' : '', mesh.name || '(no name)'), width: 'minmax(130px, 2fr)'},
     {name: 'Asset', of: mesh => mesh.asset.source, show: mesh => nameOf(mesh.asset.source), width: 'minmax(90px, 1fr)'},
     {name: 'Triangles', number: true, of: mesh => mesh.triangles, show: mesh => count(mesh.triangles)},
-    {name: 'Levels', number: true, of: mesh => mesh.levels.length, width: '56px'},
+    {name: 'Levels', number: true, of: mesh => mesh.levels.length, width: '64px', drop: 2},
     {name: 'Clusters', number: true, of: mesh => mesh.clusters, show: mesh => count(mesh.clusters), width: '72px'},
-    {name: 'Coarsest', number: true, of: mesh => last(mesh)[1], show: mesh => count(last(mesh)[1]), tip: 'triangles of the coarsest level'},
+    {name: 'Coarsest', number: true, of: mesh => last(mesh)[1], show: mesh => count(last(mesh)[1]), tip: 'triangles of the coarsest level', drop: 1},
     {name: 'Its error', number: true, of: mesh => last(mesh)[2], show: mesh => metres(last(mesh)[2]), tip: 'the largest of the coarsest level'},
     {name: 'Bytes', number: true, of: mesh => mesh.bytes, show: mesh => bytes(mesh.bytes), tip: 'of its pages, as they lie in the pack'},
-    {name: 'a triangle', number: true, of: mesh => mesh.bytes / Math.max(mesh.triangles, 1), show: mesh => mesh.triangles ? (mesh.bytes / mesh.triangles).toFixed(1) + ' B' : '–', tip: 'bytes for each source triangle, all levels together'},
-  ], {select: show, sort: 7, text: mesh => mesh.name + ' ' + mesh.asset.source, minWidth: 820});
+    {name: 'a triangle', number: true, of: mesh => mesh.bytes / Math.max(mesh.triangles, 1), show: mesh => mesh.triangles ? (mesh.bytes / mesh.triangles).toFixed(1) + ' B' : '–', tip: 'bytes for each source triangle, all levels together', drop: 3},
+  ], {select: show, sort: 7, text: mesh => mesh.name + ' ' + mesh.asset.source});
   function show(mesh) {
     curves.show(mesh);
     about.replaceChildren(...[el('h3', {}, mesh.name || '(no name)'), picturesOf(pictures.views, pictures.meshes[mesh.index], mesh.name),
@@ -174,20 +174,51 @@ function texturesOf(data) {
   if (!data.textures.length) return null;
   const decibels = (value, known) => known === false ? '–' : value === null ? 'exact' : value.toFixed(1) + ' dB';
   const table = makeTable('Textures', data.textures, [
-    {name: 'Texture', of: texture => texture.name, show: texture => el('span', {title: texture.name}, texture.name || '(no name)', texture.placeholder ? el('span.warn', {}, '  placeholder') : null), width: 'minmax(140px, 2fr)'},
-    {name: 'Asset', of: texture => texture.asset.source, show: texture => nameOf(texture.asset.source)},
-    {name: 'Size', number: true, of: texture => texture.width * texture.height, show: texture => `${texture.width} × ${texture.height}`, width: '100px'},
-    {name: 'Mips', number: true, of: texture => texture.mips, width: '50px'},
-    {name: 'Content', of: texture => texture.content, width: '76px'},
-    {name: 'Format', of: texture => texture.format, width: '104px'},
-    {name: 'In the pack', number: true, of: texture => texture.bytes, show: texture => bytes(texture.bytes), width: '92px'},
-    {name: 'In memory', number: true, of: texture => texture.memory, show: texture => bytes(texture.memory), width: '92px'},
-    {name: 'Error', number: true, of: texture => texture.rms, show: texture => decibels(texture.psnr), tip: 'PSNR of what is stored against the source: more is better, exact is no error'},
-    {name: 'Half size', number: true, of: texture => texture.halfKnown ? texture.half ?? Infinity : -1, show: texture => decibels(texture.half, texture.halfKnown),
+    {name: 'Material', of: texture => texture.material, show: texture => el('span', {title: usesText(texture)}, texture.material, texture.placeholder ? el('span.warn', {}, '  placeholder') : null), width: 'minmax(110px, 2fr)'},
+    {name: 'Role', of: texture => texture.role, show: texture => el('span', {title: usesText(texture)}, texture.role), width: '142px'},
+    {name: 'Image', of: texture => texture.name, show: texture => el('span.faint', {title: texture.name}, texture.name), width: 'minmax(90px, 1fr)', drop: 3},
+    {name: 'Asset', of: texture => texture.asset.source, show: texture => el('span', {title: texture.asset.source}, nameOf(texture.asset.source)), width: 'minmax(90px, 1fr)', drop: 1},
+    {name: 'Size', number: true, of: texture => texture.width * texture.height, show: texture => `${texture.width} × ${texture.height}`, width: '102px'},
+    {name: 'Mips', number: true, of: texture => texture.mips, width: '50px', drop: 5},
+    {name: 'Format', of: texture => texture.format, width: '100px', drop: 4},
+    {name: 'In the pack', number: true, of: texture => texture.bytes, show: texture => bytes(texture.bytes), width: '102px'},
+    {name: 'In memory', number: true, of: texture => texture.memory, show: texture => bytes(texture.memory), width: '92px', drop: 2},
+    {name: 'Error', number: true, width: '78px', of: texture => texture.rms, show: texture => decibels(texture.psnr), tip: 'PSNR of what is stored against the source: more is better, exact is no error'},
+    {name: 'Half size', number: true, width: '78px', of: texture => texture.halfKnown ? texture.half ?? Infinity : -1, show: texture => decibels(texture.half, texture.halfKnown),
      tip: 'PSNR of half the size against the source: where it is 45 dB and more, half the size would hardly be seen'},
-  ], {select: () => {}, sort: 6, text: texture => texture.name + ' ' + texture.asset.source + ' ' + texture.format + ' ' + texture.content, minWidth: 900});
+  ], {select: () => {}, sort: 7, text: texture => usesText(texture) + ' ' + texture.name + ' ' + texture.asset.source + ' ' + texture.format + ' ' + texture.content});
   const part = section('textures', 'Textures', 'PSNR against the source, in decibels: more is better', table.table);
   return {part: table.filter ? withTools(part, table.filter) : part, choose: table.choose};
+}
+
+/** All that show it, a line each. */
+const usesText = texture => texture.uses.map(([material, role]) => `${material || '(no name)'} · ${role}`).join('\n');
+
+/** What the cookers took, and which settings make each cheaper. */
+function slowOf(data, go) {
+  const rows = new Map();
+  const add = (stage, asset) => {
+    if (stage.start === null) return;
+    const row = rows.get(stage.stage) || {cooker: stage.stage, runs: 0, seconds: 0, peak: 0, slowest: null, asset: null};
+    rows.set(stage.stage, row);
+    row.runs += 1;
+    row.seconds += stage.seconds;
+    row.peak = Math.max(row.peak, stage.peak);
+    if (asset && (!row.slowest || stage.seconds > row.slowest.seconds)) { row.slowest = stage; row.asset = asset; }
+  };
+  for (const asset of data.assets) for (const stage of asset.stages) add(stage, asset);
+  for (const stage of data.stages) add(stage, null);
+  if (!rows.size) return null;
+  const sorted = [...rows.values()].sort((a, b) => b.seconds - a.seconds);
+  const all = sorted.reduce((sum, row) => sum + row.seconds, 0) || 1;
+  const saving = ([key, option, advice]) => el('li', {}, el('code', {title: option ? 'hearth cook ' + option : 'hearth cook --set ' + key + '=…'}, key), ': ' + advice);
+  const savings = row => data.savings[row.cooker] ? el('ul', {}, data.savings[row.cooker].map(saving)) : el('span.faint', {}, 'no setting');
+  const slowest = row => row.asset ? [el('button.link', {type: 'button', title: row.asset.source, onclick: () => go.asset(row.asset)}, nameOf(row.asset.source)), ' ' + seconds(row.slowest.seconds)] : ['–'];
+  const table = el('table.plain.slow', {},
+    el('thead', {}, el('tr', {}, ['Cooker', 'Runs', 'Time', 'Share', 'Memory', 'Slowest asset', 'Cheaper with'].map(name => el('th', {}, name)))),
+    el('tbody', {}, sorted.map(row => el('tr', {}, el('td', {}, row.cooker), el('td', {}, count(row.runs)), el('td', {}, seconds(row.seconds)),
+       el('td', {}, percent(row.seconds / all)), el('td', {}, row.peak ? bytes(row.peak) : '–'), el('td', {}, ...slowest(row)), el('td', {}, savings(row))))));
+  return section('slow', 'What was slow', 'time of the cookers that ran, and the settings that make each cheaper', el('div.wide', {}, table));
 }
 
 function timelineOf(data, go) {
@@ -216,7 +247,7 @@ function causesOf(data) {
   const table = makeTable('Causes', rows, [
     {name: 'Cause', of: row => row.cause, show: row => el('span', {title: row.cause}, row.cause), width: 'minmax(200px, 1fr)'},
     {name: 'Actions', number: true, of: row => row.actions, width: '90px'},
-  ], {sort: 1, text: row => row.cause, minWidth: 300});
+  ], {sort: 1, text: row => row.cause});
   const hits = stages.filter(stage => stage.state === 'cached').length;
   const part = section('causes', 'Cache', `${count(hits)} of ${plural(stages.length, 'action')} had a result; why the others ran`, table.table);
   return table.filter ? withTools(part, table.filter) : part;
@@ -233,7 +264,7 @@ function messagesOf(data, go) {
     {name: 'Asset', of: row => row.asset.source, show: row => nameOf(row.asset.source), width: 'minmax(90px, 150px)'},
     {name: 'Where', of: row => row.pointer, show: row => el('span.mono', {title: row.pointer}, row.pointer), width: 'minmax(80px, 200px)'},
     {name: 'What', of: row => row.text, show: row => el('span', {title: row.text + (row.hint ? '\nWhat to do: ' + row.hint : '')}, row.text), width: 'minmax(200px, 2fr)'},
-  ], {select: row => go.asset(row.asset, true), sort: 0, down: false, text: row => `${row.code} ${row.asset.source} ${row.pointer} ${row.text}`, minWidth: 520});
+  ], {select: row => go.asset(row.asset, true), sort: 0, down: false, text: row => `${row.code} ${row.asset.source} ${row.pointer} ${row.text}`});
   const part = section('messages', 'Messages and what was left out', 'what a source has and the pack has not', table.table);
   return table.filter ? withTools(part, table.filter) : part;
 }

@@ -4,26 +4,61 @@
 const kRowHeight = 30;
 const kRowsAtOnce = 14;
 const kRowsOfPrint = 500; // more than that is no page to print
+const kColumnGap = 12; // as the style says
+const kRowPadding = 20;
+
+const widthOf = column => column.width || (column.number ? '84px' : 'minmax(120px, 1fr)');
+const leastWidthOf = column => parseInt(widthOf(column).match(/\d+(?=px)/)[0]);
+const leastWidth = columns => columns.reduce((sum, column) => sum + leastWidthOf(column) + kColumnGap, kRowPadding - kColumnGap);
+
+/** The columns that have room: first those go that have the largest `drop`; what has none stays. */
+function columnsThatFit(columns, width) {
+  const fitting = [...columns];
+  const droppable = columns.filter(column => column.drop).sort((a, b) => b.drop - a.drop);
+  for (const column of droppable) {
+    if (leastWidth(fitting) <= width) break;
+    fitting.splice(fitting.indexOf(column), 1);
+  }
+  return fitting;
+}
+
+const kFits = []; // of all tables: called when the page has got its width
+addEventListener('resize', () => kFits.forEach(fit => fit()));
 
 /**
- * columns   {name, of: row => value, show: row => text or element, width, number, tip}
+ * columns   {name, of: row => value, show: row => text or element, width, number, tip, drop: rank among what goes for want of width}
  * options   select: called with the chosen row; sort: index of the column, negative values first where it begins with '-'
  */
 function makeTable(label, rows, columns, options = {}) {
-  const widths = columns.map(column => column.width || (column.number ? '84px' : 'minmax(120px, 1fr)')).join(' ');
+  let visible = columns;
   let shown = rows;
   let sorted = {column: options.sort ?? -1, down: options.down ?? true};
   let selected = null;
 
-  const names = el('div.row.names', {role: 'row', style: 'grid-template-columns:' + widths});
+  const names = el('div.row.names', {role: 'row'});
   const body = el('div.body', {role: 'rowgroup', tabindex: 0, 'aria-label': label + ', rows'});
-  const table = el('div.table', {role: 'table', 'aria-label': label, 'aria-rowcount': rows.length + 1,
-                                 style: `--width:${options.minWidth || 560}px`}, names, body);
-  columns.forEach((column, i) => {
-    const head = el('div' + (column.number ? '.num' : ''), {role: 'columnheader', title: column.tip},
-                    el('button', {type: 'button', onclick: () => sortBy(i)}, column.name));
-    names.append(head);
-  });
+  const grid = el('div.table', {role: 'table', 'aria-label': label, 'aria-rowcount': rows.length + 1}, names, body);
+  const dropped = el('p.note', {hidden: true});
+  const table = el('div', {}, grid, dropped);
+  const heads = columns.map((column, i) => el('div' + (column.number ? '.num' : ''), {role: 'columnheader', title: column.tip},
+                                              el('button', {type: 'button', onclick: () => sortBy(i)}, column.name)));
+
+  function layOut() {
+    names.replaceChildren(...visible.map(column => heads[columns.indexOf(column)]));
+    grid.style.setProperty('--columns', visible.map(widthOf).join(' '));
+    grid.style.setProperty('--width', leastWidth(visible) + 'px');
+    const missing = columns.filter(column => !visible.includes(column) && column.name).map(column => column.name);
+    dropped.hidden = missing.length === 0;
+    dropped.textContent = missing.length ? `No room for: ${missing.join(', ')}.` : '';
+  }
+
+  function fit() {
+    const fitting = columnsThatFit(columns, grid.clientWidth);
+    if (fitting.length === visible.length) return;
+    visible = fitting;
+    layOut();
+    draw();
+  }
 
   function sortBy(column) {
     sorted = {column, down: sorted.column === column ? !sorted.down : !!columns[column].number};
@@ -31,7 +66,7 @@ function makeTable(label, rows, columns, options = {}) {
   }
 
   function order() {
-    [...names.children].forEach((head, i) => i === sorted.column
+    heads.forEach((head, i) => i === sorted.column
       ? head.setAttribute('aria-sort', sorted.down ? 'descending' : 'ascending') : head.removeAttribute('aria-sort'));
     if (sorted.column < 0) return;
     const of = columns[sorted.column].of;
@@ -45,8 +80,8 @@ function makeTable(label, rows, columns, options = {}) {
     const row = shown[i];
     const element = el('div.row' + (options.select ? '.can' : ''), {
       role: 'row', 'aria-rowindex': i + 2, 'aria-selected': options.select ? String(row === selected) : undefined,
-      style: `grid-template-columns:${widths};top:${i * kRowHeight}px`, onclick: () => choose(row)});
-    for (const column of columns)
+      style: `top:${i * kRowHeight}px`, onclick: () => choose(row)});
+    for (const column of visible)
       element.append(el('div' + (column.number ? '.num' : ''), {role: 'cell'}, column.show ? column.show(row) : String(column.of(row))));
     return element;
   }
@@ -97,6 +132,8 @@ function makeTable(label, rows, columns, options = {}) {
       update();
     }});
   }
+  layOut();
   update();
+  kFits.push(fit);
   return {table, filter, choose: row => choose(row, true), first: () => shown[0]};
 }

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "formats/image_uses.h"
+
+#include <gtest/gtest.h>
+
+namespace hearth::formats
+{
+
+namespace
+{
+
+MaterialRecord bareMaterial()
+{
+    MaterialRecord material{};
+    material.base_color_texture.image = material.metallic_roughness_texture.image = kNone;
+    material.normal_texture.image = material.occlusion_texture.image = kNone;
+    material.emissive_texture.image = kNone;
+    return material;
+}
+
+std::string textOf(const std::vector<ImageUse>& uses)
+{
+    std::string text;
+    for (const ImageUse& use : uses)
+        text += std::to_string(use.material) + " " + std::string(use.role) + ";";
+    return text;
+}
+
+} // namespace
+
+TEST(ImageUses, nameMaterialAndRole)
+{
+    std::vector<MaterialRecord> materials(3, bareMaterial());
+    materials[0].base_color_texture.image = 1;
+    materials[0].normal_texture.image = 0;
+    materials[2].metallic_roughness_texture.image = 2;
+    materials[2].occlusion_texture.image = 2;
+    materials[2].base_color_texture.image = 1;
+    materials[2].emissive_texture.image = 7; // there is none
+    const auto uses = imageUses(materials, 4);
+    ASSERT_EQ(uses.size(), 4u);
+    EXPECT_EQ(textOf(uses[0]), "0 normal;");
+    EXPECT_EQ(textOf(uses[1]), "0 baseColor;2 baseColor;");
+    EXPECT_EQ(textOf(uses[2]), "2 metallicRoughness;2 occlusion;");
+    EXPECT_EQ(textOf(uses[3]), "");
+}
+
+} // namespace hearth::formats
