@@ -1,17 +1,15 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/report/page_data.h"
 
+#include "cook/json/json.h"
 #include "formats/issues.h"
 #include "pipelines/report/base64.h"
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 #include <set>
 
 namespace hearth::report
 {
-
-using Json = nlohmann::ordered_json;
 
 namespace
 {
@@ -21,8 +19,8 @@ constexpr size_t kMostDependencies = 100;
 
 Json listOf(const Json& object, const char* key)
 {
-    const auto list = object.find(key);
-    return list != object.end() && list->is_array() ? *list : Json::array();
+    const Json* list = object.find(key);
+    return list != nullptr && list->is_array() ? *list : Json::array();
 }
 
 /// stage, state, seconds, bytes, start or null, lane, cpu seconds, peak, why
@@ -132,7 +130,7 @@ std::string dataUri(const std::string& jpeg)
 
 std::string pageData(const std::string& report_text)
 {
-    const Json report = Json::parse(report_text);
+    const Json report = Json::parse(report_text).value();
     Json data;
     for (const char* key :
          {"tool", "started", "status", "exit", "output", "up_to_date", "totals", "failures", "error"})
@@ -154,12 +152,12 @@ std::string pageData(const std::string& report_text)
         if (report.contains(cooker))
             data["stages"].push_back(stageRow(report[cooker]));
     data["explain"] = explanations(report);
-    return data.dump(-1, ' ', false, Json::error_handler_t::replace);
+    return data.dump();
 }
 
 std::vector<MeshOfPack> importantMeshes(const std::string& report_text)
 {
-    const Json report = Json::parse(report_text);
+    const Json report = Json::parse(report_text).value();
     struct Ranked
     {
         MeshOfPack mesh;
@@ -200,7 +198,7 @@ std::string picturesData(const Pictures& pictures)
     for (const auto& [mesh, jpegs] : pictures.meshes)
         for (const std::string& jpeg : jpegs)
             data["meshes"][std::to_string(mesh)].push_back(dataUri(jpeg));
-    return data.dump(-1, ' ', false, Json::error_handler_t::replace);
+    return data.dump();
 }
 
 } // namespace hearth::report

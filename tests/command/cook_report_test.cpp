@@ -1,10 +1,10 @@
 // The reports of hearth cook from the outside, and of hearth report.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/json/json.h"
 #include "tests/command/cook_folder.h"
 #include "tests/command/json_schema.h"
 
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
 namespace hearth::test
 {
@@ -13,7 +13,7 @@ namespace
 {
 
 /// How a report differs from what its schema promises; empty where it does not.
-std::string faultOfReport(const nlohmann::json& report)
+std::string faultOfReport(const Json& report)
 {
     return faultOfSchema(HEARTH_SCHEMAS "/hearth.report.1.json", report);
 }
@@ -24,7 +24,7 @@ TEST_F(Cook, reportsWhatItDid)
 {
     const ProgramEnd end = cook({"warning.gltf", "-o", "a.hearth", "--report", "report.json"});
     ASSERT_EQ(end.exit_code, 0) << end.err;
-    const auto report = nlohmann::json::parse(folder.read("report.json"));
+    const auto report = Json::parse(folder.read("report.json")).value();
     EXPECT_EQ(faultOfReport(report), "");
     EXPECT_EQ(report["schema"], "hearth.report/1");
     EXPECT_EQ(report["status"], "ok");
@@ -34,12 +34,12 @@ TEST_F(Cook, reportsWhatItDid)
     EXPECT_EQ(totals["bytes_in"], 100);
     EXPECT_EQ(totals["cooked"], 1);
     EXPECT_EQ(totals["actions"]["cooked"], 5);
-    EXPECT_GT(totals["sizes"]["geometry"], 0);
+    EXPECT_GT(totals["sizes"]["geometry"].get<double>(), 0);
     const auto& asset = report["assets"][0];
     EXPECT_EQ(asset["source"], "warning.gltf");
     EXPECT_EQ(asset["state"], "cooked");
     EXPECT_EQ(asset["stages"].size(), 4u);
-    EXPECT_GE(asset["stages"][1]["start_s"], asset["stages"][0]["start_s"]);
+    EXPECT_GE(asset["stages"][1]["start_s"].get<double>(), asset["stages"][0]["start_s"].get<double>());
     EXPECT_EQ(asset["clusters"]["meshes"][0]["name"], "strip");
     EXPECT_EQ(asset["clusters"]["totals"]["triangles"], 8);
     EXPECT_EQ(asset["textures"][0]["name"], "bark");
@@ -57,7 +57,7 @@ TEST_F(Cook, reportsRootCausesAndWhatDependsOnThem)
 {
     EXPECT_EQ(cook({"good.gltf", "malformed.gltf", "-o", "a.hearth", "--report", "report.json"}).exit_code,
               65);
-    const auto report = nlohmann::json::parse(folder.read("report.json"));
+    const auto report = Json::parse(folder.read("report.json")).value();
     EXPECT_EQ(faultOfReport(report), "");
     EXPECT_EQ(report["status"], "failed");
     EXPECT_EQ(report["exit"], 65);
@@ -80,7 +80,7 @@ TEST_F(Cook, reportsRootCausesAndWhatDependsOnThem)
 TEST_F(Cook, reportsWhereItDoesNotEvenBegin)
 {
     EXPECT_EQ(cook({"good.gltf", "-o", ".", "--report", "report.json"}).exit_code, 73);
-    const auto report = nlohmann::json::parse(folder.read("report.json"));
+    const auto report = Json::parse(folder.read("report.json")).value();
     EXPECT_EQ(faultOfReport(report), "");
     EXPECT_EQ(report["assets"][0]["state"], "not cooked");
     ASSERT_EQ(report["failures"].size(), 1u);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/json/json.h"
 #include "tests/layering/layers.h"
 
 #include <gtest/gtest.h>
@@ -77,6 +78,20 @@ TEST(Layering, quotedIncludesAreFilesOfTheRepositoryOrGenerated)
                 << file << ":" << include.line << ": " << include.header;
 }
 
+TEST(Layering, librariesThatAreSlowToCompileAreIncludedInOnePlace)
+{
+    // the header, and the only files that may include it
+    const std::map<std::string, std::set<std::string>> files_of_header{
+        {"nlohmann/json.hpp", {"cook/json/json.cpp", "tests/cook/json_test.cpp"}},
+    };
+    std::map<std::string, std::set<std::string>> found;
+    for (const std::string& file : sources())
+        for (const Include& include : includesOf(contentOf(kRoot / file)))
+            if (files_of_header.contains(include.header))
+                found[include.header].insert(file);
+    EXPECT_EQ(found, files_of_header);
+}
+
 TEST(Layering, linksFollowTheArrows)
 {
     const auto list = links();
@@ -144,12 +159,14 @@ TEST(WrongArrow, knowsTheArrowsOfDesign)
     EXPECT_TRUE(allowed("cook/clusters/split.cpp", "cook/clusters/split.h"));
     EXPECT_TRUE(allowed("pipelines/import/a.cpp", "cook/clusters/clusters.h"));
     EXPECT_TRUE(allowed("runtime/gpu/a.cpp", "runtime/pack/pack.h"));
+    EXPECT_TRUE(allowed("sample_assets/a.cpp", "cook/json/json.h"));
     EXPECT_TRUE(allowed("tests/cook/a.cpp", "cook/clusters/split.h"));
     EXPECT_FALSE(allowed("formats/mesh.h", "cook/mesh/weld.h"));
     EXPECT_FALSE(allowed("cook/mesh/weld.h", "cook/clusters/split.h"));
     EXPECT_FALSE(allowed("cook/clusters/split.cpp", "cook/textures/mips.h"));
     EXPECT_FALSE(allowed("cook/clusters/split.cpp", "pipelines/link/link.h"));
     EXPECT_FALSE(allowed("runtime/pack/pack.cpp", "runtime/gpu/device.h"));
+    EXPECT_FALSE(allowed("runtime/pack/pack.cpp", "cook/json/json.h"));
     EXPECT_FALSE(allowed("runtime/gpu/scene.cpp", "cook/mesh/source_mesh.h"));
     EXPECT_FALSE(allowed("runtime/viewer/main.cpp", "pipelines/import/readers.h"));
     EXPECT_FALSE(allowed("pipelines/import/a.cpp", "runtime/pack/pack.h"));

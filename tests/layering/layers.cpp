@@ -19,18 +19,21 @@ struct Layer
     Folders may_include; ///< besides itself
 };
 
-// The first line that a path starts with holds. A folder of cook/ that is not named sees formats, cook/tools, cook/mesh,
-// cook/motion, cook/pages and cook/sampling only.
+// The first line that a path starts with holds. A folder of cook/ that is not named sees formats, cook/json, cook/tools,
+// cook/mesh, cook/motion, cook/pages and cook/sampling only.
 const std::vector<Layer>& layers()
 {
     static const std::vector<Layer> list = {
         {"formats/", {}},
-        {"cook/tools/", {"formats/"}},
+        {"cook/json/", {}},
+        {"cook/tools/", {"formats/", "cook/json/"}},
         {"cook/mesh/", {"formats/"}},
         {"cook/motion/", {"formats/"}},
         {"cook/pages/", {"formats/"}},
         {"cook/sampling/", {"formats/"}},
-        {"cook/", {"formats/", "cook/tools/", "cook/mesh/", "cook/motion/", "cook/pages/", "cook/sampling/"}},
+        {"cook/",
+         {"formats/", "cook/json/", "cook/tools/", "cook/mesh/", "cook/motion/", "cook/pages/",
+          "cook/sampling/"}},
         // extract draws the cut that the runtime would draw
         {"pipelines/command/", {"formats/", "cook/", "pipelines/", "runtime/pack/"}},
         {"pipelines/", {"formats/", "cook/", "pipelines/"}},
@@ -39,7 +42,7 @@ const std::vector<Layer>& layers()
         {"runtime/gpu/", {"formats/", "runtime/pack/", "runtime/shaders/"}},
         {"runtime/c/", {"formats/", "runtime/pack/", "runtime/gpu/"}},
         {"runtime/viewer/", {"formats/", "runtime/pack/", "runtime/gpu/"}},
-        {"sample_assets/", {"formats/"}},
+        {"sample_assets/", {"formats/", "cook/json/"}},
         {"tests/", {"formats/", "cook/", "pipelines/", "runtime/", "sample_assets/", "tests/"}},
     };
     return list;
@@ -81,7 +84,7 @@ const std::vector<Library>& libraries()
         {"meshoptimizer.h", {"pipelines/import/", "cook/clusters/"}},
         {"tiny_gltf.h", {"pipelines/import/"}},
         {"OpenMesh/", {"pipelines/import/", "cook/"}},
-        {"nlohmann/", {"cook/", "pipelines/", "sample_assets/"}},
+        {"nlohmann/", {"cook/json/"}},
         {"CLI/", {"cook/", "pipelines/", "sample_assets/"}},
         {"fmt/", {"cook/", "pipelines/", "sample_assets/"}},
         {"spdlog/", {"cook/", "pipelines/"}},
