@@ -90,7 +90,7 @@ std::string settingsJson(const Configuration& configuration, const std::string& 
     for (const Row& row : rowsOf(configuration, source))
     {
         Json entry{{"key", row.setting->key}};
-        entry["value"] = row.value ? Json::parse(profiles::jsonOf(*row.value)).value_or(Json()) : Json();
+        entry["value"] = row.value ? profiles::jsonOf(*row.value) : Json();
         if (!row.value && !row.setting->otherwise.empty())
             entry["default"] = row.setting->otherwise;
         entry["origin"] = row.value ? row.value->origin : std::string(kBuiltIn);

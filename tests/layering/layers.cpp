@@ -88,7 +88,7 @@ const std::vector<Library>& libraries()
         {"CLI/", {"cook/", "pipelines/", "sample_assets/"}},
         {"fmt/", {"cook/", "pipelines/", "sample_assets/"}},
         {"spdlog/", {"cook/", "pipelines/"}},
-        {"toml++/", {"cook/", "pipelines/"}},
+        {"toml++/", {"cook/tools/"}},
         {"tbb/", {"cook/", "pipelines/", "sample_assets/"}, true},
         {"embree3/", {"cook/"}},
         {"xmmintrin.h", {"cook/visibility/"}}, // how Embree wants the processor set
