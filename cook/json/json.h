@@ -205,7 +205,7 @@ public:
     Item(std::initializer_list<Item> items) : value_(items) {}
     template <typename T>
         requires(!std::same_as<std::remove_cvref_t<T>, Json::Item> && std::convertible_to<T, Json>)
-    Item(T&& value) : value_(std::forward<T>(value))
+    Item(T&& value) : value_(std::forward<T>(value)) // NOLINT(bugprone-forwarding-reference-overload)
     {
     }
 

@@ -167,6 +167,12 @@ TEST(Json, writesAllBytesOfTextsAsTheLibrary)
         }
 }
 
+TEST(Json, quotesAnyBytes)
+{
+    EXPECT_EQ(quoteJson("a\"b\n"), R"("a\"b\n")");
+    EXPECT_EQ(quoteJson("\xFF"), "\"\xEF\xBF\xBD\"");
+}
+
 TEST(Json, readsWhatTheLibraryReads)
 {
     Documents documents(2);

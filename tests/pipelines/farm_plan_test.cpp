@@ -306,6 +306,8 @@ TEST_F(PlanFile, isRefusedWhereItIsNotWhatACookWouldBe)
         {"/actions/2/words/-", [](Json& p) { p["actions"][2]["words"].push_back("--debug-output"); }},
         {"/actions/0/outputs/0", [](Json& p) { p["actions"][0]["outputs"][0] = "../../../etc/cron.d/x"; }},
         {"/actions/0/inputs/0/path", [](Json& p) { p["actions"][0]["inputs"][0]["path"] = "/etc/shadow"; }},
+        {"/actions/0/inputs/0", [](Json& p) { p["actions"][0]["inputs"] = Json::array(); }},
+        {"/actions/0/subject", [](Json& p) { p["actions"][0].erase("subject"); }},
         {"/cook", [](Json& p) { p["cook"]["settings"][0].push_back("clusters.output=1"); }},
         {"/cook", [](Json& p) { p["cook"]["settings"][0].push_back("clusters.influences=2"); }},
         {"/cook", [](Json& p) { p["cook"]["settings"].erase(0); }},
