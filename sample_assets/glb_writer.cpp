@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "sample_assets/glb_writer.h"
 
+#include "cook/json/json.h"
 #include "sample_assets/parallel.h"
 #include "sample_assets/png.h"
-
-#include <nlohmann/json.hpp>
 
 #include <cstdio>
 #include <cstring>
@@ -15,8 +14,6 @@ namespace hearth::samples
 
 namespace
 {
-
-using Json = nlohmann::ordered_json;
 
 constexpr int kComponentU16 = 5123, kComponentU32 = 5125, kComponentF32 = 5126;
 constexpr int kTargetVertices = 34962, kTargetIndices = 34963;

@@ -3,9 +3,9 @@
 #include "cook/bricks/side_mix.h"
 
 #include "cook/bricks/opacity.h"
+#include "cook/json/json.h"
 
 #include <chrono>
-#include <nlohmann/json.hpp>
 
 namespace hearth::bricks
 {
@@ -105,8 +105,6 @@ std::array<Row, 10> rowsOf(const BrickBytes& bytes)
             Row{"BrickVisFacesEmissiveAtlas", 4096, "emission", bytes.emission},
             Row{"Total", 28 * 1024, "total", bytes.total()}};
 }
-
-using Json = nlohmann::ordered_json;
 
 Json settingsJson(const GridStatistics& statistics)
 {

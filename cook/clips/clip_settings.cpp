@@ -3,13 +3,13 @@
 
 #include "cook/clips/compress.h"
 #include "cook/tools/suggest.h"
+#include "cook/tools/toml.h"
 
 #include <array>
 #include <filesystem>
 #include <fmt/format.h>
 #include <fstream>
 #include <iterator>
-#include <toml++/toml.h>
 
 namespace hearth::clips
 {
@@ -17,36 +17,37 @@ namespace hearth::clips
 namespace
 {
 
+using tools::TomlNode;
+
 // A kilometre: whoever writes more means other units.
 constexpr double kMostError = 1000;
 
-Error wrong(Issue issue, const std::string& file, const toml::node& node, const std::string& key,
+Error wrong(Issue issue, const std::string& file, const TomlNode& node, const std::string& key,
             std::string detail)
 {
-    return {issue, file, fmt::format("line {}, {}", node.source().begin.line, key), std::move(detail)};
+    return {issue, file, fmt::format("line {}, {}", node.line, key), std::move(detail)};
 }
 
-Result<StatedError> statedErrorOf(const toml::table& root, const std::string& file)
+Result<StatedError> statedErrorOf(const TomlNode& root, const std::string& file)
 {
-    const toml::node* node = root.get("animation");
-    if (node == nullptr)
-        return StatedError{0, kDefaultShareOfSize};
-    const toml::table* table = node->as_table();
+    const TomlNode* table = root.find("animation");
     if (table == nullptr)
-        return wrong(Issue::profile_value, file, *node, "animation", "must be a table");
-    for (const auto& [key, value] : *table)
-        if (key.str() != "error")
+        return StatedError{0, kDefaultShareOfSize};
+    if (!table->isTable())
+        return wrong(Issue::profile_value, file, *table, "animation", "must be a table");
+    for (const TomlNode& member : table->children)
+        if (member.key != "error")
         {
-            const std::string nearest = tools::nearestMatch(key.str(), std::array<std::string, 1>{"error"});
-            return wrong(Issue::profile_key, file, value, fmt::format("animation.{}", key.str()),
+            const std::string nearest = tools::nearestMatch(member.key, std::array<std::string, 1>{"error"});
+            return wrong(Issue::profile_key, file, member, fmt::format("animation.{}", member.key),
                          nearest.empty() ? "this key is not known"
                                          : fmt::format("this key is not known: did you mean '{}'?", nearest));
         }
-    const toml::node* error = table->get("error");
+    const TomlNode* error = table->find("error");
     if (error == nullptr)
         return StatedError{0, kDefaultShareOfSize};
-    const double metres = error->value<double>().value_or(-1);
-    if (!error->is_number() || !(metres >= 0 && metres <= kMostError))
+    const double metres = error->asNumber().value_or(-1);
+    if (!(metres >= 0 && metres <= kMostError))
         return wrong(Issue::profile_value, file, *error, "animation.error",
                      fmt::format("must be a number of metres from 0 to {:g}", kMostError));
     return StatedError{metres, 0};
@@ -66,15 +67,11 @@ Result<StatedError> readStatedError(const std::string& profile_path)
 
 Result<StatedError> parseStatedError(std::string_view text, const std::string& name)
 {
-    try
-    {
-        return statedErrorOf(toml::parse(text), name);
-    }
-    catch (const toml::parse_error& malformed)
-    {
-        return Error{Issue::profile_syntax, name, fmt::format("line {}", malformed.source().begin.line),
-                     std::string(malformed.description())};
-    }
+    tools::TomlFault fault;
+    const std::optional<TomlNode> root = tools::parseToml(text, fault);
+    if (!root)
+        return Error{Issue::profile_syntax, name, fmt::format("line {}", fault.line), fault.text};
+    return statedErrorOf(*root, name);
 }
 
 } // namespace hearth::clips

@@ -2,20 +2,23 @@
 #include "cook/clusters/profile.h"
 
 #include "cook/tools/suggest.h"
+#include "cook/tools/toml.h"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fmt/format.h>
 #include <fstream>
 #include <iterator>
 #include <limits>
-#include <toml++/toml.h>
 
 namespace hearth::clusters
 {
 
 namespace
 {
+
+using tools::TomlNode;
 
 /// Where in the file a value stands, for messages.
 struct Place
@@ -29,85 +32,81 @@ struct Place
     }
     Place at(size_t index) const { return {file, fmt::format("{}[{}]", key, index)}; }
 
-    Error wrong(Issue issue, const toml::node& node, std::string detail) const
+    Error wrong(Issue issue, const TomlNode& node, std::string detail) const
     {
-        return {issue, file, fmt::format("line {}, {}", node.source().begin.line, key), std::move(detail)};
+        return {issue, file, fmt::format("line {}, {}", node.line, key), std::move(detail)};
     }
 };
 
 using Keys = std::vector<std::string>;
 
 /// Errors: profile_value where the node is no table, profile_key where it has a key beside `known`.
-Result<const toml::table*> tableAt(const toml::node& node, const Place& place, const Keys& known)
+Result<const TomlNode*> tableAt(const TomlNode& node, const Place& place, const Keys& known)
 {
-    const toml::table* table = node.as_table();
-    if (table == nullptr)
+    if (!node.isTable())
         return place.wrong(Issue::profile_value, node, "must be a table");
-    for (const auto& [key, value] : *table)
+    for (const TomlNode& member : node.children)
     {
-        if (std::find(known.begin(), known.end(), key.str()) != known.end())
+        if (std::find(known.begin(), known.end(), member.key) != known.end())
             continue;
-        const std::string nearest = tools::nearestMatch(key.str(), known);
-        return place.at(key.str()).wrong(
-            Issue::profile_key, value,
-            nearest.empty() ? "this key is not known"
-                            : fmt::format("this key is not known: did you mean '{}'?", nearest));
+        const std::string nearest = tools::nearestMatch(member.key, known);
+        return place.at(member.key)
+            .wrong(Issue::profile_key, member,
+                   nearest.empty() ? "this key is not known"
+                                   : fmt::format("this key is not known: did you mean '{}'?", nearest));
     }
-    return table;
+    return &node;
 }
 
-Result<const toml::array*> arrayAt(const toml::node& node, const Place& place)
+Result<const TomlNode*> arrayAt(const TomlNode& node, const Place& place)
 {
-    const toml::array* array = node.as_array();
-    if (array == nullptr || array->empty())
+    if (!node.isArray() || node.children.empty())
         return place.wrong(Issue::profile_value, node, "must be an array of at least one table");
-    return array;
+    return &node;
 }
 
 /// The member's number, or `otherwise` where it is not there. errors: profile_value.
-Result<float> numberAt(const toml::table& table, std::string_view name, const Place& place, float low,
+Result<float> numberAt(const TomlNode& table, std::string_view name, const Place& place, float low,
                        float high, float otherwise)
 {
-    const toml::node* node = table.get(name);
+    const TomlNode* node = table.find(name);
     if (node == nullptr)
         return otherwise;
-    const auto value = static_cast<float>(node->value<double>().value_or(0));
-    if (node->is_number() && value >= low && value <= high)
+    const auto value = static_cast<float>(node->asNumber().value_or(NAN));
+    if (value >= low && value <= high)
         return value;
     return place.at(name).wrong(Issue::profile_value, *node,
                                 fmt::format("must be a number from {:g} to {:g}", low, high));
 }
 
-Result<uint32_t> countAt(const toml::table& table, std::string_view name, const Place& place)
+Result<uint32_t> countAt(const TomlNode& table, std::string_view name, const Place& place)
 {
-    const toml::node* node = table.get(name);
-    const toml::node& culprit = node == nullptr ? table : *node;
-    const auto* value = node == nullptr ? nullptr : node->as_integer();
+    const TomlNode* node = table.find(name);
+    const TomlNode& culprit = node == nullptr ? table : *node;
     constexpr int64_t kMost = std::numeric_limits<int32_t>::max();
-    if (value != nullptr && value->get() >= 1 && value->get() <= kMost)
-        return static_cast<uint32_t>(value->get());
+    if (node != nullptr && node->isWhole() && node->whole >= 1 && node->whole <= kMost)
+        return static_cast<uint32_t>(node->whole);
     return place.at(name).wrong(Issue::profile_value, culprit, "must be a whole number from 1 on");
 }
 
-Result<std::string> patternAt(const toml::table& table, const Place& place)
+Result<std::string> patternAt(const TomlNode& table, const Place& place)
 {
-    const toml::node* node = table.get("name");
-    const auto* text = node == nullptr ? nullptr : node->as_string();
-    if (text != nullptr && !text->get().empty())
-        return text->get();
+    const TomlNode* node = table.find("name");
+    if (node != nullptr && node->isText() && !node->text.empty())
+        return node->text;
     return place.at("name").wrong(Issue::profile_value, node == nullptr ? table : *node,
                                   "must be a text: the name that the rule is for, with * and ? as wildcards");
 }
 
-Result<LevelCurve> curveAt(const toml::node& node, const Place& place)
+Result<LevelCurve> curveAt(const TomlNode& node, const Place& place)
 {
-    HEARTH_ASSIGN_OR_RETURN(const toml::array* array, arrayAt(node, place));
+    HEARTH_ASSIGN_OR_RETURN(const TomlNode* array, arrayAt(node, place));
     LevelCurve curve;
-    for (size_t i = 0; i < array->size(); ++i)
+    for (size_t i = 0; i < array->children.size(); ++i)
     {
         const Place at = place.at(i);
-        HEARTH_ASSIGN_OR_RETURN(const toml::table* table,
-                                tableAt(*array->get(i), at, {"keep", "error_weight"}));
+        HEARTH_ASSIGN_OR_RETURN(const TomlNode* table,
+                                tableAt(array->children[i], at, {"keep", "error_weight"}));
         LevelStep step;
         HEARTH_ASSIGN_OR_RETURN(step.keep,
                                 numberAt(*table, "keep", at, kSmallestKeep, kLargestKeep, step.keep));
@@ -118,15 +117,15 @@ Result<LevelCurve> curveAt(const toml::node& node, const Place& place)
     return curve;
 }
 
-Result<std::vector<LevelTarget>> targetsAt(const toml::node& node, const Place& place)
+Result<std::vector<LevelTarget>> targetsAt(const TomlNode& node, const Place& place)
 {
-    HEARTH_ASSIGN_OR_RETURN(const toml::array* array, arrayAt(node, place));
+    HEARTH_ASSIGN_OR_RETURN(const TomlNode* array, arrayAt(node, place));
     std::vector<LevelTarget> targets;
-    for (size_t i = 0; i < array->size(); ++i)
+    for (size_t i = 0; i < array->children.size(); ++i)
     {
         const Place at = place.at(i);
-        HEARTH_ASSIGN_OR_RETURN(const toml::table* table,
-                                tableAt(*array->get(i), at, {"level", "triangles"}));
+        HEARTH_ASSIGN_OR_RETURN(const TomlNode* table,
+                                tableAt(array->children[i], at, {"level", "triangles"}));
         LevelTarget target;
         HEARTH_ASSIGN_OR_RETURN(target.level, countAt(*table, "level", at));
         HEARTH_ASSIGN_OR_RETURN(target.triangles, countAt(*table, "triangles", at));
@@ -140,29 +139,28 @@ Result<std::vector<LevelTarget>> targetsAt(const toml::node& node, const Place& 
 }
 
 /// The member's number, if it is there. errors: profile_value.
-Result<std::optional<float>> weightAt(const toml::table& table, std::string_view name, const Place& place)
+Result<std::optional<float>> weightAt(const TomlNode& table, std::string_view name, const Place& place)
 {
     constexpr float kMost = 1e6f;
-    if (!table.contains(name))
+    if (table.find(name) == nullptr)
         return std::optional<float>();
     HEARTH_ASSIGN_OR_RETURN(const float weight, numberAt(table, name, place, 0, kMost, 0));
     return std::optional(weight);
 }
 
 /// A key with two legal numbers.
-Result<std::optional<uint32_t>> choiceAt(const toml::table& table, const char* key, int64_t one,
-                                         int64_t other, const Place& place)
+Result<std::optional<uint32_t>> choiceAt(const TomlNode& table, const char* key, int64_t one, int64_t other,
+                                         const Place& place)
 {
-    const toml::node* node = table.get(key);
+    const TomlNode* node = table.find(key);
     if (node == nullptr)
         return std::optional<uint32_t>();
-    const auto* number = node->as_integer();
-    if (number == nullptr || (number->get() != one && number->get() != other))
+    if (!node->isWhole() || (node->whole != one && node->whole != other))
         return place.at(key).wrong(Issue::profile_value, *node, fmt::format("must be {} or {}", one, other));
-    return std::optional(static_cast<uint32_t>(number->get()));
+    return std::optional(static_cast<uint32_t>(node->whole));
 }
 
-Result<MeshSettings> settingsAt(const toml::table& table, const Place& place)
+Result<MeshSettings> settingsAt(const TomlNode& table, const Place& place)
 {
     MeshSettings settings;
     HEARTH_ASSIGN_OR_RETURN(settings.normal_bits, choiceAt(table, "normal_bits", 8, 16, place));
@@ -179,30 +177,30 @@ Keys withSettings(Keys keys)
     return keys;
 }
 
-Result<MeshRule> meshRuleAt(const toml::node& node, const Place& place)
+Result<MeshRule> meshRuleAt(const TomlNode& node, const Place& place)
 {
-    HEARTH_ASSIGN_OR_RETURN(const toml::table* table,
+    HEARTH_ASSIGN_OR_RETURN(const TomlNode* table,
                             tableAt(node, place, withSettings({"name", "levels", "targets"})));
     MeshRule rule;
     HEARTH_ASSIGN_OR_RETURN(rule.name, patternAt(*table, place));
     HEARTH_ASSIGN_OR_RETURN(rule.settings, settingsAt(*table, place));
-    if (const toml::node* levels = table->get("levels"))
+    if (const TomlNode* levels = table->find("levels"))
     {
         HEARTH_ASSIGN_OR_RETURN(rule.levels, curveAt(*levels, place.at("levels")));
     }
-    if (const toml::node* targets = table->get("targets"))
+    if (const TomlNode* targets = table->find("targets"))
     {
         HEARTH_ASSIGN_OR_RETURN(rule.targets, targetsAt(*targets, place.at("targets")));
     }
     return rule;
 }
 
-Result<MaterialRule> materialRuleAt(const toml::node& node, const Place& place)
+Result<MaterialRule> materialRuleAt(const TomlNode& node, const Place& place)
 {
-    HEARTH_ASSIGN_OR_RETURN(const toml::table* table, tableAt(node, place, {"name", "levels"}));
+    HEARTH_ASSIGN_OR_RETURN(const TomlNode* table, tableAt(node, place, {"name", "levels"}));
     MaterialRule rule;
     HEARTH_ASSIGN_OR_RETURN(rule.name, patternAt(*table, place));
-    const toml::node* levels = table->get("levels");
+    const TomlNode* levels = table->find("levels");
     if (levels == nullptr)
         return place.at("levels").wrong(Issue::profile_value, node, "a rule for materials needs levels");
     HEARTH_ASSIGN_OR_RETURN(rule.levels, curveAt(*levels, place.at("levels")));
@@ -211,35 +209,35 @@ Result<MaterialRule> materialRuleAt(const toml::node& node, const Place& place)
 
 /// One rule for each table of the array `name`, if that is there.
 template <typename Rule>
-Status readRules(const toml::table& table, std::string_view name, const Place& place,
-                 Result<Rule> (*readRule)(const toml::node&, const Place&), std::vector<Rule>& rules)
+Status readRules(const TomlNode& table, std::string_view name, const Place& place,
+                 Result<Rule> (*readRule)(const TomlNode&, const Place&), std::vector<Rule>& rules)
 {
-    const toml::node* node = table.get(name);
+    const TomlNode* node = table.find(name);
     if (node == nullptr)
         return success();
-    HEARTH_ASSIGN_OR_RETURN(const toml::array* array, arrayAt(*node, place.at(name)));
-    for (size_t i = 0; i < array->size(); ++i)
+    HEARTH_ASSIGN_OR_RETURN(const TomlNode* array, arrayAt(*node, place.at(name)));
+    for (size_t i = 0; i < array->children.size(); ++i)
     {
-        HEARTH_ASSIGN_OR_RETURN(Rule rule, readRule(*array->get(i), place.at(name).at(i)));
+        HEARTH_ASSIGN_OR_RETURN(Rule rule, readRule(array->children[i], place.at(name).at(i)));
         rules.push_back(std::move(rule));
     }
     return success();
 }
 
-Result<Profile> profileOf(const toml::table& root, const std::string& path)
+Result<Profile> profileOf(const TomlNode& root, const std::string& path)
 {
     // the other tables are for other cookers, and hearth reads what a profile inherits
     HEARTH_TRY(tableAt(root, {path, ""},
                        {"animation", "bricks", "clusters", "import", "inherits", "textures", "visibility"}));
     Profile profile;
-    const toml::node* node = root.get("clusters");
+    const TomlNode* node = root.find("clusters");
     if (node == nullptr)
         return profile;
     const Place place{path, "clusters"};
-    HEARTH_ASSIGN_OR_RETURN(const toml::table* table,
+    HEARTH_ASSIGN_OR_RETURN(const TomlNode* table,
                             tableAt(*node, place, withSettings({"levels", "mesh", "material"})));
     HEARTH_ASSIGN_OR_RETURN(profile.settings, settingsAt(*table, place));
-    if (const toml::node* levels = table->get("levels"))
+    if (const TomlNode* levels = table->find("levels"))
     {
         HEARTH_ASSIGN_OR_RETURN(profile.levels, curveAt(*levels, place.at("levels")));
     }
@@ -262,15 +260,11 @@ Result<Profile> readProfile(const std::string& path)
 
 Result<Profile> parseProfile(std::string_view text, const std::string& name)
 {
-    try
-    {
-        return profileOf(toml::parse(text), name);
-    }
-    catch (const toml::parse_error& wrong)
-    {
-        return Error{Issue::profile_syntax, name, fmt::format("line {}", wrong.source().begin.line),
-                     std::string(wrong.description())};
-    }
+    tools::TomlFault fault;
+    const std::optional<TomlNode> root = tools::parseToml(text, fault);
+    if (!root)
+        return Error{Issue::profile_syntax, name, fmt::format("line {}", fault.line), fault.text};
+    return profileOf(*root, name);
 }
 
 namespace

@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/clusters/statistics.h"
 
+#include "cook/json/json.h"
 #include "formats/pack_view.h"
 
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 namespace hearth::clusters
 {
 
 using namespace formats;
-using Json = nlohmann::ordered_json;
 
 namespace
 {
@@ -224,7 +223,7 @@ std::string statisticsJson(const std::string& source, std::span<const MeshStatis
     for (const MeshStatistics& mesh : meshes)
         json["meshes"].push_back(meshJson(mesh));
     json["totals"] = totalsJson(meshes);
-    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+    return json.dump(2) + "\n";
 }
 
 } // namespace hearth::clusters

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/skinning/skinning_part.h"
 
+#include "cook/json/json.h"
 #include "cook/skinning/cluster_bounds.h"
 #include "cook/skinning/group_spheres.h"
 #include "cook/skinning/read_clusters.h"
@@ -8,7 +9,6 @@
 #include "formats/pack_check.h"
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
 namespace hearth::skinning
 {
@@ -249,7 +249,7 @@ writeSkinningPart(const PackView& import_part, const PackView& clusters_part, co
 
 std::string statisticsJson(const std::string& source, const std::vector<MeshStatistics>& meshes)
 {
-    nlohmann::ordered_json list = nlohmann::ordered_json::array();
+    Json list = Json::array();
     for (const MeshStatistics& mesh : meshes)
         list.push_back({{"mesh", mesh.mesh},
                         {"name", mesh.name},
@@ -260,9 +260,8 @@ std::string statisticsJson(const std::string& source, const std::vector<MeshStat
                         {"unbounded", mesh.unbounded},
                         {"most_joints", mesh.most_joints},
                         {"box_growth", mesh.box_growth}});
-    const nlohmann::ordered_json document{
-        {"schema", "hearth.skinning/1"}, {"source", source}, {"meshes", list}};
-    return document.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+    const Json document{{"schema", "hearth.skinning/1"}, {"source", source}, {"meshes", list}};
+    return document.dump(2) + "\n";
 }
 
 } // namespace hearth::skinning

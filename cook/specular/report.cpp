@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/specular/report.h"
 
+#include "cook/json/json.h"
 #include "cook/specular/astc.h"
 #include "cook/specular/older_ways.h"
 #include "formats/assert.h"
@@ -12,7 +13,6 @@
 #include <numeric>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 #include <tbb/parallel_for.h>
 
 namespace hearth::specular
@@ -255,9 +255,9 @@ std::string tableText(std::string_view title, const std::vector<ErrorFigures>& l
     return text;
 }
 
-nlohmann::ordered_json tableJson(const std::vector<ErrorFigures>& list)
+Json tableJson(const std::vector<ErrorFigures>& list)
 {
-    nlohmann::ordered_json array = nlohmann::ordered_json::array();
+    Json array = Json::array();
     for (const ErrorFigures& figures : list)
         array.push_back({{"name", figures.name},
                          {"rms", figures.rms},
@@ -298,17 +298,17 @@ std::string comparisonText(const Comparison& comparison)
 
 std::string comparisonJson(const Comparison& comparison, double cook_seconds)
 {
-    const nlohmann::ordered_json document{{"schema", "hearth.specular/1"},
-                                          {"masking", nameOf(comparison.settings.masking)},
-                                          {"normal_lambda", comparison.settings.normal_lambda},
-                                          {"spacing", nameOf(comparison.settings.spacing)},
-                                          {"cook_seconds", cook_seconds},
-                                          {"configurations", comparison.configuration_count},
-                                          {"ways", tableJson(comparison.ways)},
-                                          {"astc", tableJson(comparison.astc)},
-                                          {"interpolation", tableJson(comparison.interpolations)},
-                                          {"nodes_rms", comparison.quadrature_rms},
-                                          {"nodes_max", comparison.quadrature_largest}};
+    const Json document{{"schema", "hearth.specular/1"},
+                        {"masking", nameOf(comparison.settings.masking)},
+                        {"normal_lambda", comparison.settings.normal_lambda},
+                        {"spacing", nameOf(comparison.settings.spacing)},
+                        {"cook_seconds", cook_seconds},
+                        {"configurations", comparison.configuration_count},
+                        {"ways", tableJson(comparison.ways)},
+                        {"astc", tableJson(comparison.astc)},
+                        {"interpolation", tableJson(comparison.interpolations)},
+                        {"nodes_rms", comparison.quadrature_rms},
+                        {"nodes_max", comparison.quadrature_largest}};
     return document.dump(2) + "\n";
 }
 

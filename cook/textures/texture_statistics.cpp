@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/textures/texture_statistics.h"
 
+#include "cook/json/json.h"
 #include "cook/textures/texel_codec.h"
 #include "formats/assert.h"
 #include "formats/pack_view.h"
@@ -8,13 +9,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 namespace hearth::textures
 {
 
 using namespace formats;
-using Json = nlohmann::ordered_json;
 
 namespace
 {
@@ -109,7 +108,7 @@ std::string statisticsJson(const std::string& source, std::span<const ImageStati
     Json json{{"schema", "hearth.textures/1"}, {"source", source}, {"images", Json::array()}};
     for (size_t i = 0; i < images.size(); ++i)
         json["images"].push_back(imageJson(images[i], i));
-    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+    return json.dump(2) + "\n";
 }
 
 } // namespace hearth::textures

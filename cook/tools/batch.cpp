@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/tools/batch.h"
 
+#include "cook/json/json.h"
 #include "formats/program.h"
 
 #include <chrono>
@@ -8,7 +9,6 @@
 #include <cstring>
 #include <fcntl.h>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <sys/resource.h>
@@ -23,7 +23,6 @@ namespace hearth::tools
 namespace
 {
 
-using Json = nlohmann::ordered_json;
 using Program = std::function<int(int, char**)>;
 
 struct CloseFile
@@ -58,7 +57,7 @@ std::optional<std::string> readLine(std::FILE* file)
 /// nullopt where the line is no array of words.
 std::optional<std::vector<std::string>> wordsOf(const std::string& line)
 {
-    const Json json = Json::parse(line, nullptr, false);
+    const Json json = Json::parse(line).value_or(Json());
     if (!json.is_array())
         return std::nullopt;
     std::vector<std::string> words;

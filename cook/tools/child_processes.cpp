@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/tools/child_processes.h"
 
+#include "cook/json/json.h"
 #include "cook/tools/batch.h"
 #include "formats/flush.h"
 
@@ -9,7 +10,6 @@
 #include <cstring>
 #include <fcntl.h>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <poll.h>
 #include <spawn.h>
 #include <sys/resource.h>
@@ -198,7 +198,7 @@ void ChildProcesses::takeReport(Child& child)
 {
     const std::string report = std::move(child.report);
     child.report.clear();
-    const auto json = nlohmann::json::parse(report.substr(1), nullptr, false);
+    const auto json = Json::parse(report.substr(1)).value_or(Json());
     const auto number = [&](const char* name)
     { return json.is_object() && json.contains(name) && json[name].is_number(); };
     if (!number("exit") || !number("seconds") || !number("cpu_seconds") || !number("peak_rss_bytes"))
@@ -209,11 +209,11 @@ void ChildProcesses::takeReport(Child& child)
     ChildEnd end;
     end.id = child.id;
     end.is_alive = true;
-    end.exit_code = json["exit"];
+    end.exit_code = json["exit"].get<int>();
     end.messages = std::move(child.messages);
-    end.seconds = json["seconds"];
-    end.cpu_seconds = json["cpu_seconds"];
-    end.peak_rss_bytes = json["peak_rss_bytes"];
+    end.seconds = json["seconds"].get<double>();
+    end.cpu_seconds = json["cpu_seconds"].get<double>();
+    end.peak_rss_bytes = json["peak_rss_bytes"].get<uint64_t>();
     child.messages.clear();
     ends_.push_back(std::move(end));
 }
@@ -319,11 +319,11 @@ std::optional<ChildEnd> ChildProcesses::wait(const std::function<void()>& waitin
 
 std::optional<std::string> batchLine(std::span<const std::string> arguments)
 {
-    nlohmann::json words = nlohmann::json::array();
+    Json words = Json::array();
     for (const std::string& argument : arguments)
         words.push_back(argument);
-    const std::string line = words.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-    return nlohmann::json::parse(line, nullptr, false) == words ? std::optional(line + "\n") : std::nullopt;
+    const std::string line = words.dump();
+    return Json::parse(line).value_or(Json()) == words ? std::optional(line + "\n") : std::nullopt;
 }
 
 std::string programFolder()

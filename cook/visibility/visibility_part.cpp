@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/visibility/visibility_part.h"
 
+#include "cook/json/json.h"
 #include "cook/mesh/weld.h"
 #include "cook/pages/rewrite.h"
 #include "cook/visibility/sampled_moments.h"
@@ -12,7 +13,6 @@
 #include <bit>
 #include <chrono>
 #include <deque>
-#include <nlohmann/json.hpp>
 #include <numbers>
 
 namespace hearth::visibility
@@ -333,9 +333,9 @@ private:
     uint64_t rays_before_ = 0;
 };
 
-nlohmann::ordered_json jsonOf(const MeshStatistics& mesh)
+Json jsonOf(const MeshStatistics& mesh)
 {
-    nlohmann::ordered_json json{
+    Json json{
         {"mesh", mesh.mesh},
         {"name", mesh.name},
         {"poses", mesh.poses},
@@ -396,11 +396,11 @@ writeVisibilityPart(const PackView& import_part, const PackView& clusters_part,
 std::string statisticsJson(const std::string& source, const BakeSettings& settings,
                            const std::vector<MeshStatistics>& meshes)
 {
-    nlohmann::ordered_json json{{"source", source},
-                                {"rays_per_sample", settings.rays.rays_per_sample},
-                                {"samples_per_vertex", settings.samples_per_vertex},
-                                {"occluders", settings.alone ? "asset" : "scene"},
-                                {"meshes", nlohmann::ordered_json::array()}};
+    Json json{{"source", source},
+              {"rays_per_sample", settings.rays.rays_per_sample},
+              {"samples_per_vertex", settings.samples_per_vertex},
+              {"occluders", settings.alone ? "asset" : "scene"},
+              {"meshes", Json::array()}};
     for (const MeshStatistics& mesh : meshes)
         json["meshes"].push_back(jsonOf(mesh));
     return json.dump(1) + "\n";

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/command/config_schema.h"
 
+#include "cook/json/json.h"
 #include "pipelines/profiles/setting.h"
 
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 namespace hearth::command
 {
@@ -12,7 +12,6 @@ namespace hearth::command
 namespace
 {
 
-using Json = nlohmann::ordered_json;
 using profiles::Kind;
 using profiles::Scope;
 using profiles::Setting;

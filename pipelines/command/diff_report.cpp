@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/json/json.h"
 #include "pipelines/command/pack_diff.h"
 #include "pipelines/command/terminal.h"
 
 #include <algorithm>
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 #include <numeric>
 
 namespace hearth::command
@@ -12,8 +12,6 @@ namespace hearth::command
 
 namespace
 {
-
-using Json = nlohmann::ordered_json;
 
 const char* nameOf(ThingChange::How how)
 {
@@ -128,8 +126,12 @@ std::string pictureText(const PictureFigures& picture)
 {
     if (picture.json.empty())
         return "";
-    const Json figures = Json::parse(picture.json, nullptr, false);
-    const auto number = [&](const char* pointer) { return figures.value(Json::json_pointer(pointer), 0.0); };
+    const Json figures = Json::parse(picture.json).value_or(Json());
+    const auto number = [&](const char* pointer)
+    {
+        const Json* figure = figures.resolve(pointer);
+        return figure == nullptr ? 0.0 : figure->get<double>();
+    };
     return fmt::format(
         "picture  {}: FLIP {:.4f} in the mean, {:.4f} for 99 % of the pixels; RMS {:.2f} of 255; {} "
         "of {} pixels differ\n",
@@ -184,8 +186,8 @@ std::string diffJson(const PackDiff& diff, const std::string& file_a, const std:
             {{"kind", kind.kind}, {"stored_a", kind.a}, {"stored_b", kind.b}, {"same", kind.is_same}});
     if (!picture.json.empty())
         json["picture"] = {{"heat_map", picture.heat_map},
-                           {"figures", Json::parse(picture.json, nullptr, false)}};
-    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+                           {"figures", Json::parse(picture.json).value_or(Json())}};
+    return json.dump(2) + "\n";
 }
 
 } // namespace hearth::command

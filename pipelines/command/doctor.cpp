@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/command/doctor.h"
 
+#include "cook/json/json.h"
 #include "cook/tools/child_processes.h"
 #include "cook/tools/private_folder.h"
 #include "pipelines/cache/folder_level.h"
@@ -14,7 +15,6 @@
 #include <filesystem>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <nlohmann/json.hpp>
 #include <thread>
 #include <unistd.h>
 
@@ -245,7 +245,6 @@ std::string checksText(const std::vector<Check>& checks)
 
 std::string checksJson(const std::vector<Check>& checks)
 {
-    using Json = nlohmann::ordered_json;
     Json json{{"schema", "hearth.doctor/1"}, {"ok", isWell(checks)}, {"checks", Json::array()}};
     for (const Check& check : checks)
     {
@@ -254,7 +253,7 @@ std::string checksJson(const std::vector<Check>& checks)
         if (!check.remedy.empty())
             json["checks"].back()["remedy"] = check.remedy;
     }
-    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+    return json.dump(2) + "\n";
 }
 
 } // namespace hearth::command

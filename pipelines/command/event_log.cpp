@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/command/event_log.h"
 
+#include "cook/json/json.h"
+
 #include <cerrno>
 #include <cstring>
-#include <nlohmann/json.hpp>
 
 namespace hearth::command
 {
-
-using Json = nlohmann::ordered_json;
 
 namespace
 {
@@ -18,7 +17,7 @@ constexpr const char* kSchema = "hearth.events/1";
 /// On one line.
 std::string lineOf(const Json& json)
 {
-    return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+    return json.dump();
 }
 
 const char* stateOf(graph::Ending ending)

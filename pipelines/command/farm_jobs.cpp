@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/command/farm_jobs.h"
 
+#include "cook/json/json.h"
 #include "cook/tools/private_folder.h"
 #include "cook/tools/whole_file.h"
 #include "pipelines/command/cook_memory.h"
@@ -10,7 +11,6 @@
 #include <algorithm>
 #include <array>
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -21,7 +21,6 @@ namespace hearth::command
 namespace
 {
 
-using Json = nlohmann::ordered_json;
 using Kind = farm::ShardState::Kind;
 
 constexpr int kNotAll = 1;
@@ -100,7 +99,7 @@ std::string statusJson(const farm::Plan& plan, const std::vector<farm::ShardStat
                           {"errors", record.errors}});
         json["shards"].push_back(entry);
     }
-    return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+    return json.dump(1) + "\n";
 }
 
 } // namespace

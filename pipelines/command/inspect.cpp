@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/command/inspect.h"
 
+#include "cook/json/json.h"
+
 #include <algorithm>
-#include <nlohmann/json.hpp>
 #include <set>
 
 namespace hearth::command
 {
 
 using namespace formats;
-using Json = nlohmann::json;
 
 namespace
 {
@@ -115,28 +115,28 @@ uint64_t countInstancedTriangles(const PackView& pack, std::span<const MeshSumma
 
 std::string stringOf(const Json& object, const char* key)
 {
-    const auto found = object.find(key);
-    return found != object.end() && found->is_string() ? found->get<std::string>() : std::string();
+    const Json* found = object.find(key);
+    return found != nullptr && found->is_string() ? found->get<std::string>() : std::string();
 }
 
 uint64_t countOf(const Json& object, const char* key)
 {
-    const auto found = object.find(key);
-    return found != object.end() && found->is_number_unsigned() ? found->get<uint64_t>() : 0;
+    const Json* found = object.find(key);
+    return found != nullptr && found->is_number_unsigned() ? found->get<uint64_t>() : 0;
 }
 
 double numberOf(const Json& object, const char* key)
 {
-    const auto found = object.find(key);
-    return found != object.end() && found->is_number() ? found->get<double>() : 0;
+    const Json* found = object.find(key);
+    return found != nullptr && found->is_number() ? found->get<double>() : 0;
 }
 
 /// The members of an array that are objects.
 std::vector<Json> objectsOf(const Json& object, const char* key)
 {
     std::vector<Json> objects;
-    const auto found = object.find(key);
-    if (found != object.end() && found->is_array())
+    const Json* found = object.find(key);
+    if (found != nullptr && found->is_array())
         for (const Json& item : *found)
             if (item.is_object())
                 objects.push_back(item);
@@ -148,15 +148,15 @@ std::vector<Json> objectsOf(const Json& object, const char* key)
 MetaSummary readMeta(std::string_view json)
 {
     MetaSummary meta;
-    const Json root = Json::parse(json, nullptr, false);
+    const Json root = Json::parse(json).value_or(Json());
     if (!root.is_object())
         return meta;
-    if (const auto tool = root.find("tool"); tool != root.end() && tool->is_object())
+    if (const Json* tool = root.find("tool"); tool != nullptr && tool->is_object())
         meta.tool_version = stringOf(*tool, "version");
     for (const Json& source : objectsOf(root, "sources"))
         meta.sources.push_back(
             {stringOf(source, "name"), countOf(source, "bytes"), stringOf(source, "xxh3")});
-    if (const auto counts = root.find("counts"); counts != root.end() && counts->is_object())
+    if (const Json* counts = root.find("counts"); counts != nullptr && counts->is_object())
         for (const auto& [key, value] : counts->items())
             if (value.is_number_unsigned())
                 meta.counts[key] = value.get<uint64_t>();
@@ -167,7 +167,7 @@ MetaSummary readMeta(std::string_view json)
     for (const Json& message : objectsOf(root, "messages"))
         meta.messages.push_back({stringOf(message, "source"), stringOf(message, "code"),
                                  stringOf(message, "pointer"), stringOf(message, "text")});
-    if (const auto dropped = root.find("dropped"); dropped != root.end() && dropped->is_array())
+    if (const Json* dropped = root.find("dropped"); dropped != nullptr && dropped->is_array())
         for (const Json& item : *dropped)
             if (item.is_string())
                 meta.dropped.push_back(item.get<std::string>());

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/command/inspect_bounds.h"
 
+#include "cook/json/json.h"
 #include "formats/cluster_bounds.h"
 #include "pipelines/command/extract.h"
 #include "pipelines/command/open_pack.h"
@@ -8,13 +9,11 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <nlohmann/json.hpp>
 
 namespace hearth::command
 {
 
 using namespace formats;
-using Json = nlohmann::ordered_json;
 
 namespace
 {

@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/json/json.h"
 #include "pipelines/command/inspect.h"
 
 #include "formats/texel_format_name.h"
-
-#include <nlohmann/json.hpp>
 
 namespace hearth::command
 {
 
 using namespace formats;
-using Json = nlohmann::ordered_json;
 
 namespace
 {
@@ -285,7 +283,7 @@ std::string inspectJson(const PackView& pack, const PackSummary& summary)
                                     {"pointer", message.where},
                                     {"text", message.text}});
     json["dropped"] = summary.meta.dropped;
-    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+    return json.dump(2) + "\n";
 }
 
 } // namespace hearth::command

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/command/list_settings.h"
 
+#include "cook/json/json.h"
+
 #include <algorithm>
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 namespace hearth::command
 {
@@ -78,7 +79,6 @@ std::string settingsText(const Configuration& configuration, const std::string& 
 
 std::string settingsJson(const Configuration& configuration, const std::string& source)
 {
-    using Json = nlohmann::ordered_json;
     Json json{{"schema", kSchema}, {"files", Json::array()}, {"profile", nullptr}};
     for (const profiles::ConfigFile& file : configuration.files())
         json["files"].push_back(file.path);
@@ -90,13 +90,13 @@ std::string settingsJson(const Configuration& configuration, const std::string& 
     for (const Row& row : rowsOf(configuration, source))
     {
         Json entry{{"key", row.setting->key}};
-        entry["value"] = row.value ? Json::parse(profiles::jsonOf(*row.value), nullptr, false) : Json();
+        entry["value"] = row.value ? profiles::jsonOf(*row.value) : Json();
         if (!row.value && !row.setting->otherwise.empty())
             entry["default"] = row.setting->otherwise;
         entry["origin"] = row.value ? row.value->origin : std::string(kBuiltIn);
         json["settings"].push_back(std::move(entry));
     }
-    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+    return json.dump(2) + "\n";
 }
 
 } // namespace hearth::command

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/command/messages.h"
 
+#include "cook/json/json.h"
 #include "pipelines/command/progress.h"
 #include "pipelines/command/terminal.h"
 
 #include <cstdio>
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 namespace hearth::command
 {
@@ -41,13 +41,13 @@ bool isCode(std::string_view text)
 
 std::string jsonOf(const MessageParts& parts)
 {
-    nlohmann::ordered_json json{{"severity", parts.severity}};
+    Json json{{"severity", parts.severity}};
     for (const auto& [name, text] :
          {std::pair("code", &parts.code), std::pair("file", &parts.file), std::pair("where", &parts.where),
           std::pair("text", &parts.text), std::pair("hint", &parts.hint)})
         if (!text->empty())
             json[name] = *text;
-    return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+    return json.dump();
 }
 
 std::string colored(const std::string& line)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/command/pack_things.h"
 
+#include "cook/json/json.h"
 #include "cook/tools/sha256.h"
 #include "formats/channel_keys.h"
 #include "formats/image_uses.h"
@@ -9,7 +10,6 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <nlohmann/json.hpp>
 #include <set>
 
 namespace hearth::command
@@ -352,6 +352,18 @@ void addMeta(std::vector<Thing>& things, const MetaSummary& meta)
         things.push_back({"dropped", dropped, {}});
 }
 
+/// A fact for each value that has none below it, with the JSON pointer to it.
+void addSettings(std::vector<Fact>& settings, const Json& json, const std::string& pointer)
+{
+    if (json.empty())
+        settings.push_back({pointer, json.is_array() || json.is_object() ? "null" : json.dump()});
+    for (size_t i = 0; json.is_array() && i < json.size(); ++i)
+        addSettings(settings, json[i], pointer + "/" + std::to_string(i));
+    if (json.is_object())
+        for (const auto& [key, value] : json.items())
+            addSettings(settings, value, pointer + pointerStep(key));
+}
+
 } // namespace
 
 Result<std::vector<Thing>> thingsOf(const PackView& pack)
@@ -385,16 +397,15 @@ Result<std::vector<Thing>> thingsOf(const PackView& pack)
 
 std::vector<Fact> settingsOf(const PackView& pack)
 {
-    nlohmann::json meta = nlohmann::json::parse(pack.meta(), nullptr, false);
+    Json meta = Json::parse(pack.meta()).value_or(Json());
     if (!meta.is_object())
         return {};
     // things of their own
     for (const char* list : {"sources", "messages", "dropped"})
         meta.erase(list);
-    const nlohmann::json flat = meta.flatten();
     std::vector<Fact> settings;
-    for (const auto& [pointer, value] : flat.items())
-        settings.push_back({pointer, value.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)});
+    addSettings(settings, meta, "");
+    std::sort(settings.begin(), settings.end(), [](const Fact& a, const Fact& b) { return a.what < b.what; });
     return settings;
 }
 

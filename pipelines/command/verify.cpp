@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/command/verify.h"
 
+#include "cook/json/json.h"
 #include "formats/pack_check.h"
 #include "pipelines/command/open_pack.h"
 #include "pipelines/command/terminal.h"
 #include "pipelines/verify/verify_pack.h"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 namespace hearth::command
 {
@@ -53,7 +53,7 @@ Result<std::string> verifyFile(const std::string& path)
 
 std::string verifyJson(const std::string& path, const Result<std::string>& result)
 {
-    nlohmann::ordered_json json{{"schema", "hearth.verify/1"}, {"file", path}, {"ok", result.ok()}};
+    Json json{{"schema", "hearth.verify/1"}, {"file", path}, {"ok", result.ok()}};
     if (!result.ok())
     {
         const Error& error = result.error();
@@ -61,7 +61,7 @@ std::string verifyJson(const std::string& path, const Result<std::string>& resul
                          {"where", error.where},
                          {"text", formatMessage(error)}};
     }
-    return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+    return json.dump(2) + "\n";
 }
 
 } // namespace hearth::command

@@ -1,18 +1,16 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/farm/measured.h"
 
+#include "cook/json/json.h"
 #include "pipelines/farm/plan.h"
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
 namespace hearth::farm
 {
 
 namespace
 {
-
-using Json = nlohmann::json;
 
 // What a cooker takes changes with its release and with the content of its source: as much as the estimates of sizes allow for.
 constexpr double kMemoryMargin = 4.0 / 3;
@@ -49,7 +47,7 @@ bool addStages(const Json& report, Measured& measured)
 
 Result<Measured> measuredOf(std::string_view report, const std::string& file)
 {
-    const Json json = Json::parse(report, nullptr, false);
+    const Json json = Json::parse(report).value_or(Json());
     if (!json.is_object() || json.value("schema", Json()) != "hearth.report/1")
         return Error{Issue::json_syntax, file, "", "is no report that hearth cook --report wrote as JSON"};
     Measured measured;
@@ -58,7 +56,7 @@ Result<Measured> measuredOf(std::string_view report, const std::string& file)
         if (!addStages(json, measured))
             return Error{Issue::json_syntax, file, "", "has a time or memory that no machine has"};
     }
-    catch (const Json::exception& wrong)
+    catch (const JsonError& wrong)
     {
         return Error{Issue::json_syntax, file, "",
                      std::string("is no report of hearth cook: ") + wrong.what()};

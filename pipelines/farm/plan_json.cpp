@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/graph/plan_json.h"
+#include "cook/json/json.h"
 #include "cook/tools/sha256.h"
 #include "pipelines/farm/plan.h"
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 #include <set>
 
 namespace hearth::farm
@@ -12,8 +12,6 @@ namespace hearth::farm
 
 namespace
 {
-
-using Json = nlohmann::ordered_json;
 
 Json foundJson(const Plan& plan)
 {
@@ -123,20 +121,60 @@ bool areShards(const Shards& shards, size_t source_count)
     return sources.size() == source_count && !shards.empty() && shards.size() <= kMaxShards;
 }
 
-/// The first place where two documents differ, whatever the order of members; nullopt where they are the same.
-std::optional<std::string> firstDifference(const std::string& a, std::string_view b)
+std::map<std::string_view, const Json*> membersByKey(const Json& object)
 {
-    const nlohmann::json difference =
-        nlohmann::json::diff(nlohmann::json::parse(a), nlohmann::json::parse(b));
-    return difference.empty() ? std::nullopt
-                              : std::optional(difference.front().at("path").get<std::string>());
+    std::map<std::string_view, const Json*> members;
+    for (const auto& [key, value] : object.items())
+        members[key] = &value;
+    return members;
+}
+
+std::optional<std::string> firstDifference(const Json& a, const Json& b, const std::string& place);
+
+std::optional<std::string> firstDifferenceOfArrays(const Json& a, const Json& b, const std::string& place)
+{
+    for (size_t i = 0; i < std::min(a.size(), b.size()); ++i)
+        if (auto difference = firstDifference(a[i], b[i], place + "/" + std::to_string(i)))
+            return difference;
+    if (a.size() == b.size())
+        return std::nullopt;
+    // "-" is the element behind the last one
+    return place + "/" + (a.size() < b.size() ? "-" : std::to_string(a.size() - 1));
+}
+
+std::optional<std::string> firstDifferenceOfObjects(const Json& a, const Json& b, const std::string& place)
+{
+    const auto members_of_a = membersByKey(a), members_of_b = membersByKey(b);
+    for (const auto& [key, value] : members_of_a)
+    {
+        const auto other = members_of_b.find(key);
+        if (other == members_of_b.end())
+            return place + pointerStep(key);
+        if (auto difference = firstDifference(*value, *other->second, place + pointerStep(key)))
+            return difference;
+    }
+    for (const auto& [key, value] : members_of_b)
+        if (!members_of_a.contains(key))
+            return place + pointerStep(key);
+    return std::nullopt;
+}
+
+/// The first place where two documents differ, as a JSON pointer, whatever the order of members; nullopt where they are
+/// the same.
+std::optional<std::string> firstDifference(const Json& a, const Json& b, const std::string& place)
+{
+    if (a.is_array() && b.is_array())
+        return firstDifferenceOfArrays(a, b, place);
+    if (a.is_object() && b.is_object())
+        return firstDifferenceOfObjects(a, b, place);
+    return a == b ? std::nullopt : std::optional(place);
 }
 
 } // namespace
 
 std::string planText(const Plan& plan)
 {
-    Json json = Json::parse(graph::planJson(plan.graph));
+    Json json = Json::parse(graph::planJson(plan.graph)).value();
     json["cook"] = {{"sources", plan.request.sources},
                     {"lods", plan.request.lods},
                     {"settings", plan.request.settings_of_source},
@@ -148,7 +186,7 @@ std::string planText(const Plan& plan)
     json["files"] = plan.hash_of_file;
     json["found"] = foundJson(plan);
     json["shards"] = plan.shards;
-    return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+    return json.dump(1) + "\n";
 }
 
 Result<Plan> parsePlan(std::string_view text, const std::string& file)
@@ -159,9 +197,10 @@ Result<Plan> parsePlan(std::string_view text, const std::string& file)
     // text would end there for whoever is handed it
     if (text.find("\\u0000") != std::string_view::npos)
         return wrong("", "has a text with a zero in it");
-    const Json json = Json::parse(text, nullptr, false);
-    if (json.is_discarded())
+    const std::optional<Json> parsed = Json::parse(text);
+    if (!parsed)
         return Error{Issue::json_syntax, file, "", ""};
+    const Json& json = *parsed;
     if (json.is_object() && json.contains("actions") && !json.contains("shards"))
         return wrong("", "has no shards: it shows a cook, and is none to be run");
     Plan plan;
@@ -170,7 +209,7 @@ Result<Plan> parsePlan(std::string_view text, const std::string& file)
     {
         readMembers(json, plan);
     }
-    catch (const Json::exception&)
+    catch (const JsonError&)
     {
         return wrong("", "a member is missing, or of another type");
     }
@@ -186,7 +225,7 @@ Result<Plan> parsePlan(std::string_view text, const std::string& file)
     {
         readEstimates(json.at("actions"), plan.graph);
     }
-    catch (const Json::exception&)
+    catch (const JsonError&)
     {
         return wrong("/actions", "are not those that the cook would have");
     }
@@ -195,7 +234,7 @@ Result<Plan> parsePlan(std::string_view text, const std::string& file)
     if (!areShards(plan.shards, plan.graph.source_count))
         return wrong("/shards", "do not have each source once");
     // what has been understood is all that it says
-    if (const auto place = firstDifference(planText(plan), text))
+    if (const auto place = firstDifference(Json::parse(planText(plan)).value(), json, ""))
         return wrong(*place,
                      "is not what the cook would have there: it was edited, or made by another version");
     return plan;

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/farm/shard_record.h"
 
+#include "cook/json/json.h"
 #include "cook/tools/sha256.h"
 
 #include <algorithm>
 #include <array>
 #include <charconv>
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 #include <unistd.h>
 
 namespace hearth::farm
@@ -15,8 +15,6 @@ namespace hearth::farm
 
 namespace
 {
-
-using Json = nlohmann::ordered_json;
 
 constexpr const char* kSchema = "hearth.shard/1";
 constexpr std::array<std::string_view, 5> kEndings{"unknown", "cooked", "kept", "failed", "left out"};
@@ -177,7 +175,7 @@ std::string recordJson(const ShardRecord& record, const Plan& plan, size_t shard
                                    {"peak_rss", said.result.peak_rss_bytes},
                                    {"outputs", outputs}});
     }
-    return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+    return json.dump(1) + "\n";
 }
 
 ShardState stateOf(const Plan& plan, const std::string& plan_hash, size_t shard, cache::Cache& cache,

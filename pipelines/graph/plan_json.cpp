@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/graph/plan_json.h"
 
-#include <nlohmann/json.hpp>
+#include "cook/json/json.h"
 
 namespace hearth::graph
 {
-
-using Json = nlohmann::ordered_json;
 
 namespace
 {
@@ -100,14 +98,15 @@ std::string planJson(const Graph& graph)
     Json json{{"schema", kSchema}, {"sources", graph.source_count}, {"actions", Json::array()}};
     for (const Action& action : graph.actions)
         json["actions"].push_back(actionJson(action));
-    return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+    return json.dump(1) + "\n";
 }
 
 Result<Graph> parsePlan(std::string_view text, const std::string& file)
 {
-    const Json json = Json::parse(text, nullptr, false);
-    if (json.is_discarded())
+    const std::optional<Json> parsed = Json::parse(text);
+    if (!parsed)
         return Error{Issue::json_syntax, file, "", ""};
+    const Json& json = *parsed;
     const Error no_plan{Issue::internal, file, "", "is not a plan of this version"};
     // the reader throws where a member is missing or of another type
     try
@@ -120,7 +119,7 @@ Result<Graph> parsePlan(std::string_view text, const std::string& file)
             graph.actions.push_back(actionOf(action));
         return holdsTogether(graph) ? Result<Graph>(std::move(graph)) : no_plan;
     }
-    catch (const Json::exception&)
+    catch (const JsonError&)
     {
         return no_plan;
     }

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/import/json_document.h"
 
-#include <nlohmann/json.hpp>
+#include "cook/json/json.h"
+#include "cook/json/json_events.h"
 
 #include <algorithm>
 
@@ -21,7 +22,7 @@ constexpr size_t kMaxTextBytes = size_t{1} << 30;
 } // namespace
 
 /// Receives the parser's events and grows the document.
-class JsonBuilder
+class JsonBuilder final : public JsonEvents
 {
 public:
     JsonBuilder(JsonDocument& document, std::string_view source, const std::string& file)
@@ -31,39 +32,43 @@ public:
 
     const std::optional<Error>& error() const { return error_; }
 
-    bool null() { return add(JsonType::null); }
-    bool boolean(bool value)
+    bool null() override { return add(JsonType::null); }
+    bool boolean(bool value) override
     {
         return add(JsonType::boolean, [&](JsonDocument::Value& v) { v.boolean = value; });
     }
-    bool number_integer(int64_t value) { return addNumber(static_cast<double>(value)); }
-    bool number_unsigned(uint64_t value) { return addNumber(static_cast<double>(value)); }
-    bool number_float(double value, const std::string&) { return addNumber(value); }
-    bool string(std::string& value)
+    bool integer(int64_t value) override { return number(static_cast<double>(value)); }
+    bool unsignedInteger(uint64_t value) override { return number(static_cast<double>(value)); }
+    bool number(double value) override
+    {
+        return add(JsonType::number, [&](JsonDocument::Value& v) { v.number = value; });
+    }
+    bool string(std::string& value) override
     {
         const JsonDocument::Text stored = store(value);
         return add(JsonType::string, [&](JsonDocument::Value& v) { v.content = stored; });
     }
-    bool binary(nlohmann::json::binary_t&) { return false; }
-    bool start_object(size_t) { return open(JsonType::object); }
-    bool start_array(size_t) { return open(JsonType::array); }
-    bool end_object() { return close(); }
-    bool end_array() { return close(); }
-    bool key(std::string& name)
+    bool beginObject() override { return open(JsonType::object); }
+    bool beginArray() override { return open(JsonType::array); }
+    bool endObject() override { return close(); }
+    bool endArray() override { return close(); }
+    bool key(std::string& name) override
     {
         key_ = store(name);
         return true;
     }
-    bool parse_error(size_t position, const std::string&, const nlohmann::json::exception&)
+
+    /// position  bytes that had been read when the text turned out to be no JSON
+    Error syntaxError(size_t position) const
     {
         const size_t at = std::min(position, source_.size());
         const std::string_view before = source_.substr(0, at == 0 ? 0 : at - 1);
         const auto line = std::count(before.begin(), before.end(), '\n') + 1;
         const size_t line_start = before.rfind('\n') + 1; // npos + 1 is 0
         const bool ended = position >= source_.size();
-        return fail(Issue::json_syntax, "line " + std::to_string(line),
-                    ended ? "the JSON text ends too early"
-                          : "not JSON at column " + std::to_string(before.size() - line_start + 1));
+        return {Issue::json_syntax, file_, "line " + std::to_string(line),
+                ended ? "the JSON text ends too early"
+                      : "not JSON at column " + std::to_string(before.size() - line_start + 1)};
     }
 
 private:
@@ -84,11 +89,6 @@ private:
         const auto offset = static_cast<uint32_t>(document_.text_.size());
         document_.text_ += text;
         return {offset, static_cast<uint32_t>(text.size())};
-    }
-
-    bool addNumber(double value)
-    {
-        return add(JsonType::number, [&](JsonDocument::Value& v) { v.number = value; });
     }
 
     bool add(JsonType type)
@@ -155,8 +155,10 @@ Result<JsonDocument> JsonDocument::parse(std::string_view text, const std::strin
         return Error{Issue::json_syntax, file, "", "the JSON text starts with a byte-order mark"};
     JsonDocument document;
     JsonBuilder builder(document, text, file);
-    if (!nlohmann::json::sax_parse(text.begin(), text.end(), &builder))
-        return builder.error().value_or(Error{Issue::json_syntax, file, "", ""});
+    if (const std::optional<size_t> fault = parseJson(text, builder))
+        return builder.syntaxError(*fault);
+    if (builder.error())
+        return *builder.error();
     return document;
 }
 
@@ -235,35 +237,13 @@ std::string Json::pointer() const
     for (uint32_t at = value_; at != 0;)
     {
         const Json parent{*document_, document_->values_[at].parent};
-        std::string step;
-        if (parent.isArray())
-        {
-            size_t i = 0;
-            while (parent[i].value_ != at)
-                ++i;
-            step = std::to_string(i);
-        }
-        else
-        {
-            for (const char c : Json{*document_, at}.key())
-            {
-                if (c == '~')
-                    step.append("~0");
-                else if (c == '/')
-                    step.append("~1");
-                else
-                    step.push_back(c);
-            }
-        }
-        path.insert(0, "/" + step);
+        size_t i = 0;
+        while (parent[i].value_ != at)
+            ++i;
+        path.insert(0, parent.isArray() ? "/" + std::to_string(i) : pointerStep(parent[i].key()));
         at = parent.value_;
     }
     return path;
-}
-
-std::string quoteJson(std::string_view text)
-{
-    return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
 } // namespace hearth::import

@@ -97,7 +97,4 @@ private:
     std::string text_;               ///< all keys and strings
 };
 
-/// `text` as a JSON string with its quotes; bytes that are not UTF-8 become U+FFFD.
-std::string quoteJson(std::string_view text);
-
 } // namespace hearth::import

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/import/part_builder.h"
 
+#include "cook/json/json.h"
 #include "formats/container_reader.h"
-#include "pipelines/import/json_document.h"
 
 #include <fmt/format.h>
 

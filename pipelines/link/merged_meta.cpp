@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/link/merged_meta.h"
 
-#include <nlohmann/json.hpp>
+#include "cook/json/json.h"
 
 namespace hearth::link
 {
-
-using Json = nlohmann::ordered_json;
 
 namespace
 {
@@ -14,8 +12,8 @@ namespace
 const Json& memberOf(const Json& object, const char* key)
 {
     static const Json nothing;
-    const auto found = object.find(key);
-    return found == object.end() ? nothing : *found;
+    const Json* found = object.find(key);
+    return found == nullptr ? nothing : *found;
 }
 
 /// The name of the asset itself: import lists it first.
@@ -30,7 +28,8 @@ Json assetName(const Json& import_meta)
 void appendAll(Json& list, const Json& items)
 {
     if (items.is_array())
-        list.insert(list.end(), items.begin(), items.end());
+        for (const Json& item : items)
+            list.push_back(item);
 }
 
 void appendMessages(Json& list, const Json& messages, const Json& asset)
@@ -92,7 +91,7 @@ Result<std::string> mergedMeta(std::span<const PartMetas> sources, const std::st
         {
             if (text.empty())
                 continue;
-            const Json meta = Json::parse(text, nullptr, false);
+            const Json meta = Json::parse(text).value_or(Json());
             if (!meta.is_object())
                 return Error{Issue::meaning_value, name, "chunk META 0", "is not a JSON object"};
             if (text.data() == source.import_meta.data())
@@ -105,7 +104,7 @@ Result<std::string> mergedMeta(std::span<const PartMetas> sources, const std::st
             addPart(merged, meta, asset);
         }
     }
-    return merged.dump(1, '\t', false, Json::error_handler_t::replace);
+    return merged.dump(1, '\t');
 }
 
 } // namespace hearth::link

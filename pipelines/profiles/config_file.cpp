@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <fmt/format.h>
-#include <toml++/toml.h>
 
 namespace hearth::profiles
 {
@@ -13,39 +12,39 @@ namespace hearth::profiles
 namespace
 {
 
-Value placed(std::string text, const toml::node& node, const Place& place, const std::string& of)
+using tools::TomlNode;
+
+Value placed(std::string text, const TomlNode& node, const Place& place, const std::string& of)
 {
-    return {std::move(text), fmt::format("{}:{}{}", place.file, node.source().begin.line, of)};
+    return {std::move(text), fmt::format("{}:{}{}", place.file, node.line, of)};
 }
 
 /// Settings of `known` whose keys start with `prefix` ("clusters."), from a table.
-Status readGroup(const toml::node& node, const Place& place, std::span<const Setting> known,
+Status readGroup(const TomlNode& node, const Place& place, std::span<const Setting> known,
                  const std::string& prefix, const std::string& of, Values& values)
 {
-    const toml::table* table = node.as_table();
-    if (table == nullptr)
+    if (!node.isTable())
         return place.wrong(Issue::profile_value, node, "must be a table");
     Keys keys;
     for (const Setting& setting : known)
         if (setting.key.starts_with(prefix))
             keys.push_back(setting.key.substr(prefix.size()));
-    for (const auto& [key, value] : *table)
+    for (const TomlNode& member : node.children)
     {
-        const Setting* setting = findSetting(known, prefix + std::string(key.str()));
+        const Setting* setting = findSetting(known, prefix + member.key);
         if (setting == nullptr)
-            return unknownKey(place, value, key.str(), keys);
-        HEARTH_ASSIGN_OR_RETURN(std::string text, checkedTextOf(value, *setting, place.at(key.str())));
-        values[setting->key] = placed(std::move(text), value, place, of);
+            return unknownKey(place, member, member.key, keys);
+        HEARTH_ASSIGN_OR_RETURN(std::string text, checkedTextOf(member, *setting, place.at(member.key)));
+        values[setting->key] = placed(std::move(text), member, place, of);
     }
     return success();
 }
 
-Result<std::string> nameAt(const toml::node& node, const Place& place)
+Result<std::string> nameAt(const TomlNode& node, const Place& place)
 {
-    const auto* text = node.as_string();
-    if (text == nullptr || text->get().empty())
+    if (!node.isText() || node.text.empty())
         return place.wrong(Issue::profile_value, node, "must be a text that is not empty");
-    return text->get();
+    return node.text;
 }
 
 /// The groups of profileSettings() that a table may have; a rule has those of sources only.
@@ -64,7 +63,7 @@ bool isIn(const Keys& keys, std::string_view key)
     return std::find(keys.begin(), keys.end(), key) != keys.end();
 }
 
-Result<Profile> readProfile(const toml::table& table, const std::string& name, const Place& place,
+Result<Profile> readProfile(const TomlNode& table, const std::string& name, const Place& place,
                             const std::string& of)
 {
     Profile profile;
@@ -72,30 +71,28 @@ Result<Profile> readProfile(const toml::table& table, const std::string& name, c
     const Keys groups = groupsOf(false);
     Keys known = groups;
     known.emplace_back("inherits");
-    for (const auto& [key, node] : table)
+    for (const TomlNode& member : table.children)
     {
-        const Place at = place.at(key.str());
-        if (key.str() == "inherits")
+        const Place at = place.at(member.key);
+        if (member.key == "inherits")
         {
-            HEARTH_ASSIGN_OR_RETURN(profile.inherits, nameAt(node, at));
-            profile.place = at.of(node);
+            HEARTH_ASSIGN_OR_RETURN(profile.inherits, nameAt(member, at));
+            profile.place = at.of(member);
         }
-        else if (!isIn(groups, key.str()))
-            return unknownKey(place, node, key.str(), known);
+        else if (!isIn(groups, member.key))
+            return unknownKey(place, member, member.key, known);
         else
-            HEARTH_TRY(
-                readGroup(node, at, profileSettings(), std::string(key.str()) + ".", of, profile.values));
+            HEARTH_TRY(readGroup(member, at, profileSettings(), member.key + ".", of, profile.values));
     }
     return profile;
 }
 
-Result<Rule> readRule(const toml::node& node, const Place& place)
+Result<Rule> readRule(const TomlNode& node, const Place& place)
 {
-    const toml::table* table = node.as_table();
-    if (table == nullptr)
+    if (!node.isTable())
         return place.wrong(Issue::profile_value, node, "must be a table");
     Rule rule;
-    const toml::node* match = table->get("match");
+    const TomlNode* match = node.find("match");
     if (match == nullptr)
         return place.at("match").wrong(Issue::profile_value, node,
                                        "is missing: say which sources, as match = \"props/**/*.glb\"");
@@ -103,58 +100,54 @@ Result<Rule> readRule(const toml::node& node, const Place& place)
     const Keys groups = groupsOf(true);
     Keys known = groups;
     known.insert(known.end(), {"match", "in_profile"});
-    for (const auto& [key, value] : *table)
+    for (const TomlNode& member : node.children)
     {
-        const Place at = place.at(key.str());
-        if (key.str() == "in_profile")
+        const Place at = place.at(member.key);
+        if (member.key == "in_profile")
         {
-            HEARTH_ASSIGN_OR_RETURN(rule.in_profile, nameAt(value, at));
+            HEARTH_ASSIGN_OR_RETURN(rule.in_profile, nameAt(member, at));
         }
-        else if (isIn(groups, key.str()))
-            HEARTH_TRY(readGroup(value, at, profileSettings(), std::string(key.str()) + ".",
+        else if (isIn(groups, member.key))
+            HEARTH_TRY(readGroup(member, at, profileSettings(), member.key + ".",
                                  fmt::format(" (rule {})", rule.match), rule.values));
-        else if (isIn(groupsOf(false), key.str()))
-            return at.wrong(Issue::profile_key, value,
+        else if (isIn(groupsOf(false), member.key))
+            return at.wrong(Issue::profile_key, member,
                             "is of all sources together: set it in a profile, not in a rule");
-        else if (key.str() != "match")
-            return unknownKey(place, value, key.str(), known);
+        else if (member.key != "match")
+            return unknownKey(place, member, member.key, known);
     }
     return rule;
 }
 
-Status readProfiles(const toml::node& node, const Place& place, ConfigFile& file)
+Status readProfiles(const TomlNode& node, const Place& place, ConfigFile& file)
 {
-    const toml::table* table = node.as_table();
-    if (table == nullptr)
+    if (!node.isTable())
         return place.wrong(Issue::profile_value, node, "must be a table: [profile.NAME]");
-    for (const auto& [key, value] : *table)
+    for (const TomlNode& member : node.children)
     {
-        const Place at = place.at(key.str());
-        const toml::table* body = value.as_table();
-        if (body == nullptr)
-            return at.wrong(Issue::profile_value, value, "must be a table: [profile.NAME]");
-        const std::string name(key.str());
-        HEARTH_ASSIGN_OR_RETURN(Profile profile,
-                                readProfile(*body, name, at, fmt::format(" (profile {})", name)));
+        const Place at = place.at(member.key);
+        if (!member.isTable())
+            return at.wrong(Issue::profile_value, member, "must be a table: [profile.NAME]");
+        HEARTH_ASSIGN_OR_RETURN(
+            Profile profile, readProfile(member, member.key, at, fmt::format(" (profile {})", member.key)));
         file.profiles.push_back(std::move(profile));
     }
     return success();
 }
 
-Status readRules(const toml::node& node, const Place& place, ConfigFile& file)
+Status readRules(const TomlNode& node, const Place& place, ConfigFile& file)
 {
-    const toml::array* array = node.as_array();
-    if (array == nullptr)
+    if (!node.isArray())
         return place.wrong(Issue::profile_value, node, "must be an array of tables: [[rule]]");
-    for (size_t i = 0; i < array->size(); ++i)
+    for (size_t i = 0; i < node.children.size(); ++i)
     {
-        HEARTH_ASSIGN_OR_RETURN(Rule rule, readRule(*array->get(i), place.at(i)));
+        HEARTH_ASSIGN_OR_RETURN(Rule rule, readRule(node.children[i], place.at(i)));
         file.rules.push_back(std::move(rule));
     }
     return success();
 }
 
-Result<ConfigFile> configOf(const toml::table& root, const std::string& path, bool has_rules)
+Result<ConfigFile> configOf(const TomlNode& root, const std::string& path, bool has_rules)
 {
     ConfigFile file;
     file.path = path;
@@ -162,53 +155,47 @@ Result<ConfigFile> configOf(const toml::table& root, const std::string& path, bo
     Keys known{"defaults", "profile"};
     if (has_rules)
         known.emplace_back("rule");
-    for (const auto& [key, node] : root)
+    for (const TomlNode& node : root.children)
     {
-        const Place at = place.at(key.str());
-        if (key.str() == "defaults")
+        const Place at = place.at(node.key);
+        if (node.key == "defaults")
             HEARTH_TRY(readGroup(node, at, commandSettings(), "", "", file.defaults));
-        else if (key.str() == "profile")
+        else if (node.key == "profile")
             HEARTH_TRY(readProfiles(node, at, file));
-        else if (key.str() == "rule" && has_rules)
+        else if (node.key == "rule" && has_rules)
             HEARTH_TRY(readRules(node, at, file));
-        else if (key.str() == "rule")
+        else if (node.key == "rule")
             return at.wrong(Issue::profile_key, node,
                             "rules go by the paths of a project: they stand in its hearth.toml");
         else
-            return unknownKey(place, node, key.str(), known);
+            return unknownKey(place, node, node.key, known);
     }
     return file;
 }
 
-/// Hand the text's root to `read`. errors: profile_syntax, and those of `read`.
-template <typename Read>
-auto parsed(std::string_view text, const std::string& path, const Read& read) -> decltype(read(toml::table()))
+/// The table of a whole text. errors: profile_syntax.
+Result<TomlNode> parsed(std::string_view text, const std::string& path)
 {
-    try
-    {
-        return read(toml::parse(text));
-    }
-    catch (const toml::parse_error& wrong)
-    {
-        const toml::source_position begin = wrong.source().begin;
-        return Error{Issue::profile_syntax, path, fmt::format("line {}, column {}", begin.line, begin.column),
-                     std::string(wrong.description())};
-    }
+    tools::TomlFault fault;
+    std::optional<TomlNode> root = tools::parseToml(text, fault);
+    if (!root)
+        return Error{Issue::profile_syntax, path, fmt::format("line {}, column {}", fault.line, fault.column),
+                     fault.text};
+    return std::move(*root);
 }
 
 } // namespace
 
 Result<ConfigFile> parseConfig(std::string_view text, const std::string& path, bool has_rules)
 {
-    return parsed(text, path, [&](const toml::table& root) { return configOf(root, path, has_rules); });
+    HEARTH_ASSIGN_OR_RETURN(const TomlNode root, parsed(text, path));
+    return configOf(root, path, has_rules);
 }
 
 Result<Profile> parseProfileFile(std::string_view text, const std::string& path)
 {
-    return parsed(text, path,
-                  [&](const toml::table& root) {
-                      return readProfile(root, path, {path, ""}, "");
-                  });
+    HEARTH_ASSIGN_OR_RETURN(const TomlNode root, parsed(text, path));
+    return readProfile(root, path, {path, ""}, "");
 }
 
 } // namespace hearth::profiles

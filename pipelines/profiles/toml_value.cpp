@@ -9,10 +9,12 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <toml++/toml.h>
 
 namespace hearth::profiles
 {
+
+using tools::TomlKind;
+using tools::TomlNode;
 
 namespace
 {
@@ -33,9 +35,9 @@ std::string quoted(std::string_view text)
     return word + '"';
 }
 
-Result<std::string> textOf(const toml::node& node, const Setting& setting, const Place& place);
+Result<std::string> textOf(const TomlNode& node, const Setting& setting, const Place& place);
 
-Error outOfRange(const toml::node& node, const Setting& setting, const Place& place)
+Error outOfRange(const TomlNode& node, const Setting& setting, const Place& place)
 {
     return place.wrong(Issue::profile_value, node, "must be " + rangeText(setting));
 }
@@ -46,87 +48,83 @@ bool isInRange(double value, const Setting& setting)
     return std::isfinite(value) && is_above && value <= setting.high;
 }
 
-Result<std::string> wholeText(const toml::node& node, const Setting& setting, const Place& place)
+Result<std::string> wholeText(const TomlNode& node, const Setting& setting, const Place& place)
 {
-    const auto* whole = node.as_integer();
-    if (whole == nullptr)
+    if (!node.isWhole())
         return outOfRange(node, setting, place);
-    std::string text = std::to_string(whole->get());
+    std::string text = std::to_string(node.whole);
     const bool is_allowed =
         setting.choices.empty()
-            ? isInRange(static_cast<double>(whole->get()), setting)
+            ? isInRange(static_cast<double>(node.whole), setting)
             : std::find(setting.choices.begin(), setting.choices.end(), text) != setting.choices.end();
     return is_allowed ? Result<std::string>(std::move(text)) : outOfRange(node, setting, place);
 }
 
-Result<std::string> numberText(const toml::node& node, const Setting& setting, const Place& place)
+Result<std::string> numberText(const TomlNode& node, const Setting& setting, const Place& place)
 {
-    const double value = node.value<double>().value_or(NAN);
-    if (!node.is_number() || !isInRange(value, setting))
+    const double value = node.asNumber().value_or(NAN);
+    if (!isInRange(value, setting))
         return outOfRange(node, setting, place);
     return fmt::format("{}", value);
 }
 
-Result<std::string> wordText(const toml::node& node, const Setting& setting, const Place& place)
+Result<std::string> wordText(const TomlNode& node, const Setting& setting, const Place& place)
 {
-    const auto* text = node.as_string();
     const bool is_allowed =
-        text != nullptr && !text->get().empty() &&
+        node.isText() && !node.text.empty() &&
         (setting.kind != Kind::choice ||
-         std::find(setting.choices.begin(), setting.choices.end(), text->get()) != setting.choices.end());
+         std::find(setting.choices.begin(), setting.choices.end(), node.text) != setting.choices.end());
     if (is_allowed)
-        return quoted(text->get());
-    if (text == nullptr || setting.kind != Kind::choice)
+        return quoted(node.text);
+    if (!node.isText() || setting.kind != Kind::choice)
         return outOfRange(node, setting, place);
     const Keys choices(setting.choices.begin(), setting.choices.end());
-    const std::string nearest = tools::nearestMatch(text->get(), choices);
+    const std::string nearest = tools::nearestMatch(node.text, choices);
     return place.wrong(Issue::profile_value, node,
-                       fmt::format("'{}' must be {}{}", text->get(), rangeText(setting),
+                       fmt::format("'{}' must be {}{}", node.text, rangeText(setting),
                                    nearest.empty() ? "" : ": did you mean '" + nearest + "'?"));
 }
 
-Result<std::string> textsText(const toml::node& node, const Setting& setting, const Place& place)
+Result<std::string> textsText(const TomlNode& node, const Setting& setting, const Place& place)
 {
     const Setting one{setting.key, Kind::text, "", ""};
-    const toml::array* array = node.as_array();
-    if (array == nullptr)
+    if (!node.isArray())
     {
-        if (!node.is_string())
+        if (!node.isText())
             return outOfRange(node, setting, place);
         HEARTH_ASSIGN_OR_RETURN(const std::string text, textOf(node, one, place));
         return "[" + text + "]";
     }
     std::vector<std::string> texts;
-    for (size_t i = 0; i < array->size(); ++i)
+    for (size_t i = 0; i < node.children.size(); ++i)
     {
-        HEARTH_ASSIGN_OR_RETURN(std::string text, textOf(*array->get(i), one, place.at(i)));
+        HEARTH_ASSIGN_OR_RETURN(std::string text, textOf(node.children[i], one, place.at(i)));
         texts.push_back(std::move(text));
     }
     return fmt::format("[{}]", fmt::join(texts, ","));
 }
 
-Result<std::string> sizeText(const toml::node& node, const Setting& setting, const Place& place)
+Result<std::string> sizeText(const TomlNode& node, const Setting& setting, const Place& place)
 {
-    if (const auto* whole = node.as_integer(); whole != nullptr && whole->get() > 0)
-        return std::to_string(whole->get());
-    const auto* text = node.as_string();
-    const auto size = text == nullptr ? Result<uint64_t>(outOfRange(node, setting, place))
-                                      : cache::parseSize(text->get(), "");
+    if (node.isWhole() && node.whole > 0)
+        return std::to_string(node.whole);
+    const auto size =
+        node.isText() ? cache::parseSize(node.text, "") : Result<uint64_t>(outOfRange(node, setting, place));
     return size.ok() ? Result<std::string>(std::to_string(*size)) : outOfRange(node, setting, place);
 }
 
-Result<std::string> tableText(const toml::table& table, const Setting& setting, const Place& place)
+Result<std::string> tableText(const TomlNode& table, const Setting& setting, const Place& place)
 {
     Keys known;
     for (const Setting& member : setting.members)
         known.push_back(member.key);
-    for (const auto& [key, node] : table)
-        if (findSetting(setting.members, key.str()) == nullptr)
-            return unknownKey(place, node, key.str(), known);
+    for (const TomlNode& node : table.children)
+        if (findSetting(setting.members, node.key) == nullptr)
+            return unknownKey(place, node, node.key, known);
     std::vector<std::string> members;
     for (const Setting& member : setting.members)
     {
-        const toml::node* node = table.get(member.key);
+        const TomlNode* node = table.find(member.key);
         if (node == nullptr && member.is_required)
             return place.at(member.key)
                 .wrong(Issue::profile_value, table, "is missing: it must be " + rangeText(member));
@@ -138,31 +136,30 @@ Result<std::string> tableText(const toml::table& table, const Setting& setting, 
     return fmt::format("{{{}}}", fmt::join(members, ","));
 }
 
-Result<std::string> tablesText(const toml::node& node, const Setting& setting, const Place& place)
+Result<std::string> tablesText(const TomlNode& node, const Setting& setting, const Place& place)
 {
-    const toml::array* array = node.as_array();
-    if (array == nullptr || array->empty())
+    if (!node.isArray() || node.children.empty())
         return outOfRange(node, setting, place);
     std::vector<std::string> tables;
-    for (size_t i = 0; i < array->size(); ++i)
+    for (size_t i = 0; i < node.children.size(); ++i)
     {
-        const toml::table* table = array->get(i)->as_table();
-        if (table == nullptr)
-            return place.at(i).wrong(Issue::profile_value, *array->get(i), "must be a table");
-        HEARTH_ASSIGN_OR_RETURN(std::string text, tableText(*table, setting, place.at(i)));
+        const TomlNode& table = node.children[i];
+        if (!table.isTable())
+            return place.at(i).wrong(Issue::profile_value, table, "must be a table");
+        HEARTH_ASSIGN_OR_RETURN(std::string text, tableText(table, setting, place.at(i)));
         tables.push_back(std::move(text));
     }
     return fmt::format("[{}]", fmt::join(tables, ","));
 }
 
 /// The node's value, in the one form. errors: profile_key, profile_value.
-Result<std::string> textOf(const toml::node& node, const Setting& setting, const Place& place)
+Result<std::string> textOf(const TomlNode& node, const Setting& setting, const Place& place)
 {
     switch (setting.kind)
     {
     case Kind::flag:
-        if (const auto* flag = node.as_boolean())
-            return std::string(flag->get() ? "true" : "false");
+        if (node.kind == TomlKind::flag)
+            return std::string(node.flag ? "true" : "false");
         return outOfRange(node, setting, place);
     case Kind::whole:
         return wholeText(node, setting, place);
@@ -193,18 +190,17 @@ Place Place::at(size_t index) const
     return {file, fmt::format("{}[{}]", key, index), has_lines};
 }
 
-std::string Place::of(const toml::node& node) const
+std::string Place::of(const TomlNode& node) const
 {
-    const toml::source_position begin = node.source().begin;
-    return has_lines ? fmt::format("line {}, column {}, {}", begin.line, begin.column, key) : key;
+    return has_lines ? fmt::format("line {}, column {}, {}", node.line, node.column, key) : key;
 }
 
-Error Place::wrong(Issue issue, const toml::node& node, std::string detail) const
+Error Place::wrong(Issue issue, const TomlNode& node, std::string detail) const
 {
     return {issue, file, of(node), std::move(detail)};
 }
 
-Error unknownKey(const Place& place, const toml::node& node, std::string_view key, const Keys& known)
+Error unknownKey(const Place& place, const TomlNode& node, std::string_view key, const Keys& known)
 {
     const std::string nearest = tools::nearestMatch(key, known);
     return place.at(key).wrong(
@@ -213,7 +209,7 @@ Error unknownKey(const Place& place, const toml::node& node, std::string_view ke
                         : fmt::format("this key is not known: did you mean '{}'?", nearest));
 }
 
-Result<std::string> checkedTextOf(const toml::node& node, const Setting& setting, const Place& place)
+Result<std::string> checkedTextOf(const TomlNode& node, const Setting& setting, const Place& place)
 {
     HEARTH_ASSIGN_OR_RETURN(std::string text, textOf(node, setting, place));
     if (text.size() > kLongestValue)

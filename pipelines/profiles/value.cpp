@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/profiles/value.h"
 
+#include "cook/json/json.h"
 #include "cook/tools/suggest.h"
 #include "pipelines/profiles/toml_value.h"
 
 #include <fmt/format.h>
-#include <sstream>
-#include <toml++/toml.h>
 
 namespace hearth::profiles
 {
@@ -14,12 +13,15 @@ namespace hearth::profiles
 namespace
 {
 
+using tools::TomlKind;
+using tools::TomlNode;
+
 bool isWord(Kind kind)
 {
     return kind == Kind::choice || kind == Kind::text || kind == Kind::texts || kind == Kind::size;
 }
 
-Result<Value> checkedValue(const toml::node& node, const Setting& setting, const std::string& origin)
+Result<Value> checkedValue(const TomlNode& node, const Setting& setting, const std::string& origin)
 {
     HEARTH_ASSIGN_OR_RETURN(std::string text, checkedTextOf(node, setting, {origin, "", false}));
     return Value{std::move(text), origin};
@@ -28,17 +30,59 @@ Result<Value> checkedValue(const toml::node& node, const Setting& setting, const
 /// Of a word that is written as in a file; what is no TOML is out of every range.
 Result<Value> valueOfToml(const std::string& word, const Setting& setting, const std::string& origin)
 {
-    toml::table root;
-    try
-    {
-        root = toml::parse("x=" + word);
-    }
-    catch (const toml::parse_error&)
-    {
+    tools::TomlFault fault;
+    const std::optional<TomlNode> root = tools::parseToml("x=" + word, fault);
+    if (!root)
         return Error{Issue::profile_value, origin, "",
                      fmt::format("'{}' must be {}", word, rangeText(setting))};
+    return checkedValue(*root->find("x"), setting, origin);
+}
+
+TomlNode textNode(const std::string& text)
+{
+    TomlNode node;
+    node.kind = TomlKind::text;
+    node.text = text;
+    return node;
+}
+
+/// The node that a value is the text of.
+TomlNode nodeOf(const Value& value)
+{
+    tools::TomlFault fault;
+    return *tools::parseToml("x=" + value.text, fault).value().find("x");
+}
+
+Json jsonOf(const TomlNode& node)
+{
+    switch (node.kind)
+    {
+    case TomlKind::table:
+    {
+        Json json = Json::object();
+        for (const TomlNode& member : node.children)
+            json[member.key] = jsonOf(member);
+        return json;
     }
-    return checkedValue(*root.get("x"), setting, origin);
+    case TomlKind::array:
+    {
+        Json json = Json::array();
+        for (const TomlNode& element : node.children)
+            json.push_back(jsonOf(element));
+        return json;
+    }
+    case TomlKind::text:
+        return node.text;
+    case TomlKind::whole:
+        return node.whole;
+    case TomlKind::number:
+        return node.number;
+    case TomlKind::flag:
+        return node.flag;
+    case TomlKind::time: // no setting has one
+        break;
+    }
+    return nullptr;
 }
 
 } // namespace
@@ -48,13 +92,14 @@ Result<Value> valueOf(const Setting& setting, const std::vector<std::string>& wo
 {
     if (setting.kind == Kind::texts)
     {
-        toml::array array;
+        TomlNode array;
+        array.kind = TomlKind::array;
         for (const std::string& word : words)
-            array.push_back(word);
+            array.children.push_back(textNode(word));
         return checkedValue(array, setting, origin);
     }
     if (isWord(setting.kind))
-        return checkedValue(toml::value<std::string>(words.back()), setting, origin);
+        return checkedValue(textNode(words.back()), setting, origin);
     return valueOfToml(words.back(), setting, origin);
 }
 
@@ -87,22 +132,18 @@ Result<std::pair<std::string, Value>> parseAssignment(const std::string& text)
 std::vector<std::string> textsOf(const Value& value)
 {
     std::vector<std::string> texts;
-    const toml::table root = toml::parse("x=" + value.text);
-    const toml::node* node = root.get("x");
-    if (const auto* text = node->as_string())
-        texts.push_back(text->get());
-    if (const toml::array* array = node->as_array())
-        for (const toml::node& one : *array)
-            texts.push_back(one.value<std::string>().value_or(""));
+    const TomlNode node = nodeOf(value);
+    if (node.isText())
+        texts.push_back(node.text);
+    if (node.isArray())
+        for (const TomlNode& element : node.children)
+            texts.push_back(element.text);
     return texts;
 }
 
-std::string jsonOf(const Value& value)
+Json jsonOf(const Value& value)
 {
-    std::ostringstream json;
-    const toml::table root = toml::parse("x=" + value.text);
-    json << toml::json_formatter(*root.get("x"));
-    return json.str();
+    return jsonOf(nodeOf(value));
 }
 
 } // namespace hearth::profiles

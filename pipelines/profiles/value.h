@@ -10,6 +10,11 @@
 #include <utility>
 #include <vector>
 
+namespace hearth
+{
+class Json;
+}
+
 namespace hearth::profiles
 {
 
@@ -37,6 +42,6 @@ Result<std::pair<std::string, Value>> parseAssignment(const std::string& text);
 std::vector<std::string> textsOf(const Value& value);
 
 /// The value as JSON.
-std::string jsonOf(const Value& value);
+Json jsonOf(const Value& value);
 
 } // namespace hearth::profiles

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/report/cook_report.h"
 
+#include "cook/json/json.h"
 #include "pipelines/report/base64.h"
 #include "pipelines/report/message.h"
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
 namespace hearth::report
 {
@@ -13,7 +13,6 @@ namespace hearth::report
 using graph::Action;
 using graph::ActionOutcome;
 using graph::Ending;
-using Json = nlohmann::ordered_json;
 
 namespace
 {
@@ -88,23 +87,21 @@ Json stageJson(const CookReport& cook, size_t index)
 Json statisticsOf(const CookReport& cook, size_t index)
 {
     const auto text = cook.statistics.find(index);
-    Json json = text == cook.statistics.end() ? Json() : Json::parse(text->second, nullptr, false);
+    Json json = text == cook.statistics.end() ? Json() : Json::parse(text->second).value_or(Json());
     return json.is_object() ? json : Json();
 }
 
 /// A list of an object, or an empty one.
 Json listOf(const Json& object, const char* key)
 {
-    const auto list = object.is_object() ? object.find(key) : object.end();
-    return object.is_object() && list != object.end() && list->is_array() ? *list : Json::array();
+    const Json* list = object.find(key);
+    return list != nullptr && list->is_array() ? *list : Json::array();
 }
 
 uint64_t numberOf(const Json& object, const char* key)
 {
-    const auto number = object.is_object() ? object.find(key) : object.end();
-    return object.is_object() && number != object.end() && number->is_number_unsigned()
-               ? number->get<uint64_t>()
-               : 0;
+    const Json* number = object.find(key);
+    return number != nullptr && number->is_number_unsigned() ? number->get<uint64_t>() : 0;
 }
 
 /// All actions of a source.
@@ -308,7 +305,7 @@ Json totalsJson(const CookReport& cook, const Json& assets)
 {
     std::map<std::string, uint64_t> assets_of_state;
     for (const Json& asset : assets)
-        ++assets_of_state[asset["state"]];
+        ++assets_of_state[asset["state"].get<std::string>()];
     Json actions{{"cooked", 0}, {"cached", 0}, {"failed", 0}, {"dependency failed", 0}, {"not cooked", 0}};
     double cpu_seconds = 0;
     uint64_t peak = 0;
@@ -379,7 +376,7 @@ std::string reportJson(const CookReport& cook)
     if (!cook.error.empty())
         report["error"] = cook.error;
     report["assets"] = std::move(assets);
-    return report.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+    return report.dump(1) + "\n";
 }
 
 } // namespace hearth::report

@@ -1,18 +1,16 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/report/page_data.h"
 
+#include "cook/json/json.h"
 #include "formats/issues.h"
 #include "pipelines/profiles/setting.h"
 #include "pipelines/report/base64.h"
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 #include <set>
 
 namespace hearth::report
 {
-
-using Json = nlohmann::ordered_json;
 
 namespace
 {
@@ -22,8 +20,8 @@ constexpr size_t kMostDependencies = 100;
 
 Json listOf(const Json& object, const char* key)
 {
-    const auto list = object.find(key);
-    return list != object.end() && list->is_array() ? *list : Json::array();
+    const Json* list = object.find(key);
+    return list != nullptr && list->is_array() ? *list : Json::array();
 }
 
 /// stage, state, seconds, bytes, start or null, lane, cpu seconds, peak, why
@@ -153,7 +151,7 @@ std::string dataUri(const std::string& jpeg)
 
 std::string pageData(const std::string& report_text)
 {
-    const Json report = Json::parse(report_text);
+    const Json report = Json::parse(report_text).value();
     Json data;
     for (const char* key :
          {"tool", "started", "status", "exit", "output", "up_to_date", "totals", "failures", "error"})
@@ -176,12 +174,12 @@ std::string pageData(const std::string& report_text)
             data["stages"].push_back(stageRow(report[cooker]));
     data["explain"] = explanations(report);
     data["savings"] = savings();
-    return data.dump(-1, ' ', false, Json::error_handler_t::replace);
+    return data.dump();
 }
 
 std::vector<MeshOfPack> importantMeshes(const std::string& report_text)
 {
-    const Json report = Json::parse(report_text);
+    const Json report = Json::parse(report_text).value();
     struct Ranked
     {
         MeshOfPack mesh;
@@ -222,7 +220,7 @@ std::string picturesData(const Pictures& pictures)
     for (const auto& [mesh, jpegs] : pictures.meshes)
         for (const std::string& jpeg : jpegs)
             data["meshes"][std::to_string(mesh)].push_back(dataUri(jpeg));
-    return data.dump(-1, ' ', false, Json::error_handler_t::replace);
+    return data.dump();
 }
 
 } // namespace hearth::report

@@ -11,7 +11,7 @@ namespace hearth::report
 {
 
 /// report   JSON, as below
-/// returns  JSON. Throws nlohmann::json::exception where the report is not as its schema says.
+/// returns  JSON. Throws JsonError where the report is not as its schema says.
 std::string pageData(const std::string& report);
 
 /// The meshes of the report that are worth a picture, first those that matter most: the largest of each asset, by size, then all

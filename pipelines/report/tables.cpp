@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/report/tables.h"
 
+#include "cook/json/json.h"
+
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 #include <string_view>
 
 namespace hearth::report
 {
-
-using Json = nlohmann::ordered_json;
 
 namespace
 {
@@ -81,7 +80,7 @@ std::string caseXml(const std::string& name, double seconds, const std::string& 
 
 std::string junitXml(const std::string& report_text)
 {
-    const Json report = Json::parse(report_text);
+    const Json report = Json::parse(report_text).value();
     const Json& failures = report.at("failures");
     std::string cases;
     size_t count = 0;
@@ -89,7 +88,7 @@ std::string junitXml(const std::string& report_text)
     size_t failed = 0;
     for (const Json& asset : report.at("assets"))
     {
-        const std::string source = asset.at("source");
+        const auto source = asset.at("source").get<std::string>();
         std::string content = failuresXml(failures, source);
         failed += content.empty() ? size_t{0} : size_t{1};
         if (content.empty() && asset.at("state") == "not cooked")
@@ -100,7 +99,7 @@ std::string junitXml(const std::string& report_text)
         cases += caseXml(source, asset.value("seconds", 0.0), content);
         ++count;
     }
-    const std::string output = report.at("output");
+    const auto output = report.at("output").get<std::string>();
     std::string content = failuresXml(failures, output);
     if (content.empty() && report.at("exit") != 0)
         content = "    <failure type=\"dependency\" message=\"not made: a source could not be cooked\"/>\n";
@@ -115,7 +114,7 @@ std::string junitXml(const std::string& report_text)
 
 std::string assetTable(const std::string& report_text)
 {
-    const Json report = Json::parse(report_text);
+    const Json report = Json::parse(report_text).value();
     std::string text =
         "source,state,seconds,cpu_seconds,peak_rss_bytes,bytes_in,geometry_bytes,texture_bytes,"
         "triangles,meshes,textures,warnings,dropped,error\r\n";
@@ -131,15 +130,15 @@ std::string assetTable(const std::string& report_text)
             if (error.empty() && message.value("severity", "") == "error")
                 error = textOf(message);
         }
-        text += fmt::format("{},{},{:.3f},{:.3f},{},{},{},{},{},{},{},{},{},{}\r\n",
-                            field(asset.at("source")), asset.at("state").get<std::string>(),
-                            asset.value("seconds", 0.0), asset.value("cpu_seconds", 0.0),
-                            asset.value("peak_rss_bytes", uint64_t{0}), asset.value("bytes_in", uint64_t{0}),
-                            sizes.value("geometry", uint64_t{0}), sizes.value("textures", uint64_t{0}),
-                            clusters.value("totals", Json::object()).value("triangles", uint64_t{0}),
-                            clusters.value("meshes", Json::array()).size(),
-                            asset.value("textures", Json::array()).size(), warnings,
-                            asset.value("dropped", Json::array()).size(), field(error));
+        text += fmt::format(
+            "{},{},{:.3f},{:.3f},{},{},{},{},{},{},{},{},{},{}\r\n",
+            field(asset.at("source").get<std::string>()), asset.at("state").get<std::string>(),
+            asset.value("seconds", 0.0), asset.value("cpu_seconds", 0.0),
+            asset.value("peak_rss_bytes", uint64_t{0}), asset.value("bytes_in", uint64_t{0}),
+            sizes.value("geometry", uint64_t{0}), sizes.value("textures", uint64_t{0}),
+            clusters.value("totals", Json::object()).value("triangles", uint64_t{0}),
+            clusters.value("meshes", Json::array()).size(), asset.value("textures", Json::array()).size(),
+            warnings, asset.value("dropped", Json::array()).size(), field(error));
     }
     return text;
 }

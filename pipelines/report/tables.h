@@ -7,7 +7,7 @@
 namespace hearth::report
 {
 
-// Both read JSON, and throw nlohmann::json::exception where the report is not as its schema says.
+// Both read JSON, and throw JsonError where the report is not as its schema says.
 
 /// JUnit's XML: a test case for each asset, and one for what belongs to none.
 std::string junitXml(const std::string& report);

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/report/write_report.h"
 
+#include "cook/json/json.h"
 #include "cook/tools/whole_file.h"
 #include "pipelines/report/page.h"
 #include "pipelines/report/page_data.h"
 #include "pipelines/report/tables.h"
-
-#include <nlohmann/json.hpp>
 
 namespace hearth::report
 {
@@ -14,8 +13,8 @@ namespace hearth::report
 Status writeReport(const std::string& json, const std::string& path, const std::string& pack,
                    const std::string& name, const PicturesDrawn& told)
 {
-    const auto report = nlohmann::ordered_json::parse(json, nullptr, false);
-    if (!report.is_object() || report.value("schema", nlohmann::ordered_json()) != "hearth.report/1")
+    const auto report = Json::parse(json).value_or(Json());
+    if (!report.is_object() || report.value("schema", Json()) != "hearth.report/1")
         return Error{Issue::json_syntax, name, "", "is no report that hearth cook --report wrote as JSON"};
     try
     {
@@ -31,7 +30,7 @@ Status writeReport(const std::string& json, const std::string& path, const std::
         if (path.ends_with(".csv"))
             return tools::writeText(path, assetTable(json));
     }
-    catch (const nlohmann::json::exception& error)
+    catch (const JsonError& error)
     {
         // a member of another type than the schema gives it
         return Error{Issue::json_syntax, name, "",

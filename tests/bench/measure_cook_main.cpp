@@ -1,6 +1,7 @@
 // Measures a cook without cache, on one core and on all: seconds, CPU seconds and peak memory of each stage, and of all
 // processes together. `./dev bench cook` runs it.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/json/json.h"
 #include "cook/tools/child_processes.h"
 #include "formats/program.h"
 
@@ -10,7 +11,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <nlohmann/json.hpp>
+#include <iterator>
 #include <optional>
 #include <spawn.h>
 #include <string>
@@ -62,7 +63,7 @@ uint64_t memoryOf(const std::vector<pid_t>& processes)
 
 struct Cook
 {
-    nlohmann::json report;
+    Json report;
     uint64_t peak_bytes = 0; ///< of all processes together, as often as it was looked at
 };
 
@@ -101,7 +102,9 @@ std::optional<Cook> cook(const std::string& source, const std::string& output, b
     }
     if (status != 0)
         return std::nullopt;
-    result.report = nlohmann::json::parse(std::ifstream(report), nullptr, false);
+    std::ifstream file(report);
+    const std::string text(std::istreambuf_iterator<char>(file), {});
+    result.report = Json::parse(text).value_or(Json());
     return result;
 }
 
@@ -112,15 +115,17 @@ void print(unsigned cores, const Cook& cook)
         std::printf("| %5u | %-10s | %8.1f | %8.1f | %8.0f |\n", cores, stage.c_str(), seconds, cpu,
                     bytes / kMiB);
     };
-    const auto rows = [&](const nlohmann::json& stages)
+    const auto rows = [&](const Json& stages)
     {
         for (const auto& stage : stages)
-            row(stage["stage"], stage["seconds"], stage["cpu_seconds"], stage["peak_rss_bytes"]);
+            row(stage["stage"].get<std::string>(), stage["seconds"].get<double>(),
+                stage["cpu_seconds"].get<double>(), stage["peak_rss_bytes"].get<double>());
     };
     rows(cook.report["assets"][0]["stages"]);
-    rows(nlohmann::json::array({cook.report["link"]}));
+    rows(Json::array({cook.report["link"]}));
     const auto& totals = cook.report["totals"];
-    row("all", totals["wall_s"], totals["cpu_s"], static_cast<double>(cook.peak_bytes));
+    row("all", totals["wall_s"].get<double>(), totals["cpu_s"].get<double>(),
+        static_cast<double>(cook.peak_bytes));
 }
 
 uint64_t trianglesOf(const Cook& cook)

@@ -2,24 +2,23 @@
 // makes the scene, draws it and runs this.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/command_line/command_line.h"
+#include "cook/json/json.h"
 #include "formats/program.h"
 #include "formats/shared/records.h"
 #include "tests/bench/visible_figures.h"
 #include "tests/reference/flip.h"
-
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cstdio>
 #include <fstream>
 #include <initializer_list>
+#include <iterator>
 
 namespace
 {
 
 using namespace hearth;
-using nlohmann::json;
 
 constexpr double kMebi = 1 << 20;
 
@@ -54,32 +53,33 @@ struct Arguments
     std::vector<std::string> visibility;
 };
 
-Result<json> readStatistics(const std::string& path)
+Result<Json> readStatistics(const std::string& path)
 {
     std::ifstream file(path);
     if (!file)
         return Error{Issue::input_missing, path, "", ""};
-    json statistics = json::parse(file, nullptr, false);
+    const std::string text(std::istreambuf_iterator<char>(file), {});
+    Json statistics = Json::parse(text).value_or(Json());
     if (!statistics.is_object() || statistics.value("schema", "") != "hearth.frame/1")
         return Error{Issue::usage, path, "", "the file is no statistics of hearth-render"};
     return statistics;
 }
 
-double number(const json& object, const char* member)
+double number(const Json& object, const char* member)
 {
     return object.at(member).get<double>();
 }
 
-void printTimes(const json& statistics)
+void printTimes(const Json& statistics)
 {
-    const std::string device = statistics.at("device");
+    const auto device = statistics.at("device").get<std::string>();
     std::printf("Milliseconds a frame, medians of the path, on %s\n", device.c_str());
     if (device.find("llvmpipe") != std::string::npos)
         std::printf("THIS IS A CPU: the last column says nothing about a GPU. With one, the same command "
                     "measures.\n");
     std::printf("  %-18s %14s %14s %10s   %s\n", "the talk's stage", "Immortalis-G715", "5 years older",
                 "Hearth", "passes");
-    const json& times = statistics.at("milliseconds");
+    const Json& times = statistics.at("milliseconds");
     double high_end = 0, low_end = 0;
     for (const Stage& stage : kStages)
     {
@@ -105,7 +105,7 @@ void printVisible(const char* name, const bench::VisibleFigures& figures, double
 }
 
 /// Means over the frames of the path.
-Status printCounts(const Arguments& arguments, const formats::PackView& pack, const json& statistics)
+Status printCounts(const Arguments& arguments, const formats::PackView& pack, const Json& statistics)
 {
     bench::FiguresOfKind kinds;
     for (const std::string& file : arguments.visibility)
@@ -135,7 +135,7 @@ Status printCounts(const Arguments& arguments, const formats::PackView& pack, co
     return success();
 }
 
-void printBytes(const formats::PackView& pack, const json& statistics)
+void printBytes(const formats::PackView& pack, const Json& statistics)
 {
     double unique = 0;
     for (const formats::MeshRecord& mesh : pack.meshes())
@@ -148,7 +148,7 @@ void printBytes(const formats::PackView& pack, const json& statistics)
 }
 
 /// The first frame from which on all are converged; 0: the last is not.
-size_t framesToConverge(const json& frames)
+size_t framesToConverge(const Json& frames)
 {
     size_t converged = 0;
     for (size_t i = 0; i < frames.size(); ++i)
@@ -159,9 +159,9 @@ size_t framesToConverge(const json& frames)
     return converged;
 }
 
-Status printStreaming(const Arguments& arguments, const json& statistics)
+Status printStreaming(const Arguments& arguments, const Json& statistics)
 {
-    const json& stream = statistics.at("streaming");
+    const Json& stream = statistics.at("streaming");
     std::printf("From a cold start within %.0f MiB of geometry, the eye at rest\n",
                 number(stream, "budget_bytes") / kMebi);
     const size_t converged = framesToConverge(stream.at("frames"));
@@ -191,8 +191,8 @@ Status measure(const Arguments& arguments)
 {
     HEARTH_ASSIGN_OR_RETURN(formats::ContainerReader reader, formats::ContainerReader::open(arguments.pack));
     HEARTH_ASSIGN_OR_RETURN(const formats::PackView pack, formats::PackView::read(std::move(reader)));
-    HEARTH_ASSIGN_OR_RETURN(const json path, readStatistics(arguments.path_stats));
-    HEARTH_ASSIGN_OR_RETURN(const json cold, readStatistics(arguments.cold_stats));
+    HEARTH_ASSIGN_OR_RETURN(const Json path, readStatistics(arguments.path_stats));
+    HEARTH_ASSIGN_OR_RETURN(const Json cold, readStatistics(arguments.cold_stats));
     printTimes(path);
     HEARTH_TRY(printCounts(arguments, pack, path));
     printBytes(pack, path);

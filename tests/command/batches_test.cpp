@@ -1,5 +1,6 @@
 // Many small sources: their cookers share processes, and nobody can tell by what comes out.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/json/json.h"
 #include "pipelines/command/verify.h"
 #include "tests/command/sandbox.h"
 #include "tests/command/small_parts.h"
@@ -11,7 +12,6 @@
 #include <filesystem>
 #include <gtest/gtest.h>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
 #include <thread>
@@ -180,7 +180,7 @@ TEST_F(Batches, eventsAreThoseOfActionsAlone)
     std::istringstream lines(programs.read("events"));
     for (std::string line; std::getline(lines, line);)
     {
-        const auto event = nlohmann::json::parse(line);
+        const auto event = Json::parse(line).value();
         if (event.contains("cooker"))
             of_action[event["cooker"].get<std::string>() + " " + event["subject"].get<std::string>()] +=
                 event["event"].get<std::string>() + " " + event.value("state", "");
@@ -226,11 +226,11 @@ TEST(RealBatches, runEachLineAsIfAlone)
     for (std::string line; std::getline(lines, line);)
     {
         ASSERT_TRUE(line.starts_with('\x1E')) << end.out;
-        const auto json = nlohmann::json::parse(line.substr(1));
-        exits.push_back(json["exit"]);
-        EXPECT_GT(json["seconds"], 0);
-        EXPECT_GE(json["cpu_seconds"], 0);
-        EXPECT_GT(json["peak_rss_bytes"], 1 << 20);
+        const auto json = Json::parse(line.substr(1)).value();
+        exits.push_back(json["exit"].get<int>());
+        EXPECT_GT(json["seconds"].get<double>(), 0);
+        EXPECT_GE(json["cpu_seconds"].get<double>(), 0);
+        EXPECT_GT(json["peak_rss_bytes"].get<double>(), 1 << 20);
     }
     EXPECT_EQ(exits, (std::vector<int>{0, 66, 0, 2, 2})) << end.out;
     EXPECT_EQ(countOf(end.err, "none.obj: error: "), 1u) << end.err;

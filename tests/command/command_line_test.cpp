@@ -1,10 +1,10 @@
 // hearth's command line from the outside: help, typing errors, results on stdout.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/json/json.h"
 #include "tests/command/sandbox.h"
 #include "tests/command/small_parts.h"
 
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
 namespace hearth::test
 {
@@ -101,7 +101,7 @@ TEST_F(CommandLine, resultsGoToStdoutAndErrorsToStderr)
 {
     writePackFile(smallPack(), folder / "a.hearth");
     EXPECT_EQ(hearth({"verify", "a.hearth"}).err, "");
-    EXPECT_EQ(nlohmann::json::parse(hearth({"inspect", "a.hearth", "--format", "json"}).out)["schema"],
+    EXPECT_EQ(Json::parse(hearth({"inspect", "a.hearth", "--format", "json"}).out).value()["schema"],
               "hearth.inspect/1");
     EXPECT_NE(hearth({"inspect", "a.hearth"}).out.find("strip"), std::string::npos);
     EXPECT_EQ(hearth({"extract", "a.hearth", "--mesh", "0", "--error", "0", "-o", "a.ply"}).exit_code, 0);
@@ -117,7 +117,7 @@ TEST_F(CommandLine, resultsGoToStdoutAndErrorsToStderr)
         EXPECT_EQ(hearth({verb, "c.hearth"}).exit_code, 65);
     const ProgramEnd json = hearth({"verify", "c.hearth", "--format", "json"});
     EXPECT_EQ(json.exit_code, 65);
-    EXPECT_FALSE(nlohmann::json::parse(json.out)["ok"].get<bool>());
+    EXPECT_FALSE(Json::parse(json.out).value()["ok"].get<bool>());
 }
 
 } // namespace hearth::test

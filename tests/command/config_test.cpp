@@ -1,5 +1,6 @@
 // Settings from the outside: hearth config, and what a cook makes of hearth.toml.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/json/json.h"
 #include "tests/command/sandbox.h"
 #include "tests/command/small_parts.h"
 
@@ -7,15 +8,12 @@
 #include <filesystem>
 #include <gtest/gtest.h>
 #include <map>
-#include <nlohmann/json.hpp>
 
 namespace hearth::test
 {
 
 namespace
 {
-
-using Json = nlohmann::json;
 
 class Settings : public ::testing::Test
 {
@@ -33,7 +31,7 @@ protected:
         arguments.insert(arguments.end(), {"-o", "a.hearth", "--dry-run", "--format", "json"});
         const ProgramEnd end = hearth(arguments);
         EXPECT_EQ(end.exit_code, 0) << end.err;
-        plan = Json::parse(end.out, nullptr, false);
+        plan = Json::parse(end.out).value_or(Json());
         std::vector<std::string> actions;
         for (const Json& action : plan["actions"])
             actions.push_back(action["cooker"].get<std::string>() + " " +
@@ -82,13 +80,13 @@ TEST_F(Settings, areListedWithTheirOrigins)
     const ProgramEnd json =
         hearth({"config", "props/a/b.glb", "--format", "json", "--set", "clusters.levels=[{keep=0.7}]"});
     ASSERT_EQ(json.exit_code, 0) << json.err;
-    const Json listed = Json::parse(json.out);
+    const Json listed = Json::parse(json.out).value();
     EXPECT_EQ(listed["schema"], "hearth.settings/1");
     EXPECT_EQ(listed["profile"], "phone");
     EXPECT_EQ(listed["files"], Json::array({"hearth.toml"}));
     std::map<std::string, Json> settings;
     for (const Json& setting : listed["settings"])
-        settings[setting["key"]] = setting;
+        settings[setting["key"].get<std::string>()] = setting;
     EXPECT_EQ(settings["textures.max_size"]["value"], 256);
     EXPECT_EQ(settings["textures.max_size"]["origin"], "hearth.toml:10 (rule props/**/*.glb)");
     EXPECT_EQ(settings["clusters.levels"]["value"][0]["keep"], 0.7);

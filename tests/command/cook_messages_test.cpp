@@ -1,11 +1,11 @@
 // What hearth cook tells while it works: messages, progress, colour.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/json/json.h"
 #include "tests/command/cook_folder.h"
 
 #include <filesystem>
 #include <gtest/gtest.h>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <sstream>
 
 namespace hearth::test
@@ -45,12 +45,12 @@ TEST_F(Cook, messagesMayBeJson)
         {"malformed.gltf", "warning.gltf", "-o", "a.hearth", "--log-format", "json", "--progress", "none"});
     EXPECT_EQ(end.exit_code, 65);
     std::istringstream lines(end.err);
-    std::map<std::string, nlohmann::json> of_severity;
+    std::map<std::string, Json> of_severity;
     for (std::string line; std::getline(lines, line);)
     {
-        const nlohmann::json message = nlohmann::json::parse(line, nullptr, false);
+        const Json message = Json::parse(line).value_or(Json());
         ASSERT_TRUE(message.is_object()) << line;
-        of_severity[message["severity"]] = message;
+        of_severity[message["severity"].get<std::string>()] = message;
     }
     EXPECT_EQ(of_severity["error"]["code"], "E1101");
     EXPECT_EQ(of_severity["error"]["file"], "malformed.gltf");

@@ -1,11 +1,11 @@
 // The reports of hearth cook from the outside, and of hearth report.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/json/json.h"
 #include "tests/command/cook_folder.h"
 #include "tests/command/json_schema.h"
 
 #include <filesystem>
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
 namespace hearth::test
 {
@@ -14,7 +14,7 @@ namespace
 {
 
 /// How a report differs from what its schema promises; empty where it does not.
-std::string faultOfReport(const nlohmann::json& report)
+std::string faultOfReport(const Json& report)
 {
     return faultOfSchema(HEARTH_SCHEMAS "/hearth.report.1.json", report);
 }
@@ -43,7 +43,7 @@ TEST_F(Cook, reportsWhatItDid)
 {
     const ProgramEnd end = cook({"warning.gltf", "-o", "a.hearth", "--report", "report.json"});
     ASSERT_EQ(end.exit_code, 0) << end.err;
-    const auto report = nlohmann::json::parse(folder.read("report.json"));
+    const auto report = Json::parse(folder.read("report.json")).value();
     EXPECT_EQ(faultOfReport(report), "");
     EXPECT_EQ(report["schema"], "hearth.report/1");
     EXPECT_EQ(report["status"], "ok");
@@ -53,12 +53,12 @@ TEST_F(Cook, reportsWhatItDid)
     EXPECT_EQ(totals["bytes_in"], 100);
     EXPECT_EQ(totals["cooked"], 1);
     EXPECT_EQ(totals["actions"]["cooked"], 5);
-    EXPECT_GT(totals["sizes"]["geometry"], 0);
+    EXPECT_GT(totals["sizes"]["geometry"].get<double>(), 0);
     const auto& asset = report["assets"][0];
     EXPECT_EQ(asset["source"], "warning.gltf");
     EXPECT_EQ(asset["state"], "cooked");
     EXPECT_EQ(asset["stages"].size(), 4u);
-    EXPECT_GE(asset["stages"][1]["start_s"], asset["stages"][0]["start_s"]);
+    EXPECT_GE(asset["stages"][1]["start_s"].get<double>(), asset["stages"][0]["start_s"].get<double>());
     EXPECT_EQ(asset["clusters"]["meshes"][0]["name"], "strip");
     EXPECT_EQ(asset["clusters"]["totals"]["triangles"], 8);
     EXPECT_EQ(asset["textures"][0]["name"], "bark");
@@ -76,7 +76,7 @@ TEST_F(Cook, reportsRootCausesAndWhatDependsOnThem)
 {
     EXPECT_EQ(cook({"good.gltf", "malformed.gltf", "-o", "a.hearth", "--report", "report.json"}).exit_code,
               65);
-    const auto report = nlohmann::json::parse(folder.read("report.json"));
+    const auto report = Json::parse(folder.read("report.json")).value();
     EXPECT_EQ(faultOfReport(report), "");
     EXPECT_EQ(report["status"], "failed");
     EXPECT_EQ(report["exit"], 65);
@@ -99,7 +99,7 @@ TEST_F(Cook, reportsRootCausesAndWhatDependsOnThem)
 TEST_F(Cook, reportsWhereItDoesNotEvenBegin)
 {
     EXPECT_EQ(cook({"good.gltf", "-o", ".", "--report", "report.json"}).exit_code, 73);
-    const auto report = nlohmann::json::parse(folder.read("report.json"));
+    const auto report = Json::parse(folder.read("report.json")).value();
     EXPECT_EQ(faultOfReport(report), "");
     EXPECT_EQ(report["assets"][0]["state"], "not cooked");
     ASSERT_EQ(report["failures"].size(), 1u);
@@ -123,7 +123,7 @@ TEST_F(Cook, tellsThatPicturesAreDrawnAndCountsTheirTime)
     EXPECT_LT(drawn, cooked) << "the total is the last line";
     EXPECT_GE(std::stod(end.err.substr(cooked + 8)), 1.2) << end.err;
     const std::string events = folder.read("events");
-    EXPECT_GE(nlohmann::json::parse(events.substr(events.find("{\"event\":\"done\"")))["seconds"], 1.2);
+    EXPECT_GE(Json::parse(events.substr(events.find("{\"event\":\"done\""))).value()["seconds"].get<double>(), 1.2);
     EXPECT_EQ(countOf(folder.read("page.html"), "data:image/jpeg"), 8u);
 
     std::filesystem::remove(folder / "a.hearth");

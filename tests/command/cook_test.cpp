@@ -1,5 +1,6 @@
 // hearth cook from the outside: what appears, what is left behind, and how it ends.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/json/json.h"
 #include "formats/bricks.h"
 #include "formats/container_reader.h"
 #include "pipelines/command/verify.h"
@@ -9,7 +10,6 @@
 #include <csignal>
 #include <filesystem>
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 #include <sstream>
 #include <thread>
 
@@ -180,7 +180,7 @@ TEST_F(Cook, makesTheBricksOfAllSourcesWhereAsked)
     const auto reader = formats::ContainerReader::open(folder / "a.hearth");
     ASSERT_TRUE(reader.ok());
     EXPECT_NE(reader->find(formats::kChunkBrickGrid), nullptr);
-    const auto report = nlohmann::json::parse(folder.read("r.json"));
+    const auto report = Json::parse(folder.read("r.json")).value();
     EXPECT_EQ(report["bricks"]["stage"], "bricks");
     EXPECT_EQ(report["bricks"]["grid"]["voxel_size"], 0.5);
 }

@@ -1,5 +1,6 @@
 // What differs between two packs: each thing under its name, whatever stands before it in a table.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/json/json.h"
 #include "pipelines/command/open_pack.h"
 #include "pipelines/command/pack_diff.h"
 #include "tests/command/sandbox.h"
@@ -7,7 +8,6 @@
 
 #include <functional>
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 #include <set>
 
 namespace hearth::test
@@ -21,7 +21,6 @@ using command::Fact;
 using command::PackDiff;
 using command::Thing;
 using command::ThingChange;
-using Json = nlohmann::json;
 
 class Diff : public ::testing::Test
 {
@@ -78,7 +77,7 @@ TEST_F(Diff, samePacksAreTheSame)
     const PackDiff diff = diffed(smallPack(), smallPack());
     EXPECT_TRUE(diff.isSame());
     EXPECT_EQ(command::diffText(diff), "the same\n");
-    const Json json = Json::parse(command::diffJson(diff, "a", "b"));
+    const Json json = Json::parse(command::diffJson(diff, "a", "b")).value();
     EXPECT_EQ(json["schema"], "hearth.diff/1");
     EXPECT_EQ(json["same"], true);
     EXPECT_EQ(json["changes"].size(), 0u);
@@ -198,10 +197,11 @@ TEST_F(Diff, metaIsToldNumberByNumber)
     b.meta = R"({"settings":{"clusters":{"levels":[1,3],"x":true}},"tool":{"version":"2"}})";
     const PackDiff diff = diffed(a, b);
     EXPECT_TRUE(diff.things.empty());
-    const Json json = Json::parse(command::diffJson(diff, "a", "b"));
+    const Json json = Json::parse(command::diffJson(diff, "a", "b")).value();
     EXPECT_EQ(json["settings"], Json::parse(R"([{"what": "/settings/clusters/levels/1", "a": "2", "b": "3"},
                                                 {"what": "/tool/version", "a": "\"1\"", "b": "\"2\""},
-                                                {"what": "/settings/clusters/x", "a": "", "b": "true"}])"));
+                                                {"what": "/settings/clusters/x", "a": "", "b": "true"}])")
+                                    .value());
 }
 
 TEST(DiffThings, pairsThoseOfOneNameByWhatTheyAre)
@@ -251,7 +251,7 @@ TEST_F(Diff, theCommandSaysSoByItsExitCode)
     EXPECT_EQ(end.exit_code, 1);
     EXPECT_NE(end.out.find("changed  material paint\n    metallic: "), std::string::npos) << end.out;
     EXPECT_EQ(diff({"a.hearth", "b.hearth", "--hashes"}).exit_code, 1);
-    EXPECT_EQ(Json::parse(diff({"a.hearth", "b.hearth", "--format", "json"}).out)["same"], false);
+    EXPECT_EQ(Json::parse(diff({"a.hearth", "b.hearth", "--format", "json"}).out).value()["same"], false);
     EXPECT_EQ(diff({"a.hearth", "nowhere.hearth"}).exit_code, 66);
     EXPECT_EQ(diff({"a.hearth"}).exit_code, 2);
     writeParts(smallPack(), sandbox.path(), "part");

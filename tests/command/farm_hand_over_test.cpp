@@ -1,10 +1,10 @@
 // A plan in other hands: launchers, lists of commands, Ninja, and the script for Slurm.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/json/json.h"
 #include "tests/command/farm_folder.h"
 
 #include <filesystem>
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
 namespace hearth::test
 {
@@ -25,7 +25,7 @@ TEST_F(Farm, aLauncherIsNotBelieved)
     EXPECT_FALSE(folder.has("0.json"));
     const ProgramEnd done = run(0, 2, {"--launcher", folder / "honest", "--record", "0.json"});
     EXPECT_EQ(done.exit_code, 0) << "its code is no matter: " << done.err;
-    EXPECT_EQ(nlohmann::json::parse(folder.read("0.json"))["actions"].size(), 8u);
+    EXPECT_EQ(Json::parse(folder.read("0.json")).value()["actions"].size(), 8u);
     // it still lies, but all is there
     EXPECT_EQ(run(0, 2, {"--launcher", folder / "liar"}).exit_code, 0);
     fs::remove(folder.cacheContents().front());

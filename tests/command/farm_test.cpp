@@ -1,5 +1,6 @@
 // A cook on several machines, with the real cookers: whatever happens to shards, the pack is that of a cook on one.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/json/json.h"
 #include "tests/command/farm_folder.h"
 #include "tests/command/small_sources.h"
 
@@ -9,7 +10,6 @@
 #include <filesystem>
 #include <fstream>
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 #include <numeric>
 #include <random>
 #include <sys/stat.h>
@@ -125,7 +125,7 @@ TEST_F(Farm, isSharedOutByAReportOfBefore)
     EXPECT_EQ(over("cook", {"-o", "local.hearth", "-q", "--report", "report.json"}).exit_code, 0);
     const std::string pack = folder.read("local.hearth");
     // as if one of four had taken as long as the others together
-    auto report = nlohmann::json::parse(folder.read("report.json"));
+    auto report = Json::parse(folder.read("report.json")).value();
     for (auto& asset : report["assets"])
         for (auto& stage : asset["stages"])
             stage["seconds"] = asset["source"] == "bush.gltf" ? 30 : 10;
@@ -138,7 +138,7 @@ TEST_F(Farm, isSharedOutByAReportOfBefore)
         over("plan", {"-o", "plan.json", "-q", "--shards", "2", "--estimates", "report.json"});
     EXPECT_EQ(two.exit_code, 0);
     EXPECT_EQ(two.err, "");
-    EXPECT_EQ(nlohmann::json::parse(folder.read("plan.json"))["shards"], nlohmann::json({{3}, {0, 1, 2}}));
+    EXPECT_EQ(Json::parse(folder.read("plan.json")).value()["shards"], Json({{3}, {0, 1, 2}}));
     // no key has changed: all is there, and the pack is the same
     for (size_t shard = 0; shard < 2; ++shard)
         EXPECT_NE(run(shard, 2).err.find(" 0 cooked"), std::string::npos);
@@ -240,7 +240,7 @@ TEST_F(Farm, refusesToCookSomethingElse)
     EXPECT_EQ(merge.exit_code, 65);
     EXPECT_FALSE(folder.has("farm.hearth"));
     const ProgramEnd after = hearth({"farm", "status", "plan.json", "--format", "json"});
-    const auto shards = nlohmann::json::parse(after.out)["shards"];
+    const auto shards = Json::parse(after.out).value()["shards"];
     EXPECT_EQ(shards[&refused == &first ? 0 : 1]["state"], "failed");
     EXPECT_EQ(shards[&refused == &first ? 0 : 1]["exit"], 65);
     EXPECT_EQ(shards[&refused == &first ? 1 : 0]["state"], "done");
@@ -336,7 +336,7 @@ TEST_F(Farm, reportsWhatBecameOfIt)
     EXPECT_EQ(run(0, 2).exit_code, 0);
     EXPECT_EQ(run(1, 2).exit_code, 0);
     EXPECT_EQ(hearth({"merge", "plan.json", "-o", "a.hearth", "--report", "a.json"}).exit_code, 0);
-    const auto report = nlohmann::json::parse(folder.read("a.json"));
+    const auto report = Json::parse(folder.read("a.json")).value();
     EXPECT_EQ(report["totals"]["actions"]["cached"], 16) << "all but the link";
     EXPECT_FALSE(report["assets"][3]["clusters"].is_null());
     EXPECT_TRUE(folder.read("a.hearth") == localPack());
@@ -370,7 +370,7 @@ TEST_F(Farm, refusesWhatIsNoPlan)
     for (const char* setting : {"bricks.bake=99", "visibility.quality=best", "visibility.qualty=high", "-o=x",
                                 "more.obj", "--help", ""})
     {
-        nlohmann::json json = nlohmann::json::parse(plan(1));
+        Json json = Json::parse(plan(1)).value();
         json["cook"]["settings"][0].push_back(setting);
         folder.write("edited.json", json.dump());
         const ProgramEnd end = hearth({"run", "edited.json", "--shard", "0/1"});

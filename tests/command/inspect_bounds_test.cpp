@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/json/json.h"
 #include "pipelines/command/inspect_bounds.h"
 
 #include "tests/command/sandbox.h"
 #include "tests/command/small_parts.h"
 
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
 namespace hearth::test
 {
-
-using Json = nlohmann::json;
 
 namespace
 {
@@ -23,7 +21,7 @@ protected:
     Json bounds(const std::optional<command::ClipTime>& clip)
     {
         const Result<std::string> text = command::boundsJson(sandbox / "small.hearth", clip);
-        return text.ok() ? Json::parse(*text) : Json(formatMessage(text.error()));
+        return text.ok() ? Json::parse(*text).value() : Json(formatMessage(text.error()));
     }
 
     static void expectBox(const Json& box, Float3 min, Float3 max)

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/json/json.h"
 #include "pipelines/command/inspect.h"
 
 #include "pipelines/command/explain.h"
@@ -8,13 +9,11 @@
 #include "tests/command/small_parts.h"
 
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
 namespace hearth::test
 {
 
 using namespace formats;
-using Json = nlohmann::json;
 
 namespace
 {
@@ -32,7 +31,7 @@ protected:
             return {};
         }
         text = command::inspectText(*pack, command::summarize(*pack));
-        return Json::parse(command::inspectJson(*pack, command::summarize(*pack)));
+        return Json::parse(command::inspectJson(*pack, command::summarize(*pack))).value();
     }
 
     Sandbox sandbox;
@@ -220,7 +219,7 @@ TEST_F(Inspect, readsPartsToo)
     writeParts(smallPackWithMeta(), sandbox.path(), "a");
     const auto part = command::openContainer(sandbox / "a.import.part");
     ASSERT_TRUE(part.ok());
-    const Json json = Json::parse(command::inspectJson(*part, command::summarize(*part)));
+    const Json json = Json::parse(command::inspectJson(*part, command::summarize(*part))).value();
     EXPECT_EQ(json["kind"], "part");
     EXPECT_EQ(json["scene"]["nodes"], 4);
     EXPECT_EQ(json["chunks"].back()["kind"], "SMSH");
@@ -247,7 +246,7 @@ TEST(VerifyFile, saysWhatIsRight)
     ASSERT_TRUE(result.ok());
     EXPECT_EQ(countOf(*result, "\n"), 1u);
     EXPECT_NE(result->find("ok"), std::string::npos);
-    EXPECT_TRUE(Json::parse(command::verifyJson("a", result))["ok"].get<bool>());
+    EXPECT_TRUE(Json::parse(command::verifyJson("a", result)).value()["ok"].get<bool>());
 }
 
 TEST(VerifyFile, refusesDamageAndNonsense)
@@ -265,7 +264,7 @@ TEST(VerifyFile, refusesDamageAndNonsense)
     const auto result = command::verifyFile(sandbox / "nonsense.hearth");
     ASSERT_FALSE(result.ok());
     EXPECT_EQ(result.error().issue, Issue::meaning_tree);
-    const Json json = Json::parse(command::verifyJson("nonsense", result));
+    const Json json = Json::parse(command::verifyJson("nonsense", result)).value();
     EXPECT_FALSE(json["ok"].get<bool>());
     const std::string number = std::to_string(static_cast<unsigned>(Issue::meaning_tree));
     EXPECT_EQ(json["error"]["code"].get<std::string>().substr(1), number);

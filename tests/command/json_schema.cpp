@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <fstream>
-#include <nlohmann/json.hpp>
+#include <iterator>
 #include <regex.h>
 
 namespace hearth::test
@@ -29,8 +29,6 @@ size_t lengthOf(const std::string& text)
     return static_cast<size_t>(
         std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; }));
 }
-
-using Json = nlohmann::json;
 
 bool isOfType(const Json& value, const std::string& type)
 {
@@ -68,20 +66,20 @@ private:
         const auto unless = [&](bool holds)
         { return holds ? "" : place + ": " + keyword + " " + rule.dump(); };
         if (keyword == "type")
-            return unless(rule.is_array()
-                              ? std::any_of(rule.begin(), rule.end(),
-                                            [&](const Json& type) { return isOfType(value, type); })
-                              : isOfType(value, rule));
+            return unless(rule.is_array() ? std::any_of(rule.begin(), rule.end(),
+                                                        [&](const Json& type)
+                                                        { return isOfType(value, type.get<std::string>()); })
+                                          : isOfType(value, rule.get<std::string>()));
         if (keyword == "enum")
             return unless(std::find(rule.begin(), rule.end(), value) != rule.end());
         if (keyword == "const")
             return unless(value == rule);
         if (keyword == "minimum")
-            return unless(!value.is_number() || value >= rule);
+            return unless(!value.is_number() || value.get<double>() >= rule.get<double>());
         if (keyword == "exclusiveMinimum")
-            return unless(!value.is_number() || value > rule);
+            return unless(!value.is_number() || value.get<double>() > rule.get<double>());
         if (keyword == "maximum")
-            return unless(!value.is_number() || value <= rule);
+            return unless(!value.is_number() || value.get<double>() <= rule.get<double>());
         if (keyword == "minItems")
             return unless(!value.is_array() || value.size() >= rule.get<size_t>());
         if (keyword == "maxItems")
@@ -105,7 +103,7 @@ private:
                                       [&](const Json& name)
                                       { return value.contains(name.get<std::string>()); }));
         if (keyword == "$ref")
-            return fault(root_.at(Json::json_pointer(rule.get<std::string>().substr(1))), value, place);
+            return fault(*root_.resolve(rule.get<std::string>().substr(1)), value, place);
         if (keyword == "properties" || keyword == "additionalProperties")
             return membersFault(keyword == "properties", rule, schema, value, place);
         if (keyword == "items" || keyword == "allOf")
@@ -149,16 +147,17 @@ private:
 
 } // namespace
 
-std::string faultOf(const nlohmann::json& schema, const nlohmann::json& value)
+std::string faultOf(const Json& schema, const Json& value)
 {
     return Checker(schema).fault(schema, value, "");
 }
 
-std::string faultOfSchema(const std::string& schema_file, const nlohmann::json& value)
+std::string faultOfSchema(const std::string& schema_file, const Json& value)
 {
     std::ifstream file(schema_file);
-    const Json schema = Json::parse(file, nullptr, false);
-    return schema.is_discarded() ? schema_file + " is no JSON" : faultOf(schema, value);
+    const std::string text(std::istreambuf_iterator<char>(file), {});
+    const std::optional<Json> schema = Json::parse(text);
+    return schema ? faultOf(*schema, value) : schema_file + " is no JSON";
 }
 
 } // namespace hearth::test

@@ -4,15 +4,16 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
+#include "cook/json/json.h"
+
 #include <string>
 
 namespace hearth::test
 {
 
 /// The first difference, as "/assets/0/state: ..."; empty where there is none. A keyword that is not known is one.
-std::string faultOf(const nlohmann::json& schema, const nlohmann::json& value);
+std::string faultOf(const Json& schema, const Json& value);
 /// The same with a schema in a file.
-std::string faultOfSchema(const std::string& schema_file, const nlohmann::json& value);
+std::string faultOfSchema(const std::string& schema_file, const Json& value);
 
 } // namespace hearth::test

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/json/json.h"
 #include "pipelines/link/link.h"
 
 #include "formats/pack_check.h"
@@ -7,7 +8,6 @@
 
 #include <cstring>
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 #include <stdexcept>
 
 namespace hearth::test
@@ -329,7 +329,7 @@ TEST_F(LinkPack, metaTellsWhatWentIn)
 {
     addParts(named("a.gltf"), "a");
     addParts(named("b.gltf"), "b");
-    const auto meta = nlohmann::json::parse(linked().meta());
+    const auto meta = Json::parse(linked().meta()).value();
     EXPECT_EQ(meta["schema"], "hearth.meta/1");
     ASSERT_EQ(meta["sources"].size(), 2u);
     EXPECT_EQ(meta["sources"][1]["name"], "b.gltf");

@@ -1,5 +1,6 @@
 // What is made of the table of options: completion, manual pages, schemas; and hearth doctor.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/json/json.h"
 #include "tests/command/json_schema.h"
 #include "tests/command/sandbox.h"
 #include "tests/command/small_parts.h"
@@ -7,7 +8,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
+#include <optional>
 #include <sstream>
 
 namespace hearth::test
@@ -15,8 +16,6 @@ namespace hearth::test
 
 namespace
 {
-
-using Json = nlohmann::json;
 
 class Manual : public ::testing::Test
 {
@@ -138,9 +137,9 @@ TEST_F(Manual, whatIsWrittenFitsItsSchema)
 {
     const auto faultIn = [&](const std::string& name, const std::string& text)
     {
-        const Json schema = Json::parse(hearth({"schema", name}).out, nullptr, false);
-        const Json value = Json::parse(text, nullptr, false);
-        return value.is_discarded() || schema.is_discarded() ? "is no JSON" : faultOf(schema, value);
+        const std::optional<Json> schema = Json::parse(hearth({"schema", name}).out);
+        const std::optional<Json> value = Json::parse(text);
+        return !value || !schema ? "is no JSON" : faultOf(*schema, *value);
     };
     writePackFile(smallPack(), folder / "a.hearth");
     folder.write("bad.hearth", "no pack");
@@ -204,7 +203,7 @@ TEST_F(Manual, doctorSaysWhatIsWrongAndWhatToDo)
                      true);
     const ProgramEnd older = folder.run({folder / "bin/hearth", "doctor", "--format", "json"});
     EXPECT_EQ(older.exit_code, 1);
-    const Json json = Json::parse(older.out);
+    const Json json = Json::parse(older.out).value();
     EXPECT_FALSE(json["ok"].get<bool>());
     EXPECT_NE(json["checks"][0]["text"].get<std::string>().find("hearth-import 0.0.1"), std::string::npos);
     EXPECT_NE(older.out.find("draws with a device"), std::string::npos) << older.out;

@@ -1,6 +1,7 @@
 // hearth-bricks from the outside: sources made here, imported and clustered by the real programs.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/bricks/brick_tables.h"
+#include "cook/json/json.h"
 #include "formats/pack_check.h"
 #include "formats/shared/brick_codes.h"
 #include "sample_assets/glb_writer.h"
@@ -11,7 +12,6 @@
 #include <filesystem>
 #include <gtest/gtest.h>
 #include <map>
-#include <nlohmann/json.hpp>
 
 namespace hearth::test
 {
@@ -133,7 +133,7 @@ protected:
         }
     }
 
-    nlohmann::json statistics() { return nlohmann::json::parse(folder.read("stats.json")); }
+    Json statistics() { return Json::parse(folder.read("stats.json")).value(); }
 
     Sandbox folder;
 };
@@ -314,13 +314,13 @@ TEST_F(BricksCook, staysWithinItsMemory)
         ASSERT_TRUE(a.voxels.contains(cell));
         EXPECT_EQ(a.voxels.at(cell).faces.size(), voxel.faces.size());
     }
-    EXPECT_GT(statistics()["dropped"]["bricks"], 0);
+    EXPECT_GT(statistics()["dropped"]["bricks"].get<double>(), 0);
     // nobody asked for a size: it grows instead
     ASSERT_EQ(bricks(joined(room(), {"-o", "c.part", "--stats", "stats.json", "--memory", half})).exit_code,
               0);
     EXPECT_EQ(statistics()["dropped"]["bricks"], 0);
     EXPECT_LE(bytes(), whole / 2);
-    EXPECT_GT(statistics()["voxel_size"], 0.12);
+    EXPECT_GT(statistics()["voxel_size"].get<double>(), 0.12);
 }
 
 TEST_F(BricksCook, makesAnEmptyGridWhereNothingStandsStill)

@@ -1,11 +1,11 @@
 // The fit that the shader evaluates, held against exact values; and what finds its constants.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/json/json.h"
 #include "cook/specular/fit.h"
 #include "cook/specular/report.h"
 
 #include <algorithm>
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 #include <numbers>
 
 namespace hearth::test
@@ -137,7 +137,7 @@ TEST(Compare, hasTheWaysInTheirOrderOfMerit)
     EXPECT_LT(comparison.quadrature_rms, 5e-4);
     EXPECT_GT(comparison.quadrature_largest, 0);
 
-    const nlohmann::json json = nlohmann::json::parse(comparisonJson(comparison, 0.5));
+    const Json json = Json::parse(comparisonJson(comparison, 0.5)).value();
     EXPECT_EQ(json["schema"], "hearth.specular/1");
     EXPECT_EQ(json["masking"], "correlated");
     EXPECT_EQ(json["ways"].size(), comparison.ways.size());

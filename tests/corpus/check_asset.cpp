@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "tests/corpus/check_asset.h"
 
+#include "cook/json/json.h"
 #include "tests/corpus/open_log.h"
 #include "tests/corpus/read_text.h"
 
 #include <algorithm>
 #include <cstring>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 
 namespace hearth::corpus
 {
@@ -16,7 +16,6 @@ namespace
 {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::json;
 
 // Looking at a pack that is there takes no limit of the asset's; this one finds a hang.
 constexpr Limits kLookLimits{120, uint64_t{4} << 30};
@@ -246,13 +245,14 @@ void addCountFaults(std::vector<std::string>& faults, const Workplace& place, co
         return;
     try
     {
-        const Json inspected = Json::parse(readText(place.stdout_file, kMaxMessages));
+        const Json inspected =
+            Json::parse(readText(place.stdout_file, kMaxMessages)).value_or(Json::object());
         if (inspected.at("schema") != "hearth.inspect/1")
             faults.push_back("hearth inspect writes another schema");
         else
             compareCounts(faults, asset, inspected);
     }
-    catch (const Json::exception& error)
+    catch (const JsonError& error)
     {
         faults.push_back(std::string("hearth inspect writes what cannot be read: ") + error.what());
     }

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "tests/corpus/manifest.h"
 
+#include "cook/json/json.h"
+
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
-#include <nlohmann/json.hpp>
+#include <iterator>
 
 namespace hearth::corpus
 {
 
 namespace
 {
-
-using Json = nlohmann::json;
 
 // Good files carry no limits in the manifest. The largest has 1.6 million triangles.
 constexpr Limits kGoodLimits{120, uint64_t{4} << 30};
@@ -92,19 +92,22 @@ Result<std::vector<Asset>> readManifest(const std::string& folder)
     if (root.empty() || !file)
         return Error{Issue::input_missing, folder + "/manifest.json", "", "cannot be read"};
 
+    const std::string text(std::istreambuf_iterator<char>(file), {});
+    const std::optional<Json> manifest = Json::parse(text);
+    if (!manifest)
+        return Error{Issue::json_syntax, path, "", ""};
     std::vector<Asset> assets;
     try
     {
-        const Json manifest = Json::parse(file);
         for (const char* half : {"good", "bad"})
-            for (const Json& entry : manifest.at(half))
+            for (const Json& entry : manifest->at(half))
             {
                 assets.push_back(assetOf(entry, root));
                 if (assets.back().expected == nullptr)
                     return Error{Issue::gltf_value, path, assets.back().file, "a class that is not known"};
             }
     }
-    catch (const Json::exception& error)
+    catch (const JsonError& error)
     {
         return Error{Issue::json_syntax, path, "", error.what()};
     }

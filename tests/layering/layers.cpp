@@ -19,21 +19,22 @@ struct Layer
     Folders may_include; ///< besides itself
 };
 
-// The first line that a path starts with holds. A folder of cook/ that is not named sees formats, cook/command_line,
+// The first line that a path starts with holds. A folder of cook/ that is not named sees formats, cook/command_line, cook/json,
 // cook/tools, cook/mesh, cook/motion, cook/pages and cook/sampling only.
 const std::vector<Layer>& layers()
 {
     static const std::vector<Layer> list = {
         {"formats/", {}},
         {"cook/command_line/", {}},
-        {"cook/tools/", {"formats/"}},
+        {"cook/json/", {}},
+        {"cook/tools/", {"formats/", "cook/json/"}},
         {"cook/mesh/", {"formats/"}},
         {"cook/motion/", {"formats/"}},
         {"cook/pages/", {"formats/"}},
         {"cook/sampling/", {"formats/"}},
         {"cook/",
-         {"formats/", "cook/command_line/", "cook/tools/", "cook/mesh/", "cook/motion/", "cook/pages/",
-          "cook/sampling/"}},
+         {"formats/", "cook/command_line/", "cook/json/", "cook/tools/", "cook/mesh/", "cook/motion/",
+          "cook/pages/", "cook/sampling/"}},
         // extract draws the cut that the runtime would draw
         {"pipelines/command/", {"formats/", "cook/", "pipelines/", "runtime/pack/"}},
         {"pipelines/", {"formats/", "cook/", "pipelines/"}},
@@ -42,7 +43,7 @@ const std::vector<Layer>& layers()
         {"runtime/gpu/", {"formats/", "runtime/pack/", "runtime/shaders/"}},
         {"runtime/c/", {"formats/", "runtime/pack/", "runtime/gpu/"}},
         {"runtime/viewer/", {"formats/", "runtime/pack/", "runtime/gpu/"}},
-        {"sample_assets/", {"formats/", "cook/command_line/"}},
+        {"sample_assets/", {"formats/", "cook/command_line/", "cook/json/"}},
         {"tests/", {"formats/", "cook/", "pipelines/", "runtime/", "sample_assets/", "tests/"}},
     };
     return list;
@@ -84,10 +85,10 @@ const std::vector<Library>& libraries()
         {"meshoptimizer.h", {"pipelines/import/", "cook/clusters/"}},
         {"tiny_gltf.h", {"pipelines/import/"}},
         {"OpenMesh/", {"pipelines/import/", "cook/"}},
-        {"nlohmann/", {"cook/", "pipelines/", "sample_assets/"}},
+        {"nlohmann/", {"cook/json/"}},
         {"fmt/", {"cook/", "pipelines/", "sample_assets/"}},
         {"spdlog/", {"cook/", "pipelines/"}},
-        {"toml++/", {"cook/", "pipelines/"}},
+        {"toml++/", {"cook/tools/"}},
         {"tbb/", {"cook/", "pipelines/", "sample_assets/"}, true},
         {"embree3/", {"cook/"}},
         {"xmmintrin.h", {"cook/visibility/"}}, // how Embree wants the processor set
@@ -115,6 +116,8 @@ const std::vector<SlowLibrary>& slowLibraries()
 {
     static const std::vector<SlowLibrary> list = {
         {"CLI/", {"cook/command_line/command_line.cpp"}},
+        {"nlohmann/", {"cook/json/json.cpp", "tests/cook/json_test.cpp"}},
+        {"toml++/", {"cook/tools/toml.cpp"}},
     };
     return list;
 }

@@ -1,12 +1,12 @@
 // The graph of a cook, and its JSON.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/json/json.h"
 #include "pipelines/graph/causes.h"
 #include "pipelines/graph/cook_graph.h"
 #include "pipelines/graph/journal.h"
 #include "pipelines/graph/plan_json.h"
 
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
 namespace hearth::graph
 {
@@ -124,7 +124,7 @@ TEST(PlanJson, comesBack)
 {
     const Graph graph = makeCookGraph(allSettings()).value();
     const std::string json = planJson(graph);
-    EXPECT_EQ(nlohmann::json::parse(json)["schema"], "hearth.plan/1");
+    EXPECT_EQ(Json::parse(json).value()["schema"], "hearth.plan/1");
     const Result<Graph> again = parsePlan(json, "plan.json");
     ASSERT_TRUE(again.ok());
     EXPECT_EQ(planJson(*again), json);
@@ -134,25 +134,25 @@ TEST(PlanJson, comesBack)
 TEST(PlanJson, refusesWhatDoesNotHoldTogether)
 {
     const std::string json = planJson(makeCookGraph(allSettings()).value());
-    const auto refused = [](const nlohmann::json& plan)
+    const auto refused = [](const Json& plan)
     {
         const Result<Graph> graph = parsePlan(plan.dump(), "plan.json");
         return !graph.ok() && graph.error().file == "plan.json";
     };
-    nlohmann::json plan = nlohmann::json::parse(json);
+    Json plan = Json::parse(json).value();
     EXPECT_FALSE(refused(plan));
     const auto withChange = [&](const auto& change)
     {
-        nlohmann::json changed = plan;
+        Json changed = plan;
         change(changed);
         return changed;
     };
     EXPECT_TRUE(refused(withChange([](auto& p) { p["schema"] = "hearth.plan/2"; })));
-    EXPECT_TRUE(refused(withChange([](auto& p) { p["actions"] = nlohmann::json::array(); })));
+    EXPECT_TRUE(refused(withChange([](auto& p) { p["actions"] = Json::array(); })));
     EXPECT_TRUE(refused(withChange([](auto& p) { p["actions"][1].erase("cooker"); })));
     EXPECT_TRUE(refused(withChange([](auto& p) { p["actions"][1]["inputs"][0]["action"] = 1; })));
     EXPECT_TRUE(refused(withChange([](auto& p) { p["actions"][1]["words"][0]["input"] = 1; })));
-    EXPECT_TRUE(refused(withChange([](auto& p) { p["actions"][1]["outputs"] = nlohmann::json::array(); })));
+    EXPECT_TRUE(refused(withChange([](auto& p) { p["actions"][1]["outputs"] = Json::array(); })));
     EXPECT_TRUE(refused(withChange([](auto& p) { p["actions"][1]["source"] = "no number"; })));
     EXPECT_TRUE(refused(withChange([](auto& p) { p["actions"][1]["words"][0] = 7; })));
     EXPECT_EQ(parsePlan("{", "plan.json").error().issue, Issue::json_syntax);

@@ -1,5 +1,6 @@
 // Plans of farms: how sources are shared out, which shard a job is, and that a plan is believed in nothing.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/json/json.h"
 #include "pipelines/farm/emit.h"
 #include "pipelines/farm/measured.h"
 #include "pipelines/farm/plan.h"
@@ -14,7 +15,6 @@
 #include <gtest/gtest.h>
 #include <limits>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <numeric>
 #include <random>
 
@@ -180,10 +180,9 @@ TEST(ShardIndex, isWhatIsSaidFirst)
 TEST_F(PlanFile, isSharedOutByTimesOfBefore)
 {
     const Request asked = request();
-    using nlohmann::json;
     const auto asset = [&](size_t source, double import_seconds, double clusters_seconds)
     {
-        return json{
+        return Json{
             {"source", asked.sources[source]},
             {"stages",
              {{{"stage", "import"},
@@ -196,7 +195,7 @@ TEST_F(PlanFile, isSharedOutByTimesOfBefore)
                {"peak_rss_bytes", 3000}},
               {{"stage", "visibility"}, {"state", "failed"}, {"seconds", 1e6}, {"peak_rss_bytes", 1}}}}};
     };
-    const json report{
+    const Json report{
         {"schema", "hearth.report/1"},
         {"assets", {asset(0, 20, 80), asset(2, 5, 25)}},
         {"link", {{"stage", "link"}, {"state", "cooked"}, {"seconds", 7}, {"peak_rss_bytes", 30}}}};
@@ -277,11 +276,10 @@ TEST_F(PlanFile, comesBack)
 
 TEST_F(PlanFile, isRefusedWhereItIsNotWhatACookWouldBe)
 {
-    using nlohmann::json;
     const std::string text = planText(*make(request()));
-    const auto changed = [&](const std::function<void(json&)>& change)
+    const auto changed = [&](const std::function<void(Json&)>& change)
     {
-        json plan = json::parse(text);
+        Json plan = Json::parse(text).value();
         change(plan);
         return plan.dump();
     };
@@ -294,73 +292,75 @@ TEST_F(PlanFile, isRefusedWhereItIsNotWhatACookWouldBe)
         EXPECT_EQ(parsed.error().file, "plan.json");
         return parsed.error().where;
     };
-    EXPECT_EQ(placeOf(changed([](json&) {})), "taken");
+    EXPECT_EQ(placeOf(changed([](Json&) {})), "taken");
 
     struct Row
     {
         std::string where;
-        std::function<void(json&)> change;
+        std::function<void(Json&)> change;
     };
     const std::vector<Row> rows{
         // programs and command lines
-        {"/actions/0/cooker", [](json& p) { p["actions"][0]["cooker"] = "../../bin/sh"; }},
-        {"/actions/0/words/0", [](json& p) { p["actions"][0]["words"][0] = "-o/etc/passwd"; }},
-        {"/actions/2/words/-", [](json& p) { p["actions"][2]["words"].push_back("--debug-output"); }},
-        {"/actions/0/outputs/0", [](json& p) { p["actions"][0]["outputs"][0] = "../../../etc/cron.d/x"; }},
-        {"/actions/0/inputs/0/path", [](json& p) { p["actions"][0]["inputs"][0]["path"] = "/etc/shadow"; }},
-        {"/cook", [](json& p) { p["cook"]["settings"][0].push_back("clusters.output=1"); }},
-        {"/cook", [](json& p) { p["cook"]["settings"][0].push_back("clusters.influences=2"); }},
-        {"/cook", [](json& p) { p["cook"]["settings"].erase(0); }},
-        {"/cook", [](json& p) { p["cook"]["sources"][0] = "--depfile=/etc/passwd"; }},
-        {"/cook", [](json& p) { p["cook"]["settings"][0][0] = "visibility.poses=--debug-output"; }},
-        {"/cook", [](json& p) { p["cook"]["settings"][0][0] = "visibility.poses=['-o']"; }},
-        {"/cook", [](json& p) { p["cook"]["pack"][0] = "--launcher=sh"; }},
-        {"/cook", [](json& p) { p["cook"]["lods"] = {"1=-o"}; }},
-        {"/cookers", [](json& p) { p["cookers"]["sh"] = p["cookers"]["import"]; }},
-        {"/cookers", [](json& p) { p["cookers"].erase("link"); }},
-        {"/cookers", [](json& p) { p["cookers"]["import"] = "whatever"; }},
+        {"/actions/0/cooker", [](Json& p) { p["actions"][0]["cooker"] = "../../bin/sh"; }},
+        {"/actions/0/words/0", [](Json& p) { p["actions"][0]["words"][0] = "-o/etc/passwd"; }},
+        {"/actions/2/words/-", [](Json& p) { p["actions"][2]["words"].push_back("--debug-output"); }},
+        {"/actions/0/outputs/0", [](Json& p) { p["actions"][0]["outputs"][0] = "../../../etc/cron.d/x"; }},
+        {"/actions/0/inputs/0/path", [](Json& p) { p["actions"][0]["inputs"][0]["path"] = "/etc/shadow"; }},
+        {"/actions/0/inputs/0", [](Json& p) { p["actions"][0]["inputs"] = Json::array(); }},
+        {"/actions/0/subject", [](Json& p) { p["actions"][0].erase("subject"); }},
+        {"/cook", [](Json& p) { p["cook"]["settings"][0].push_back("clusters.output=1"); }},
+        {"/cook", [](Json& p) { p["cook"]["settings"][0].push_back("clusters.influences=2"); }},
+        {"/cook", [](Json& p) { p["cook"]["settings"].erase(0); }},
+        {"/cook", [](Json& p) { p["cook"]["sources"][0] = "--depfile=/etc/passwd"; }},
+        {"/cook", [](Json& p) { p["cook"]["settings"][0][0] = "visibility.poses=--debug-output"; }},
+        {"/cook", [](Json& p) { p["cook"]["settings"][0][0] = "visibility.poses=['-o']"; }},
+        {"/cook", [](Json& p) { p["cook"]["pack"][0] = "--launcher=sh"; }},
+        {"/cook", [](Json& p) { p["cook"]["lods"] = {"1=-o"}; }},
+        {"/cookers", [](Json& p) { p["cookers"]["sh"] = p["cookers"]["import"]; }},
+        {"/cookers", [](Json& p) { p["cookers"].erase("link"); }},
+        {"/cookers", [](Json& p) { p["cookers"]["import"] = "whatever"; }},
         // contents
-        {"/files", [](json& p) { p["files"].begin().value() = "x"; }},
-        {"/files", [](json& p) { p["files"].erase(p["files"].begin()); }},
-        {"/files", [](json& p) { p["files"]["more.obj"] = std::string(64, 'a'); }},
+        {"/files", [](Json& p) { p["files"][p["files"].items()[0].key] = "x"; }},
+        {"/files", [](Json& p) { p["files"].erase(p["files"].items()[0].key); }},
+        {"/files", [](Json& p) { p["files"]["more.obj"] = std::string(64, 'a'); }},
         {"/found",
-         [](json& p) {
+         [](Json& p) {
              p["found"] = {{{"action", 1}, {"files", {{"source/x", "absent"}}}}};
          }},
-        {"/processor", [](json& p) { p.erase("processor"); }},
-        {"/folder", [](json& p) { p["folder"] = "relative"; }},
+        {"/processor", [](Json& p) { p.erase("processor"); }},
+        {"/folder", [](Json& p) { p["folder"] = "relative"; }},
         // shards
-        {"/shards", [](json& p) { p["shards"] = json::array(); }},
+        {"/shards", [](Json& p) { p["shards"] = Json::array(); }},
         {"/shards",
-         [](json& p) {
+         [](Json& p) {
              p["shards"] = {{0, 1}, {1, 2}};
          }},
         {"/shards",
-         [](json& p) {
+         [](Json& p) {
              p["shards"] = {{0, 1}};
          }},
         {"/shards",
-         [](json& p) {
+         [](Json& p) {
              p["shards"] = {{2, 1, 0}};
          }},
         {"/shards",
-         [](json& p) {
+         [](Json& p) {
              p["shards"] = {{0, 1, 2, 3}};
          }},
         // numbers
-        {"/actions", [](json& p) { p["actions"][0]["estimate"]["memory_bytes"] = -1; }},
-        {"/actions", [](json& p) { p["actions"][0]["estimate"]["seconds"] = -1; }},
-        {"/actions", [](json& p) { p["actions"][0]["estimate"].erase("seconds"); }},
-        {"/actions", [](json& p) { p["actions"] = json::array(); }},
-        {"/sources", [](json& p) { p["sources"] = 4; }},
-        {"/schema", [](json& p) { p["schema"] = "hearth.plan/2"; }},
-        {"/run", [](json& p) { p["run"] = "rm"; }},
-        {"/cook/run", [](json& p) { p["cook"]["run"] = "rm"; }},
-        {"", [](json& p) { p.erase("shards"); }},
-        {"", [](json& p) { p.erase("cook"); }},
-        {"", [](json& p) { p["folder"] = 7; }},
-        {"/shards", [](json& p) { p["shards"][0][0] = -1; }},
-        {"", [](json& p) { p["cook"]["sources"][0] = std::string("a.obj\0.exe", 10); }},
+        {"/actions", [](Json& p) { p["actions"][0]["estimate"]["memory_bytes"] = -1; }},
+        {"/actions", [](Json& p) { p["actions"][0]["estimate"]["seconds"] = -1; }},
+        {"/actions", [](Json& p) { p["actions"][0]["estimate"].erase("seconds"); }},
+        {"/actions", [](Json& p) { p["actions"] = Json::array(); }},
+        {"/sources", [](Json& p) { p["sources"] = 4; }},
+        {"/schema", [](Json& p) { p["schema"] = "hearth.plan/2"; }},
+        {"/run", [](Json& p) { p["run"] = "rm"; }},
+        {"/cook/run", [](Json& p) { p["cook"]["run"] = "rm"; }},
+        {"", [](Json& p) { p.erase("shards"); }},
+        {"", [](Json& p) { p.erase("cook"); }},
+        {"", [](Json& p) { p["folder"] = 7; }},
+        {"/shards", [](Json& p) { p["shards"][0][0] = -1; }},
+        {"", [](Json& p) { p["cook"]["sources"][0] = std::string("a.obj\0.exe", 10); }},
     };
     for (const Row& row : rows)
         EXPECT_EQ(placeOf(changed(row.change)), row.where) << "row " << &row - rows.data();

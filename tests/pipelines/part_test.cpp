@@ -77,12 +77,6 @@ TEST(JsonDocument, limitsTheDepth)
     EXPECT_FALSE(JsonDocument::parse(std::string(1000000, '['), "f").ok());
 }
 
-TEST(JsonDocument, quotesAnyBytes)
-{
-    EXPECT_EQ(quoteJson("a\"b\n"), R"("a\"b\n")");
-    EXPECT_EQ(quoteJson("\xFF"), "\"\xEF\xBF\xBD\"");
-}
-
 TEST(PartBuilder, writesAReportThatNamesSourcesCountsAndMessages)
 {
     const TemporaryFolder folder;

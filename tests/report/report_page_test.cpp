@@ -1,10 +1,10 @@
 // The page of a report in a browser: headless Chromium without a network.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/json/json.h"
 #include "pipelines/report/write_report.h"
 #include "tests/command/sandbox.h"
 
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <sys/resource.h>
 
@@ -14,7 +14,6 @@ namespace hearth::report
 namespace
 {
 
-using Json = nlohmann::ordered_json;
 using test::countOf;
 
 constexpr int kAssets = 4200;

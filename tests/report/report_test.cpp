@@ -1,5 +1,6 @@
 // The report in other forms than JSON.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/json/json.h"
 #include "formats/result.h"
 #include "pipelines/report/base64.h"
 #include "pipelines/report/message.h"
@@ -10,7 +11,6 @@
 
 #include <algorithm>
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 #include <set>
 
 namespace hearth::report
@@ -18,8 +18,6 @@ namespace hearth::report
 
 namespace
 {
-
-using Json = nlohmann::ordered_json;
 
 Json smallReport()
 {
@@ -42,7 +40,8 @@ Json smallReport()
         {"source": "b<&\".glb", "state": "failed", "seconds": 0.5,
          "messages": [{"code": "E1103", "severity": "error", "text": "is <bad>", "pointer": "/meshes/0"}]},
         {"source": "=c.glb", "state": "not cooked",
-         "clusters": {"meshes": [{"name": "middle", "clusters": 1, "bytes": {"pages_stored": 20}}]}}]})");
+         "clusters": {"meshes": [{"name": "middle", "clusters": 1, "bytes": {"pages_stored": 20}}]}}]})")
+        .value();
 }
 
 } // namespace
@@ -115,7 +114,7 @@ TEST(ImportantMeshes, areTheLargestOfEachAssetBeforeAllOthers)
 
 TEST(PageData, isRowsOfWhatThePageShows)
 {
-    const Json data = Json::parse(pageData(smallReport().dump()));
+    const Json data = Json::parse(pageData(smallReport().dump())).value();
     ASSERT_EQ(data["meshes"].size(), 3u);
     EXPECT_EQ(data["meshes"][1].dump(), R"(["large",0,9,9,50,2,0,[[1,9,0.5,0.0,0.0,0.0,0.0]]])");
     EXPECT_EQ(data["meshes"][2][1], 2) << "its asset";

@@ -1,12 +1,12 @@
 // What vertices see, from a source through the pack and back out of it, against shapes whose visibility has a closed form.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/json/json.h"
 #include "tests/command/sandbox.h"
 
 #include "formats/math.h"
 #include "tests/reference/png_image.h"
 
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <array>
@@ -408,10 +408,10 @@ TEST_F(Occlusion, ofAFloorThatGoesOnBelowARugIsThatOfWhatIsBesideIt)
             EXPECT_GT(vertex.ao, 0.95f);
         }
     EXPECT_EQ(corners, 4u);
-    const auto report = nlohmann::json::parse(sandbox_.read("report.json"));
+    const auto report = Json::parse(sandbox_.read("report.json")).value();
     const auto& mesh = report["assets"][0]["visibility"]["meshes"][0];
-    EXPECT_GT(mesh["buried"], 3);
-    EXPECT_LE(mesh["solve"]["iterations"], 20);
+    EXPECT_GT(mesh["buried"].get<double>(), 3);
+    EXPECT_LE(mesh["solve"]["iterations"].get<double>(), 20);
 }
 
 TEST_F(Occlusion, hasNoSeamWhereVerticesMeet)
@@ -480,18 +480,18 @@ TEST_F(Occlusion, isWrittenAlikeByAnyNumberOfThreads)
 TEST_F(Occlusion, isReportedWithAPicture)
 {
     bake(bowl(16), {"--visibility-quality", "draft", "--visibility-refine", "--report", "report.json"});
-    const auto report = nlohmann::json::parse(sandbox_.read("report.json"));
+    const auto report = Json::parse(sandbox_.read("report.json")).value();
     const auto& visibility = report["assets"][0]["visibility"];
     const auto& mesh = visibility["meshes"][0];
     EXPECT_EQ(mesh["rays"], 32 * mesh["samples"].get<uint64_t>());
-    EXPECT_GT(mesh["seconds"]["rays"], 0);
-    EXPECT_GT(mesh["seconds"]["fit"], 0);
-    EXPECT_GT(mesh["solve"]["iterations"], 0);
-    EXPECT_GE(mesh["solve"]["condition"], 1);
+    EXPECT_GT(mesh["seconds"]["rays"].get<double>(), 0);
+    EXPECT_GT(mesh["seconds"]["fit"].get<double>(), 0);
+    EXPECT_GT(mesh["solve"]["iterations"].get<double>(), 0);
+    EXPECT_GE(mesh["solve"]["condition"].get<double>(), 1);
     EXPECT_TRUE(mesh.contains("clamped"));
     EXPECT_FALSE(mesh.contains("ao_error")) << "its noise takes time, and a report asks for none";
-    EXPECT_GT(mesh["refined"]["cones"], 0);
-    EXPECT_LT(mesh["refined"]["distance"], mesh["refined"]["distance_before"]);
+    EXPECT_GT(mesh["refined"]["cones"].get<double>(), 0);
+    EXPECT_LT(mesh["refined"]["distance"].get<double>(), mesh["refined"]["distance_before"].get<double>());
     // the signature of PNG
     EXPECT_EQ(visibility["picture"].get<std::string>().find("data:image/png;base64,iVBORw0KGgo"), 0u);
 }

@@ -1,5 +1,6 @@
 // Characters cooked by the real programs, in poses of their clips and between them: culling changes nothing.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/json/json.h"
 #include "runtime/pack/pose_player.h"
 #include "runtime/viewer/camera_fit.h"
 #include "tests/roundtrip/cooked_sample.h"
@@ -12,7 +13,6 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <nlohmann/json.hpp>
 
 namespace hearth::test
 {
@@ -88,18 +88,17 @@ uint32_t addLevelOfHalf(const std::string& file)
     constexpr size_t kJson = 20; // behind the header and the chunk's own
     uint32_t size = 0;
     std::memcpy(&size, bytes.data() + 12, sizeof(size));
-    nlohmann::json json = nlohmann::json::parse(bytes.substr(kJson, size));
-    const auto node =
-        static_cast<size_t>(std::find_if(json["nodes"].begin(), json["nodes"].end(),
-                                         [](const nlohmann::json& n) { return n.contains("skin"); }) -
-                            json["nodes"].begin());
-    nlohmann::json mesh = json["meshes"][json["nodes"][node]["mesh"].get<size_t>()];
-    nlohmann::json accessor = json["accessors"][mesh["primitives"][0]["indices"].get<size_t>()];
+    Json json = Json::parse(bytes.substr(kJson, size)).value();
+    const auto node = static_cast<size_t>(std::find_if(json["nodes"].begin(), json["nodes"].end(),
+                                                       [](const Json& n) { return n.contains("skin"); }) -
+                                          json["nodes"].begin());
+    Json mesh = json["meshes"][json["nodes"][node]["mesh"].get<size_t>()];
+    Json accessor = json["accessors"][mesh["primitives"][0]["indices"].get<size_t>()];
     const uint32_t triangles = accessor["count"].get<uint32_t>() / 6;
     accessor["count"] = triangles * 3;
     accessor.erase("min");
     accessor.erase("max");
-    mesh["primitives"] = nlohmann::json::array({mesh["primitives"][0]});
+    mesh["primitives"] = Json::array({mesh["primitives"][0]});
     mesh["primitives"][0]["indices"] = json["accessors"].size();
     json["accessors"].push_back(accessor);
     json["nodes"].push_back({{"mesh", json["meshes"].size()}, {"skin", json["nodes"][node]["skin"]}});

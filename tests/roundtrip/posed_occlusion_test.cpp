@@ -1,11 +1,11 @@
 // What deformed meshes see in the poses of a clip, from glTF through the pack and back, against a closed form: a ceiling that comes
 // down on a floor while both are turned.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/json/json.h"
 #include "cook/visibility/poses.h"
 #include "tests/command/sandbox.h"
 
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
 #include <cmath>
 #include <cstring>
@@ -43,19 +43,19 @@ public:
     }
 
     /// Of the last array.
-    void setRange(const nlohmann::json& least, const nlohmann::json& greatest)
+    void setRange(const Json& least, const Json& greatest)
     {
         accessors_.back()["min"] = least;
         accessors_.back()["max"] = greatest;
     }
 
     const std::string& bytes() const { return bytes_; }
-    const nlohmann::json& views() const { return views_; }
-    const nlohmann::json& accessors() const { return accessors_; }
+    const Json& views() const { return views_; }
+    const Json& accessors() const { return accessors_; }
 
 private:
     std::string bytes_;
-    nlohmann::json views_ = nlohmann::json::array(), accessors_ = nlohmann::json::array();
+    Json views_ = Json::array(), accessors_ = Json::array();
 };
 
 /// A floor at y = 0 that joint 1 carries, a ceiling that joint 2 does, both joints below joint 0. In a second the clip lowers the
@@ -99,7 +99,7 @@ void writeModel(const Sandbox& sandbox)
     buffer.add(std::vector<float>{0, 0, 0, 0, static_cast<float>(kLow - kHigh), 0}, 5126, "VEC3", 2);
     const auto half = static_cast<float>(std::sqrt(0.5));
     buffer.add(std::vector<float>{0, 0, 0, 1, 0, 0, half, half}, 5126, "VEC4", 2);
-    const nlohmann::json model{
+    const Json model{
         {"asset", {{"version", "2.0"}}},
         {"scene", 0},
         {"scenes", {{{"nodes", {0, 1}}}}},
@@ -198,8 +198,8 @@ protected:
 
     std::vector<std::string> posesReported()
     {
-        const auto report = nlohmann::json::parse(sandbox_.read("report.json"));
-        return report["assets"][0]["visibility"]["meshes"][0]["poses"];
+        const auto report = Json::parse(sandbox_.read("report.json")).value();
+        return report["assets"][0]["visibility"]["meshes"][0]["poses"].get<std::vector<std::string>>();
     }
 
     Sandbox sandbox_;

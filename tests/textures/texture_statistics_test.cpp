@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/json/json.h"
 #include "cook/textures/texture_statistics.h"
 
 #include "cook/textures/mip_chain.h"
@@ -6,7 +7,6 @@
 
 #include <cmath>
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
 namespace hearth::textures
 {
@@ -90,12 +90,12 @@ TEST(TextureStatistics, sayWhatBecameOfAnImage)
     image.stored_bytes = 40;
     image.error = 0;
     image.half_error = 0.01;
-    const auto json = nlohmann::json::parse(statisticsJson("tree.part", {&image, 1}));
+    const auto json = Json::parse(statisticsJson("tree.part", {&image, 1})).value();
     EXPECT_EQ(json["schema"], "hearth.textures/1");
     const auto& bark = json["images"][0];
     EXPECT_EQ(bark["name"], "bark");
-    EXPECT_EQ(bark["uses"], nlohmann::json::parse(R"([{"material": "Oak", "role": "baseColor"},
-                                                     {"material": "", "role": "emissive"}])"));
+    EXPECT_EQ(bark["uses"], Json::parse(R"([{"material": "Oak", "role": "baseColor"},
+                                                     {"material": "", "role": "emissive"}])").value());
     EXPECT_EQ(bark["width"], 4);
     EXPECT_EQ(bark["mips"], 3);
     EXPECT_EQ(bark["format"], "rgba8-srgb");
