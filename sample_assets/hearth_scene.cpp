@@ -48,7 +48,7 @@ Float4 anyRotation(uint32_t index, uint32_t seed)
     return multiply(about_y, tilt);
 }
 
-void addGround(Document& document, const HeightGrid& grid, uint32_t texture_size)
+void addCampGround(Document& document, const HeightGrid& grid, uint32_t texture_size)
 {
     addNode(document, "ground",
             addMesh(document, "ground", makeTerrain(grid), addTerrainMaterial(document, grid, texture_size)),
@@ -190,7 +190,7 @@ Document makeHearthScene(uint64_t hero_triangles, uint32_t texture_size)
     Document document;
     const HeightGrid grid =
         makeHeights({.size = 32, .cells = 256, .clearing_radius = kClearingRadius, .seed = 8});
-    addGround(document, grid, texture_size);
+    addCampGround(document, grid, texture_size);
     addRocks(document, grid, hero_triangles);
     addFire(document);
     addSeatAndGuest(document);

@@ -18,7 +18,7 @@ namespace
 
 constexpr float kLandSize = 512;
 constexpr float kSteeper = 2.8f; // than hills are elsewhere: 128 m are made use of
-constexpr uint32_t kPlotsAcross = 8;
+constexpr uint32_t kLandPlotsAcross = 8;
 constexpr uint32_t kRockShapes = 4;
 constexpr uint32_t kRocksOfShape = 30;
 constexpr uint64_t kRockTriangles = 100000;
@@ -33,8 +33,8 @@ TriangleMesh makePlot(const HeightGrid& grid, uint32_t column, uint32_t row, uin
                  [&](Float2 uv, Float3& position, Float2& texture_uv)
                  {
                      // rows run towards -Z, so that the triangles face up
-                     texture_uv = {(static_cast<float>(column) + uv.x) / kPlotsAcross,
-                                   (static_cast<float>(row) + 1 - uv.y) / kPlotsAcross};
+                     texture_uv = {(static_cast<float>(column) + uv.x) / kLandPlotsAcross,
+                                   (static_cast<float>(row) + 1 - uv.y) / kLandPlotsAcross};
                      const Float2 xz{(texture_uv.x - 0.5f) * kLandSize, (texture_uv.y - 0.5f) * kLandSize};
                      position = {xz.x, grid.at(xz), xz.y};
                  });
@@ -43,17 +43,18 @@ TriangleMesh makePlot(const HeightGrid& grid, uint32_t column, uint32_t row, uin
     return plot;
 }
 
-void addGround(Document& document, const HeightGrid& grid, uint32_t texture_size)
+void addPlots(Document& document, const HeightGrid& grid, uint32_t texture_size)
 {
     const int material = addTerrainMaterial(document, grid, texture_size);
-    for (uint32_t row = 0; row < kPlotsAcross; ++row)
-        for (uint32_t column = 0; column < kPlotsAcross; ++column)
+    for (uint32_t row = 0; row < kLandPlotsAcross; ++row)
+        for (uint32_t column = 0; column < kLandPlotsAcross; ++column)
         {
             Node node;
             node.name = "ground_" + std::to_string(column) + "_" + std::to_string(row);
-            node.mesh = add(
-                document.meshes,
-                Mesh{node.name, {{makePlot(grid, column, row, grid.shape.cells / kPlotsAcross), material}}});
+            node.mesh =
+                add(document.meshes,
+                    Mesh{node.name,
+                         {{makePlot(grid, column, row, grid.shape.cells / kLandPlotsAcross), material}}});
             addRoot(document, node);
         }
 }
@@ -162,7 +163,7 @@ void addHouses(Document& document, const HeightGrid& grid)
     addInstances(document, "house", makeHouse(document), std::move(instances));
 }
 
-void addSunAndCamera(Document& document, const HeightGrid& grid)
+void addNoonSunAndCamera(Document& document, const HeightGrid& grid)
 {
     Node sun;
     sun.name = "sun";
@@ -186,14 +187,14 @@ Document makeLand(uint64_t ground_triangles, uint32_t texture_size)
 {
     Document document;
     const auto wanted = static_cast<uint32_t>(std::sqrt(static_cast<double>(ground_triangles) / 2) + 0.5);
-    const uint32_t cells = std::max(1u, wanted / kPlotsAcross) * kPlotsAcross;
+    const uint32_t cells = std::max(1u, wanted / kLandPlotsAcross) * kLandPlotsAcross;
     HeightGrid grid = makeHeights({.size = kLandSize, .cells = cells, .seed = 11});
     for (float& height : grid.heights)
         height *= kSteeper;
-    addGround(document, grid, texture_size);
+    addPlots(document, grid, texture_size);
     addRocks(document, grid);
     addHouses(document, grid);
-    addSunAndCamera(document, grid);
+    addNoonSunAndCamera(document, grid);
     return document;
 }
 

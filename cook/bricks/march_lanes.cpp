@@ -19,7 +19,7 @@ constexpr uint32_t kLanes = 16;
 /// With fewer rays left than this, one after the other is faster.
 constexpr uint32_t kLeastLanes = 6;
 
-uint64_t maskOf(uint32_t low, uint32_t high)
+uint64_t joinedMask(uint32_t low, uint32_t high)
 {
     return uint64_t{high} << 32 | low;
 }
@@ -235,7 +235,8 @@ MarchTable::MarchTable(const BrickMasks& bricks) : bricks_(bricks)
         {
             const bool is = maskHas(group.brick_mask_low, group.brick_mask_high, bit);
             voxels_.push_back(
-                is ? maskOf(bricks.bricks[brick].voxel_mask_low, bricks.bricks[brick].voxel_mask_high) : 0);
+                is ? joinedMask(bricks.bricks[brick].voxel_mask_low, bricks.bricks[brick].voxel_mask_high)
+                   : 0);
             brick += is ? 1 : 0;
         }
     }

@@ -33,7 +33,7 @@ constexpr double kNearChord = 0.2;
 constexpr uint32_t kMostPieces = 8;
 
 // Sums of a few roundings of numbers up to 1.
-constexpr double kRounding = 1e-14;
+constexpr double kAngleRounding = 1e-14;
 
 KeyValue minus(const KeyValue& a, const KeyValue& b)
 {
@@ -65,7 +65,7 @@ double arcDeviation(const KeyValue& a0, const KeyValue& a1, const KeyValue& b0, 
     // (1 / cos(x / 2) - 1) / x^2 grows from 1 / 8, but its quotient loses digits where x is small
     constexpr double kSmallArc = 1e-3, kOfSmallArc = 0.1250001;
     const double of_speed = theta < kSmallArc ? kOfSmallArc : (growth - 1) / (theta * theta);
-    return ends * growth + std::abs(phi - theta) * (phi + theta) * of_speed + kRounding;
+    return ends * growth + std::abs(phi - theta) * (phi + theta) * of_speed + kAngleRounding;
 }
 
 double rotationDeviation(const Curve& curve, size_t first, size_t last, const KeyValue& start,

@@ -27,7 +27,7 @@ constexpr double kMostChord = 0.1;
 constexpr double kSameChord = 1e-15;
 
 // Sums and products of the bounds themselves.
-constexpr double kRounding = 1 + 1e-9;
+constexpr double kSpentMargin = 1 + 1e-9;
 
 // Of a spline's tolerance, for what straight pieces leave of it.
 constexpr double kSplineShare = 0.25;
@@ -276,8 +276,8 @@ private:
         const double deviation = fitChannel(channel, tolerance);
         if (pathOf(channel.record) == AnimationPath::scale)
             state.scale += deviation;
-        state.spent += deviation * metres * kRounding;
-        state.left = std::max(state.left - deviation * metres * kRounding, 0.0);
+        state.spent += deviation * metres * kSpentMargin;
+        state.left = std::max(state.left - deviation * metres * kSpentMargin, 0.0);
     }
 
     /// returns  how far what it adds to the clip is from the channel

@@ -16,7 +16,7 @@ namespace
 constexpr size_t kMostInfluences = 8;
 
 /// Of the triangles of two points.
-constexpr size_t kMostJoints = 6 * kMostInfluences;
+constexpr size_t kMaxPairJoints = 6 * kMostInfluences;
 
 double partOf(const Float4& weights, size_t i)
 {
@@ -55,12 +55,12 @@ private:
         for (size_t i = 0; i < count_; ++i)
             if (differences_[i].joint == joint)
                 return differences_[i];
-        HEARTH_ASSERT(count_ < kMostJoints);
+        HEARTH_ASSERT(count_ < kMaxPairJoints);
         differences_[count_] = {joint, 0, {}};
         return differences_[count_++];
     }
 
-    std::array<JointDifference, kMostJoints> differences_;
+    std::array<JointDifference, kMaxPairJoints> differences_;
     size_t count_ = 0;
 };
 

@@ -14,7 +14,7 @@ namespace
 {
 
 // More rows cost more than they tell: a group's vertices have seldom more joints, and the rest is measured all the same.
-constexpr size_t kMostJoints = 12;
+constexpr size_t kMaxJoints = 12;
 constexpr size_t kMostMorphs = 4;
 
 // Joints that no clip moves against each other count as if they did by this part of the group: a game may pose them.
@@ -91,7 +91,7 @@ void weighDeformation(const PreparedMesh& mesh, GroupMesh& group)
     const auto joints = jointSums(mesh.vertices, group.vertex_of_wedge);
     if (!joints.empty())
         group.weights.main_joint = joints.front().second;
-    for (size_t i = 1; i < std::min(joints.size(), kMostJoints + 1); ++i)
+    for (size_t i = 1; i < std::min(joints.size(), kMaxJoints + 1); ++i)
     {
         const uint32_t joint = joints[i].second;
         const double length = lengthOf(mesh, group, group.weights.main_joint, joint);

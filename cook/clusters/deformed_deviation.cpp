@@ -19,11 +19,11 @@ namespace
 {
 
 // Rounding of a distance between points in [-1, 1]^3, of places and of weights: a few times 2^-23, with room.
-constexpr float kRounding = 4e-6f;
+constexpr float kPosedRounding = 4e-6f;
 
 // As boundDeviation: a list of so many likely facets, and what may be added to an error that is carried on.
-constexpr size_t kMaxLikely = 5 * kLanes;
-constexpr float kSlackOfCarried = kSlack - 1;
+constexpr size_t kMaxPosedLikely = 5 * kLanes;
+constexpr float kPosedCarriedSlack = kSlack - 1;
 
 /// One of the two surfaces.
 struct Side
@@ -153,7 +153,7 @@ public:
         for (const Task& task : findTasks())
             task.before ? measureBefore(task.triangle) : measureAfter(task.triangle);
         for (float& error : errors_)
-            error += error > 0 ? kRounding : 0.0f;
+            error += error > 0 ? kPosedRounding : 0.0f;
         return {std::move(errors_), nearest_.loosePieces()};
     }
 
@@ -243,7 +243,7 @@ private:
     void addLikely(std::span<const uint32_t> facets)
     {
         for (const uint32_t facet : facets)
-            if (likely_.size() < kMaxLikely &&
+            if (likely_.size() < kMaxPosedLikely &&
                 std::find(likely_.begin(), likely_.end(), facet) == likely_.end())
                 likely_.push_back(facet);
     }
@@ -252,7 +252,7 @@ private:
     float bound(const Side& from, uint32_t triangle, Side& to, float carried)
     {
         FacetMetric metric(metric_, from, triangle, to);
-        const Allowance allowance{worst_ - carried, carried * kSlackOfCarried};
+        const Allowance allowance{worst_ - carried, carried * kPosedCarriedSlack};
         const float distance =
             nearest_.bound(from.cornersOf(triangle), to.index, likely_, allowance, &metric);
         served_.assign(nearest_.used().begin(), nearest_.used().end());

@@ -17,8 +17,6 @@ namespace hearth::clusters
 namespace
 {
 
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
-
 // Rounding of a distance between points in [-1, 1]^3: a few times 2^-23, with room.
 constexpr float kRounding = 2e-6f;
 

@@ -12,8 +12,6 @@ namespace hearth::clusters
 namespace
 {
 
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
-
 // A triangle this close in parts of its own size is not searched further: on a plane all distances are rounding. Parts
 // of 512 would do, but that beside an open border it would be all that is known of a plane.
 constexpr float kFinest2 = 1.0f / (8192.0f * 8192.0f);

@@ -10,8 +10,6 @@ namespace hearth::clusters
 namespace
 {
 
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
-
 /// Twice the signed area of a triangle in the plane.
 float area2(Float2 a, Float2 b, Float2 c)
 {

@@ -16,6 +16,7 @@ namespace hearth::clusters
 
 using Corners = std::array<Float3, 3>;
 
+inline constexpr float kInfinity = std::numeric_limits<float>::infinity();
 inline constexpr size_t kMaxBlocks = 8;
 inline constexpr size_t kMaxCandidates = kLanes * kMaxBlocks;
 inline constexpr size_t kMaxPoints = 28;

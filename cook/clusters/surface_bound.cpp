@@ -16,7 +16,7 @@ namespace
 {
 
 // Bounds are searched for until they are this close to what is there.
-constexpr double kSlack = 1.1;
+constexpr double kSearchSlack = 1.1;
 
 // A triangle is searched in at most so many pieces. On surfaces that lie apart by a thousandth of their size, one
 // triangle that spans all of the other surface takes about a million.
@@ -35,7 +35,7 @@ constexpr size_t kMaxHalvings = 10;
 constexpr size_t kRun = 256;
 
 // Rounding of a distance, as part of the coordinates: a few times 2^-53, with room.
-constexpr double kRounding = 1e-14;
+constexpr double kBoundRounding = 1e-14;
 
 constexpr uint32_t kNoTriangle = 0xFFFFFFFFu;
 
@@ -169,7 +169,7 @@ Found boundTriangle(const Corners3& triangle, const SurfaceTree& other, double k
         open.pop_back();
         const Double3 center = centerOf(piece.corners);
         const double radius = radiusOf(piece.corners, center);
-        const double stop = std::max(0.0, kSlack * std::max(known, found.sure) - radius);
+        const double stop = std::max(0.0, kSearchSlack * std::max(known, found.sure) - radius);
         const SurfaceTree::Nearest nearest = other.nearest(center, stop * stop, piece.near);
         const double distance = std::sqrt(nearest.distance2);
         piece.near = nearest.triangle;
@@ -178,7 +178,7 @@ Found boundTriangle(const Corners3& triangle, const SurfaceTree& other, double k
             found.sure = std::max(found.sure, distance);
         const Corners3 near = other.triangle(nearest.triangle);
         const double upper = std::min(distance + radius, farthestCorner(piece.corners, near));
-        const bool done = upper <= kSlack * std::max(known, found.sure);
+        const bool done = upper <= kSearchSlack * std::max(known, found.sure);
         if (done || pieces >= kMaxPieces)
         {
             found.upper = std::max(found.upper, upper);
@@ -291,7 +291,7 @@ SurfaceBound boundSurfaces(const SurfaceView& a, const SurfaceView& b, double en
     SurfaceBound bound;
     addSide(a, tree_a, tree_b, least, bound);
     addSide(b, tree_b, tree_a, least, bound);
-    bound.upper += coordinates * kRounding;
+    bound.upper += coordinates * kBoundRounding;
     return bound;
 }
 

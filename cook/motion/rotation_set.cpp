@@ -29,7 +29,7 @@ constexpr std::array<std::array<int, 3>, kSlabCount> kSlabs{{{1, 0, 0},
                                                              {-1, 1, 1}}};
 
 // Rounding of a projection, far above what double precision leaves.
-constexpr double kRoundingMargin = 1e-9;
+constexpr double kSlabMargin = 1e-9;
 
 // Two rotations with a smaller cosine between their quaternions count as half a turn apart: either arc may be the
 // shorter one.
@@ -159,7 +159,7 @@ RotationPatch patchAround(const Quaternion& frame, std::span<const Quaternion> p
             patch.slabs[s].add(along(kSlabs[s], u));
     }
     for (Interval& slab : patch.slabs)
-        slab.grow(kRoundingMargin * (1 + slab.magnitude()));
+        slab.grow(kSlabMargin * (1 + slab.magnitude()));
     return patch;
 }
 
@@ -185,7 +185,7 @@ RotationPatch halfCircle(const Quaternion& frame, const Quaternion& side, double
     for (size_t s = 0; s < kSlabCount; ++s)
     {
         const double reach = std::abs(kSlabs[s][0]) * extent.x + std::abs(kSlabs[s][1]) * extent.y +
-                             std::abs(kSlabs[s][2]) * extent.z + kRoundingMargin;
+                             std::abs(kSlabs[s][2]) * extent.z + kSlabMargin;
         patch.slabs[s] = {-reach, reach};
     }
     return patch;

@@ -22,7 +22,7 @@ constexpr double kValueTerm = 1e-14;
 constexpr double kBoundTerm = 1e-4;
 
 // What rounding comes to.
-constexpr double kRounding = 1e-12;
+constexpr double kSlerpRounding = 1e-12;
 
 /// Derivatives by v and z up to third order in all: at[i][j] is d^(i+j) / dv^i dz^j.
 struct Derivatives
@@ -153,7 +153,7 @@ Square squareOf(const TimeCurve& from, const TimeCurve& to, double side)
             {-0.5 * side * dot(a[2], b[0]), -0.5 * side * dot(a[0], b[2])},
             -0.5 * side * dot(a[1], b[1]),
             0.5 * (left_out + from.remainder + to.remainder * (1 + from.remainder)) + std::max(-middle, 0.0) +
-                kRounding};
+                kSlerpRounding};
 }
 
 /// The expansion with u moving by half_u x2 and z as it does.
@@ -175,7 +175,8 @@ TaylorModel<1> composed(const Expansion& f, double half_u, const Square& z)
     model.remainder = std::abs(f.z) * z.remainder + std::abs(f.uz) * half_u * (away - linear) +
                       0.5 * std::abs(f.zz) * (away * away - linear * linear) +
                       f.zzz * away * away * away / 6 + 0.5 * f.uzz * half_u * away * away +
-                      0.5 * f.uuz * half_u * half_u * away + f.uuu * half_u * half_u * half_u / 6 + kRounding;
+                      0.5 * f.uuz * half_u * half_u * away + f.uuu * half_u * half_u * half_u / 6 +
+                      kSlerpRounding;
     return model;
 }
 
@@ -201,7 +202,7 @@ TaylorModel<4> nearEnd(const TimeCurve& from, const TimeCurve& to, Interval weig
     for (size_t degree = 0; degree < 3; ++degree)
         model.terms[is_from ? kFromTerms[degree] : kToTerms[degree]] = end.terms[degree];
     const double share = is_from ? weights.high : 1 - weights.low;
-    model.remainder = end.remainder + 2 * std::sin(share * std::numbers::pi / 4) + kRounding;
+    model.remainder = end.remainder + 2 * std::sin(share * std::numbers::pi / 4) + kSlerpRounding;
     return model;
 }
 

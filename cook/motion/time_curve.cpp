@@ -21,7 +21,7 @@ namespace
 constexpr uint32_t kSplineParts = 8;
 
 // What rounding moves a value by, as a share of its length.
-constexpr double kRounding = 1e-13;
+constexpr double kCurveRounding = 1e-13;
 
 constexpr double kUnknown = std::numeric_limits<double>::infinity();
 
@@ -260,7 +260,7 @@ TimeCurve fitted(const Pieces& pieces)
     const double of_smooth = remainderOf(smooth, pieces.all());
     const double of_still = remainderOf(still, pieces.all());
     TimeCurve curve{of_smooth <= of_still ? smooth : still, std::min(of_smooth, of_still)};
-    curve.remainder += kRounding * (length(curve.terms[0]) + length(curve.terms[1]) + curve.remainder);
+    curve.remainder += kCurveRounding * (length(curve.terms[0]) + length(curve.terms[1]) + curve.remainder);
     return curve;
 }
 
@@ -268,7 +268,7 @@ TimeCurve fitted(const Pieces& pieces)
 
 TimeCurve curveOf(const Value& value)
 {
-    return {{value}, kRounding * length(value)};
+    return {{value}, kCurveRounding * length(value)};
 }
 
 TimeCurve vectorCurve(TimeSpan time, const MotionTables& tables, const AnimationChannelRecord& channel)

@@ -14,7 +14,7 @@ namespace
 {
 
 // What rounding moves the result of a product by, as a share of its factors.
-constexpr double kRounding = 1e-14;
+constexpr double kTransformRounding = 1e-14;
 
 // Scales that are this near to 1 are rounded ones.
 constexpr double kNearRigid = 1e-5;
@@ -49,8 +49,8 @@ RigidModel productOf(const RigidModel& a, const RigidModel& b)
         sum[3] += p[3] * q[3] - p[0] * q[0] - p[1] * q[1] - p[2] * q[2];
     }
     // of quaternions of length 1: (a + e) (b + f) = a b + a f + e (b + f)
-    rotation.remainder =
-        a.norms.all() * b.rotation.remainder + a.rotation.remainder + leftOut(a.norms, b.norms) + kRounding;
+    rotation.remainder = a.norms.all() * b.rotation.remainder + a.rotation.remainder +
+                         leftOut(a.norms, b.norms) + kTransformRounding;
     // and of rotations with a stretch: (A + E) (B + F) = A B + E B + (A + E) F
     return rigidOf(rotation.remainder < 1 ? rotation : anyRotation(),
                    a.stretch + (1 + a.stretch) * b.stretch);
@@ -86,8 +86,8 @@ void setLinear(TransformModel& transform)
     const DegreeNorms& p = transform.rigid->norms;
     transform.norms = {p.constant * p.constant, 2 * p.constant * p.linear,
                        2 * p.constant * p.quadratic + p.linear * p.linear};
-    matrix.remainder =
-        rotation.remainder * (2 + rotation.remainder) + leftOut(p, p) + kRounding + transform.rigid->stretch;
+    matrix.remainder = rotation.remainder * (2 + rotation.remainder) + leftOut(p, p) + kTransformRounding +
+                       transform.rigid->stretch;
     limitRemainder(transform);
 }
 
@@ -140,7 +140,7 @@ std::optional<VectorModel> reciprocal(const VectorModel& s)
         // 1 / (c + d) = 1/c - d/c^2 + d^2/c^3 - d^3/e^4, e between c and c + d
         const double remainder = s.remainder * square + (away * away - linear * linear) * std::abs(cube) +
                                  away * away * away / (least * least * least * least);
-        result.remainder = std::max(result.remainder, remainder + kRounding * std::abs(inverse));
+        result.remainder = std::max(result.remainder, remainder + kTransformRounding * std::abs(inverse));
     }
     return result;
 }
@@ -191,7 +191,7 @@ void scaleElements(TransformModel& model, const VectorModel& scale, const AxisOf
             scaled.terms[product.product][i] +=
                 model.linear.terms[product.one][i] * scale.terms[product.other][axis_of(i)];
     scaled.remainder = model.linear.remainder * model.norm + scale.remainder * (1 + model.linear.remainder) +
-                       leftOut(model.norms, of_scale) + kRounding * model.norm;
+                       leftOut(model.norms, of_scale) + kTransformRounding * model.norm;
     model.linear = scaled;
     model.norms = degreeNorms(scaled);
     limitRemainder(model);
@@ -226,7 +226,7 @@ VectorModel moved(const TransformModel& transform, const VectorModel& vector)
                              ? constantProduct(transform.linear, vector.terms[0])
                              : productTerms(transform.linear, vector);
     result.remainder = transform.norm * vector.remainder +
-                       (transform.linear.remainder + kRounding * transform.norm) * norms.all() +
+                       (transform.linear.remainder + kTransformRounding * transform.norm) * norms.all() +
                        leftOut(transform.norms, norms);
     return result;
 }
@@ -281,7 +281,7 @@ std::optional<TransformModel> nodeFromParent(const NodeModel& node)
     if (model.rigid)
         setLinear(model);
     model.place = moved(model, away);
-    model.place.remainder += kRounding * model.norm * length(model.pivot);
+    model.place.remainder += kTransformRounding * model.norm * length(model.pivot);
     return model;
 }
 
@@ -303,7 +303,7 @@ void compose(const TransformModel& second, TransformModel& first, TransformModel
         // (A + E) (B + F) = A B + E B + (A + E) F
         result.linear.remainder = second.linear.remainder * (first.norm + first.linear.remainder) +
                                   second.norm * first.linear.remainder + leftOut(second.norms, first.norms) +
-                                  kRounding * result.norm;
+                                  kTransformRounding * result.norm;
         result.norms = degreeNorms(result.linear);
         limitRemainder(result);
     }
@@ -315,7 +315,8 @@ void compose(const TransformModel& second, TransformModel& first, TransformModel
     for (size_t term = 0; term < kTerms; ++term)
         for (size_t i = 0; i < 3; ++i)
             result.place.terms[term][i] += second.place.terms[term][i];
-    result.place.remainder += second.place.remainder + kRounding * second.norm * length(second.pivot);
+    result.place.remainder +=
+        second.place.remainder + kTransformRounding * second.norm * length(second.pivot);
 }
 
 } // namespace hearth::motion

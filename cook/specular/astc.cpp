@@ -13,8 +13,8 @@ namespace hearth::specular
 namespace
 {
 
-constexpr uint32_t kNodes = shared::kSpecularNodes;
-constexpr uint32_t kWidth = kNodes * kNodes, kHeight = kNodes;
+constexpr uint32_t kTableNodes = shared::kSpecularNodes;
+constexpr uint32_t kWidth = kTableNodes * kTableNodes, kHeight = kTableNodes;
 constexpr size_t kBlockBytes = 16;
 
 struct FreeContext
@@ -40,9 +40,9 @@ Context contextFor(uint32_t block)
 /// Texel of the picture of each node.
 size_t texelOf(size_t node)
 {
-    const size_t aperture = node % kNodes, roughness = node / kNodes % kNodes,
-                 beta = node / (kNodes * kNodes);
-    return roughness * kWidth + beta * kNodes + aperture;
+    const size_t aperture = node % kTableNodes, roughness = node / kTableNodes % kTableNodes,
+                 beta = node / (kTableNodes * kTableNodes);
+    return roughness * kWidth + beta * kTableNodes + aperture;
 }
 
 size_t blocksAlong(uint32_t texels, uint32_t block)

@@ -23,18 +23,18 @@ Result<Configuration> configurationOf(std::span<const double> row, const std::st
 {
     const auto fault = [&](std::string detail) { return tools::faultOfRow(name, line, std::move(detail)); };
     const double half_angle = row[0], roughness = row[1], theta_o = row[2];
-    constexpr double kRightAngle = std::numbers::pi / 2;
-    if (!(half_angle >= 0 && half_angle <= kRightAngle + kSlack_rad))
+    constexpr double kMaxAngle = std::numbers::pi / 2;
+    if (!(half_angle >= 0 && half_angle <= kMaxAngle + kSlack_rad))
         return fault(fmt::format("aperture_rad {} is not from 0 to pi / 2", half_angle));
     if (!(roughness >= 0 && roughness <= 1))
         return fault(fmt::format("roughness {} is not from 0 to 1", roughness));
-    if (!(theta_o >= 0 && theta_o <= kRightAngle + kSlack_rad))
+    if (!(theta_o >= 0 && theta_o <= kMaxAngle + kSlack_rad))
         return fault(fmt::format("theta_o_rad {} is not from 0 to pi / 2", theta_o));
     const Double3 axis{row[3], row[4], row[5]};
     const double size = length(axis);
     if (!(size > 0) || !std::isfinite(size))
         return fault("the axis has no direction");
-    return Configuration{std::min(half_angle, kRightAngle), roughness, std::min(theta_o, kRightAngle),
+    return Configuration{std::min(half_angle, kMaxAngle), roughness, std::min(theta_o, kMaxAngle),
                          axis * (1 / size)};
 }
 

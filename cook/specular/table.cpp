@@ -16,14 +16,14 @@ namespace
 {
 
 constexpr uint32_t kNodes = shared::kSpecularNodes;
-constexpr double kRightAngle = std::numbers::pi / 2;
+constexpr double kQuarterTurn = std::numbers::pi / 2;
 
 } // namespace
 
 AssumedPlace assumedPlace(double roughness, double beta, const TableSettings& settings)
 {
     const double theta_o =
-        (1 - settings.normal_lambda) * beta / 2 + settings.normal_lambda * std::min(beta, kRightAngle);
+        (1 - settings.normal_lambda) * beta / 2 + settings.normal_lambda * std::min(beta, kQuarterTurn);
     const double tilt = theta_o - beta;
     return {{roughness, theta_o, settings.masking}, {std::sin(tilt), 0, std::cos(tilt)}};
 }
@@ -33,7 +33,7 @@ TableValues cookTable(const TableSettings& settings)
     TableValues values{};
     std::array<double, kNodes> half_angles{};
     for (uint32_t i = 0; i < kNodes; ++i)
-        half_angles[i] = kRightAngle * specularNodeAperture(i);
+        half_angles[i] = kQuarterTurn * specularNodeAperture(i);
     tbb::parallel_for(uint32_t{0}, kNodes * kNodes,
                       [&](uint32_t row)
                       {

@@ -18,20 +18,20 @@ namespace
 {
 
 // Rows whose sums are made one after another. Sums of blocks are added in their order.
-constexpr size_t kBlock = 2048;
+constexpr size_t kRowsPerTask = 2048;
 
 /// The sum over all rows of what `term(row, sum)` adds.
 template <typename Term>
 Block4 sumOver(size_t rows, const Term& term)
 {
-    const size_t blocks = (rows + kBlock - 1) / kBlock;
+    const size_t blocks = (rows + kRowsPerTask - 1) / kRowsPerTask;
     std::vector<Block4> sums(blocks);
     tbb::parallel_for(size_t{0}, blocks,
                       [&](size_t block)
                       {
                           Block4 sum;
-                          const size_t end = std::min(rows, (block + 1) * kBlock);
-                          for (size_t row = block * kBlock; row < end; ++row)
+                          const size_t end = std::min(rows, (block + 1) * kRowsPerTask);
+                          for (size_t row = block * kRowsPerTask; row < end; ++row)
                               term(row, sum);
                           sums[block] = sum;
                       });

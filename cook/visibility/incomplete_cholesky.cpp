@@ -12,7 +12,7 @@ namespace
 {
 
 // Rows that one thread factorizes and solves for.
-constexpr size_t kBlock = 2048;
+constexpr size_t kRowsPerBlock = 2048;
 
 // Of the diagonal, what each pivot is at least: where much is left out that matters they become small, then negative, and
 // what follows grows without bound.
@@ -32,12 +32,12 @@ IncompleteCholesky::IncompleteCholesky(const SparseMatrix& matrix)
 
 size_t IncompleteCholesky::blockCount() const
 {
-    return (rows_.size() + kBlock - 1) / kBlock;
+    return (rows_.size() + kRowsPerBlock - 1) / kRowsPerBlock;
 }
 
 void IncompleteCholesky::factorize(size_t block)
 {
-    const size_t begin = block * kBlock, end = std::min(rows_.size(), begin + kBlock);
+    const size_t begin = block * kRowsPerBlock, end = std::min(rows_.size(), begin + kRowsPerBlock);
     for (size_t row = begin; row < end; ++row)
     {
         const auto at = [&](size_t column) { return matrix_.entryFrom(row, static_cast<uint32_t>(column)); };
@@ -87,7 +87,7 @@ bool IncompleteCholesky::factorizeRow(uint32_t row, double shift)
 
 void IncompleteCholesky::applyTo(size_t block, const std::vector<Block4>& r, std::vector<Block4>& z) const
 {
-    const size_t begin = block * kBlock, end = std::min(rows_.size(), begin + kBlock);
+    const size_t begin = block * kRowsPerBlock, end = std::min(rows_.size(), begin + kRowsPerBlock);
     for (size_t row = begin; row < end; ++row)
     {
         Block4 sum = r[row];
@@ -112,8 +112,8 @@ Block4 IncompleteCholesky::apply(const std::vector<Block4>& r, std::vector<Block
                       [&](size_t block)
                       {
                           applyTo(block, r, z);
-                          const size_t end = std::min(rows_.size(), (block + 1) * kBlock);
-                          for (size_t row = block * kBlock; row < end; ++row)
+                          const size_t end = std::min(rows_.size(), (block + 1) * kRowsPerBlock);
+                          for (size_t row = block * kRowsPerBlock; row < end; ++row)
                               sums[block].addProduct(r[row], z[row], 1);
                       });
     Block4 total;

@@ -16,7 +16,7 @@ namespace
 {
 
 // Samples that are looked up one after another; each starts where the one before was found.
-constexpr size_t kBlock = 256;
+constexpr size_t kVerticesPerTask = 256;
 
 constexpr double kReach = 0.05;
 
@@ -61,11 +61,12 @@ std::vector<SurfaceSample> transfer(const SamplePoints& points, const SampleChoi
     const ClosestPoint surface(proxy.view(), proxy.indices.size() / 3);
     std::vector<SurfaceSample> result(choice.samples.size());
     tbb::parallel_for(
-        size_t{0}, (result.size() + kBlock - 1) / kBlock,
+        size_t{0}, (result.size() + kVerticesPerTask - 1) / kVerticesPerTask,
         [&](size_t block)
         {
             uint32_t hint = kNowhere;
-            for (size_t i = block * kBlock; i < std::min(result.size(), (block + 1) * kBlock); ++i)
+            for (size_t i = block * kVerticesPerTask;
+                 i < std::min(result.size(), (block + 1) * kVerticesPerTask); ++i)
             {
                 const uint32_t sample = choice.samples[i];
                 const ClosestPoint::Found found =

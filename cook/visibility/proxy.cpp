@@ -23,7 +23,7 @@ namespace
 constexpr double kBeside = 10;
 
 // Samples that are looked up one after another; each starts where the one before was found.
-constexpr size_t kBlock = 256;
+constexpr size_t kSamplesPerTask = 256;
 
 constexpr double kEverywhere = std::numeric_limits<double>::infinity();
 
@@ -305,12 +305,12 @@ std::vector<SurfaceSample> samplesOnProxy(const Proxy& proxy, const MeshView& so
             surface->find(a + ab * sample.u + ac * sample.v, cross(ab, ac), reach * reach, hint);
         return SurfaceSample{found.triangle, found.u, found.v, sample.area, sample.weight};
     };
-    tbb::parallel_for(size_t{0}, (samples.size() + kBlock - 1) / kBlock,
+    tbb::parallel_for(size_t{0}, (samples.size() + kSamplesPerTask - 1) / kSamplesPerTask,
                       [&](size_t block)
                       {
                           uint32_t hint = kNowhere;
-                          const size_t end = std::min(samples.size(), (block + 1) * kBlock);
-                          for (size_t i = block * kBlock; i < end; ++i)
+                          const size_t end = std::min(samples.size(), (block + 1) * kSamplesPerTask);
+                          for (size_t i = block * kSamplesPerTask; i < end; ++i)
                           {
                               result[i] = place(samples[i], hint);
                               if (gone(samples[i]) && result[i].triangle != kNowhere)

@@ -15,7 +15,7 @@ namespace hearth::visibility
 namespace
 {
 
-using Corners = std::array<uint32_t, 3>;
+using CornerIndices = std::array<uint32_t, 3>;
 
 // A flip or a collapse makes work for the neighbours; of meshes seen, the worst were done after four rounds.
 constexpr int kRounds = 16;
@@ -32,7 +32,7 @@ struct Shape
     int short_side;  ///< corner that is opposite to the shortest edge
 };
 
-Shape shapeOf(std::span<const Float3> positions, const Corners& corners)
+Shape shapeOf(std::span<const Float3> positions, const CornerIndices& corners)
 {
     std::array<double, 3> length2;
     const std::array<Double3, 3> p{widen(positions[corners[0]]), widen(positions[corners[1]]),
@@ -50,7 +50,7 @@ Shape shapeOf(std::span<const Float3> positions, const Corners& corners)
             static_cast<int>(longest - length2.begin()), static_cast<int>(shortest - length2.begin())};
 }
 
-bool isDegenerate(const Corners& c)
+bool isDegenerate(const CornerIndices& c)
 {
     return c[0] == c[1] || c[1] == c[2] || c[2] == c[0];
 }
@@ -92,12 +92,12 @@ private:
         // vertices go to lower ones, which here already know where they went
         for (uint32_t& vertex : result_.vertex_of_vertex)
             vertex = result_.vertex_of_vertex[vertex];
-        for (Corners& corners : corners_)
+        for (CornerIndices& corners : corners_)
             for (uint32_t& vertex : corners)
                 vertex = result_.vertex_of_vertex[vertex];
         struct Key
         {
-            Corners sorted;
+            CornerIndices sorted;
             uint32_t triangle;
         };
         std::vector<Key> keys;
@@ -106,7 +106,7 @@ private:
         {
             if (isDegenerate(corners_[t]))
                 continue;
-            Corners sorted = corners_[t];
+            CornerIndices sorted = corners_[t];
             std::sort(sorted.begin(), sorted.end());
             keys.push_back({sorted, t});
         }
@@ -166,7 +166,7 @@ private:
 
     bool collapse(uint32_t triangle, const Shape& shape)
     {
-        const Corners& corners = corners_[triangle];
+        const CornerIndices& corners = corners_[triangle];
         const auto [low, high] = std::minmax(corners[static_cast<size_t>(shape.short_side + 1) % 3],
                                              corners[static_cast<size_t>(shape.short_side + 2) % 3]);
         if (!takeAll({low, high}))
@@ -201,13 +201,13 @@ private:
 
     bool flip(uint32_t triangle, const Shape& shape)
     {
-        const Corners corners = corners_[triangle];
+        const CornerIndices corners = corners_[triangle];
         const auto k = static_cast<size_t>(shape.opposite);
         const uint32_t p = corners[k], a = corners[(k + 1) % 3], b = corners[(k + 2) % 3];
         const auto [other, c] = across(triangle, a, b);
         if (other == kNowhere || c == p)
             return false;
-        const Corners one{a, c, p}, two{c, b, p};
+        const CornerIndices one{a, c, p}, two{c, b, p};
         const double before = std::min(shape.ratio, shapeOf(positions_, corners_[other]).ratio);
         const double after = std::min(shapeOf(positions_, one).ratio, shapeOf(positions_, two).ratio);
         if (!(after > before) || !takeAll({a, b, c, p}))
@@ -245,7 +245,7 @@ private:
 
     std::span<const Float3> positions_;
     double thinness_;
-    std::vector<Corners> corners_;
+    std::vector<CornerIndices> corners_;
     std::vector<bool> flipped_;
     std::vector<uint32_t> live_;
     std::vector<uint32_t> twin_; ///< the live triangle with the same corners, of all that have three

@@ -25,7 +25,6 @@ constexpr size_t kConnections = 16;
 constexpr uint64_t kMaxErrorPage = 64 * 1024;
 // How often a wait looks whether it is still worth it.
 constexpr int kLook_ms = 100;
-constexpr long kOk = 200;
 
 // ---- the library
 
@@ -139,7 +138,7 @@ size_t receive(char* data, size_t one, size_t count, void* user)
 {
     auto& flight = *static_cast<Flight*>(user);
     const size_t size = one * count;
-    const bool is_wanted = isGet(*flight.request) && statusOf(flight) == kOk;
+    const bool is_wanted = isGet(*flight.request) && statusOf(flight) == kHttpOk;
     const uint64_t max_bytes = is_wanted ? flight.request->max_bytes : kMaxErrorPage;
     if (size > max_bytes - std::min(flight.bytes, max_bytes))
     {
@@ -305,7 +304,7 @@ Status HttpClient::Connections::land(Flight& flight, CURLcode end)
     HttpRequest& request = *flight.request;
     const long status = statusOf(flight);
     const bool is_answered = end == CURLE_OK || flight.is_cut;
-    const bool makes_file = request.kind == HttpRequest::Kind::get_file && status == kOk && is_answered;
+    const bool makes_file = request.kind == HttpRequest::Kind::get_file && status == kHttpOk && is_answered;
     const bool is_well = is_answered && (!makes_file || makeFile(flight));
     const bool has_made_file = request.kind == HttpRequest::Kind::get_file && flight.file >= 0;
     if (flight.file >= 0)

@@ -13,6 +13,8 @@
 namespace hearth::cache
 {
 
+inline constexpr long kHttpOk = 200;
+
 /// A GET or PUT of a text or of a file.
 struct HttpRequest
 {

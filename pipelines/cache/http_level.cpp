@@ -10,11 +10,9 @@ namespace
 // The lists of what an import found are the longest entries: 16 times some hundred bytes for each of its files.
 constexpr uint64_t kMaxEntry_bytes = 64 << 20;
 
-constexpr long kOk = 200;
-
 bool isThere(const HttpRequest& request)
 {
-    return request.status == kOk;
+    return request.status == kHttpOk;
 }
 
 /// Not found, or gone.

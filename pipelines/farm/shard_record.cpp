@@ -19,7 +19,7 @@ namespace
 constexpr const char* kSchema = "hearth.shard/1";
 constexpr std::array<std::string_view, 5> kEndings{"unknown", "cooked", "kept", "failed", "left out"};
 
-std::optional<uint64_t> numberOf(std::string_view text)
+std::optional<uint64_t> wholeNumber(std::string_view text)
 {
     uint64_t number = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
@@ -34,7 +34,7 @@ std::string milliseconds(double seconds)
 /// false where a field is not one of an action
 bool takeField(const std::string& name, const std::string& value, ShardAction& action)
 {
-    const std::optional<uint64_t> number = numberOf(value);
+    const std::optional<uint64_t> number = wholeNumber(value);
     if (name == "ending")
     {
         const auto ending = std::find(kEndings.begin(), kEndings.end(), value);
@@ -134,7 +134,7 @@ std::optional<ShardRecord> recordOf(const cache::Fields& fields)
     {
         if (name == "schema")
             continue;
-        const std::optional<uint64_t> number = numberOf(value);
+        const std::optional<uint64_t> number = wholeNumber(value);
         if (name == "machine")
             record.machine = value;
         else if (name == "error")

@@ -15,14 +15,14 @@ namespace hearth::graph
 namespace
 {
 
-constexpr const char* kSchema = "hearth.cook/1";
+constexpr const char* kJournalSchema = "hearth.cook/1";
 constexpr std::array<std::string_view, 5> kEndings{"unknown", "cooked", "kept", "failed", "left out"};
 
 } // namespace
 
 std::string journalText(const Journal& journal)
 {
-    cache::Fields fields{{"schema", kSchema},
+    cache::Fields fields{{"schema", kJournalSchema},
                          {"folder", journal.folder},
                          {"output", journal.output},
                          {"output cause", journal.output_cause},
@@ -40,7 +40,7 @@ std::string journalText(const Journal& journal)
 std::optional<Journal> parseJournal(std::string_view text)
 {
     const std::optional<cache::Fields> fields = cache::entryFields(text);
-    if (!fields || cache::valueOf(*fields, "schema") != kSchema)
+    if (!fields || cache::valueOf(*fields, "schema") != kJournalSchema)
         return std::nullopt;
     Journal journal;
     journal.folder = cache::valueOf(*fields, "folder");

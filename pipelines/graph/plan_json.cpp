@@ -9,7 +9,7 @@ namespace hearth::graph
 namespace
 {
 
-constexpr const char* kSchema = "hearth.plan/1";
+constexpr const char* kPlanSchema = "hearth.plan/1";
 
 Json wordJson(const Word& word)
 {
@@ -95,7 +95,7 @@ bool holdsTogether(const Graph& graph)
 
 std::string planJson(const Graph& graph)
 {
-    Json json{{"schema", kSchema}, {"sources", graph.source_count}, {"actions", Json::array()}};
+    Json json{{"schema", kPlanSchema}, {"sources", graph.source_count}, {"actions", Json::array()}};
     for (const Action& action : graph.actions)
         json["actions"].push_back(actionJson(action));
     return json.dump(1) + "\n";
@@ -112,7 +112,7 @@ Result<Graph> parsePlan(std::string_view text, const std::string& file)
     try
     {
         Graph graph;
-        if (json.at("schema") != kSchema)
+        if (json.at("schema") != kPlanSchema)
             return no_plan;
         json.at("sources").get_to(graph.source_count);
         for (const Json& action : json.at("actions"))

@@ -91,7 +91,7 @@ CornersOfPoints groupCorners(const mesh::SourceMesh& mesh, const std::vector<uin
 }
 
 /// Directions around a point: at most kMaxDirections, so that a fan of a million triangles stays linear.
-struct Direction
+struct FaceDirection
 {
     Double3 unit;
     Double3 weighted_sum;
@@ -130,7 +130,7 @@ std::optional<Double3> normalized(const Double3& v)
 }
 
 void collectDirections(std::span<const uint32_t> corners, const std::vector<FaceNormal>& faces,
-                       std::vector<Direction>& directions)
+                       std::vector<FaceDirection>& directions)
 {
     directions.clear();
     if (corners.size() <= kMaxDirections)
@@ -138,7 +138,7 @@ void collectDirections(std::span<const uint32_t> corners, const std::vector<Face
         for (const uint32_t corner : corners)
         {
             const FaceNormal& face = faces[corner / 3];
-            Direction direction{face.unit, {}};
+            FaceDirection direction{face.unit, {}};
             addTo(direction.weighted_sum, face.unit, face.area);
             if (face.area > 0)
                 directions.push_back(direction);
@@ -163,10 +163,10 @@ Float3 toFloat(const Double3& v)
 }
 
 /// The normal of a corner of `face`: the average of the directions that the crease angle does not part from it.
-Float3 cornerNormal(const FaceNormal& face, std::span<const Direction> directions, double min_cosine)
+Float3 cornerNormal(const FaceNormal& face, std::span<const FaceDirection> directions, double min_cosine)
 {
     Double3 sum;
-    for (const Direction& direction : directions)
+    for (const FaceDirection& direction : directions)
         if (face.area == 0 || dot(direction.unit, face.unit) >= min_cosine)
             addTo(sum, direction.weighted_sum, 1);
     if (const auto unit = normalized(sum))
@@ -185,7 +185,7 @@ std::vector<Float3> cornerNormals(const mesh::SourceMesh& mesh, float crease_ang
     tbb::parallel_for(tbb::blocked_range<size_t>(0, groups.offsets.size() - 1),
                       [&](const tbb::blocked_range<size_t>& points)
                       {
-                          std::vector<Direction> directions;
+                          std::vector<FaceDirection> directions;
                           for (size_t point = points.begin(); point < points.end(); ++point)
                           {
                               const auto corners =

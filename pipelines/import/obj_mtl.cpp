@@ -17,7 +17,8 @@ namespace
 using namespace std::string_view_literals;
 
 /// Statements without a counterpart in the metallic-roughness material; illum only chooses a shader.
-constexpr std::array kIgnored = {"illum"sv, "Ka"sv, "Ks"sv, "Ni"sv, "Tf"sv, "Kt"sv, "sharpness"sv};
+constexpr std::array kIgnoredMaterialKeywords = {"illum"sv, "Ka"sv, "Ks"sv,       "Ni"sv,
+                                                 "Tf"sv,    "Kt"sv, "sharpness"sv};
 
 /// Options of texture statements and how many words follow them at most.
 struct TextureOption
@@ -84,7 +85,8 @@ private:
             readOpacity(true);
         else if (keyword == "Ns")
             material_->has_shininess = readScalar(material_->shininess);
-        else if (std::find(kIgnored.begin(), kIgnored.end(), keyword) == kIgnored.end())
+        else if (std::find(kIgnoredMaterialKeywords.begin(), kIgnoredMaterialKeywords.end(), keyword) ==
+                 kIgnoredMaterialKeywords.end())
             note(Issue::dropped, fmt::format("'{}' is not kept", keyword.substr(0, 40)));
     }
 

@@ -21,9 +21,9 @@ using namespace std::string_view_literals;
 using formats::kNone;
 
 /// Statements of the manual that draw nothing here; anything else that is not read is named in a warning.
-constexpr std::array kIgnored = {"g"sv,          "o"sv,         "s"sv,      "mg"sv,
-                                 "bevel"sv,      "c_interp"sv,  "lod"sv,    "d_interp"sv,
-                                 "shadow_obj"sv, "trace_obj"sv, "maplib"sv, "usemap"sv};
+constexpr std::array kIgnoredKeywords = {"g"sv,          "o"sv,         "s"sv,      "mg"sv,
+                                         "bevel"sv,      "c_interp"sv,  "lod"sv,    "d_interp"sv,
+                                         "shadow_obj"sv, "trace_obj"sv, "maplib"sv, "usemap"sv};
 
 /// How often a statement that is not kept was seen, and where first.
 struct Dropped
@@ -89,7 +89,8 @@ private:
             useMaterial(text_.restOfLine());
         else if (keyword == "mtllib")
             file_.material_libraries.emplace_back(text_.restOfLine());
-        else if (std::find(kIgnored.begin(), kIgnored.end(), keyword) == kIgnored.end())
+        else if (std::find(kIgnoredKeywords.begin(), kIgnoredKeywords.end(), keyword) ==
+                 kIgnoredKeywords.end())
             return drop(keyword);
         return success();
     }

@@ -35,11 +35,6 @@ std::optional<PlyType> typeOf(std::string_view name)
     return found == kNames.end() ? std::nullopt : std::optional(found->second);
 }
 
-bool isFloat(PlyType type)
-{
-    return type == PlyType::float32 || type == PlyType::float64;
-}
-
 std::vector<std::string_view> wordsOf(std::string_view line)
 {
     std::vector<std::string_view> words;

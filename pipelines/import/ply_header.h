@@ -32,6 +32,11 @@ constexpr uint32_t byteSize(PlyType type)
     return kSizes[static_cast<size_t>(type)];
 }
 
+constexpr bool isFloat(PlyType type)
+{
+    return type == PlyType::float32 || type == PlyType::float64;
+}
+
 struct PlyProperty
 {
     std::string name;

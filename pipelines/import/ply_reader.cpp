@@ -78,11 +78,6 @@ Role vertexRole(const PlyProperty& property)
     return found == kNames.end() ? Role::none : found->second;
 }
 
-bool isFloat(PlyType type)
-{
-    return type == PlyType::float32 || type == PlyType::float64;
-}
-
 Role faceRole(const PlyProperty& property)
 {
     if (property.is_list && (property.name == "vertex_indices" || property.name == "vertex_index"))

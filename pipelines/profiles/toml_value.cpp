@@ -22,7 +22,7 @@ namespace
 // One word of a command line may have 128 KiB on Linux: it holds a setting with its key.
 constexpr size_t kLongestValue = 100'000;
 
-std::string quoted(std::string_view text)
+std::string quotedToml(std::string_view text)
 {
     std::string word = "\"";
     for (const char c : text)
@@ -75,7 +75,7 @@ Result<std::string> wordText(const TomlNode& node, const Setting& setting, const
         (setting.kind != Kind::choice ||
          std::find(setting.choices.begin(), setting.choices.end(), node.text) != setting.choices.end());
     if (is_allowed)
-        return quoted(node.text);
+        return quotedToml(node.text);
     if (!node.isText() || setting.kind != Kind::choice)
         return outOfRange(node, setting, place);
     const Keys choices(setting.choices.begin(), setting.choices.end());

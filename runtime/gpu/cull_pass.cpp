@@ -11,8 +11,8 @@ namespace hearth::gpu
 namespace
 {
 
-constexpr VkDescriptorType kUniform = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
-constexpr VkDescriptorType kStorage = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+constexpr VkDescriptorType kUniformBuffer = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
+constexpr VkDescriptorType kStorageBuffer = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
 
 struct EmitPush
 {
@@ -133,23 +133,30 @@ Result<CullPass> CullPass::create(const Device& device, const DrawLayouts& layou
     CullPass pass;
     HEARTH_ASSIGN_OR_RETURN(pass.instances_,
                             createComputePipeline(device, shaders::cull_instances_comp,
-                                                  {kUniform, kStorage, kStorage, kStorage, kStorage},
+                                                  {kUniformBuffer, kStorageBuffer, kStorageBuffer,
+                                                   kStorageBuffer, kStorageBuffer},
                                                   sizeof(uint32_t), layouts.occlusion.get()));
-    HEARTH_ASSIGN_OR_RETURN(pass.clusters_, createComputePipeline(device, shaders::cull_clusters_comp,
-                                                                  {kUniform, kStorage, kStorage, kStorage,
-                                                                   kStorage, kStorage, kStorage, kStorage},
-                                                                  sizeof(CullPush), layouts.occlusion.get()));
-    HEARTH_ASSIGN_OR_RETURN(pass.scan_blocks_, createComputePipeline(device, shaders::scan_blocks_comp,
-                                                                     {kStorage, kStorage}, sizeof(uint32_t)));
+    HEARTH_ASSIGN_OR_RETURN(
+        pass.clusters_,
+        createComputePipeline(device, shaders::cull_clusters_comp,
+                              {kUniformBuffer, kStorageBuffer, kStorageBuffer, kStorageBuffer, kStorageBuffer,
+                               kStorageBuffer, kStorageBuffer, kStorageBuffer},
+                              sizeof(CullPush), layouts.occlusion.get()));
+    HEARTH_ASSIGN_OR_RETURN(pass.scan_blocks_,
+                            createComputePipeline(device, shaders::scan_blocks_comp,
+                                                  {kStorageBuffer, kStorageBuffer}, sizeof(uint32_t)));
     HEARTH_ASSIGN_OR_RETURN(pass.scan_totals_,
-                            createComputePipeline(device, shaders::scan_totals_comp, {kStorage, kStorage},
-                                                  sizeof(ScanTotalsPush)));
-    HEARTH_ASSIGN_OR_RETURN(pass.emit_visible_, createComputePipeline(device, shaders::emit_visible_comp,
-                                                                      {kStorage, kStorage, kStorage, kStorage,
-                                                                       kStorage, kStorage, kStorage},
-                                                                      sizeof(EmitPush)));
+                            createComputePipeline(device, shaders::scan_totals_comp,
+                                                  {kStorageBuffer, kStorageBuffer}, sizeof(ScanTotalsPush)));
+    HEARTH_ASSIGN_OR_RETURN(
+        pass.emit_visible_,
+        createComputePipeline(device, shaders::emit_visible_comp,
+                              {kStorageBuffer, kStorageBuffer, kStorageBuffer, kStorageBuffer, kStorageBuffer,
+                               kStorageBuffer, kStorageBuffer},
+                              sizeof(EmitPush)));
     HEARTH_ASSIGN_OR_RETURN(pass.emit_draws_, createComputePipeline(device, shaders::emit_draws_comp,
-                                                                    {kStorage, kStorage, kStorage, kStorage},
+                                                                    {kStorageBuffer, kStorageBuffer,
+                                                                     kStorageBuffer, kStorageBuffer},
                                                                     sizeof(EmitDrawsPush)));
     return pass;
 }
@@ -158,11 +165,12 @@ Status CullPass::prepareDeformed(const Device& device, const DrawLayouts& layout
 {
     if (!deformed_clusters_)
     {
-        HEARTH_ASSIGN_OR_RETURN(deformed_clusters_,
-                                createComputePipeline(device, shaders::cull_clusters_deformed_comp,
-                                                      {kUniform, kStorage, kStorage, kStorage, kStorage,
-                                                       kStorage, kStorage, kStorage},
-                                                      sizeof(CullPush), layouts.occlusion.get()));
+        HEARTH_ASSIGN_OR_RETURN(
+            deformed_clusters_,
+            createComputePipeline(device, shaders::cull_clusters_deformed_comp,
+                                  {kUniformBuffer, kStorageBuffer, kStorageBuffer, kStorageBuffer,
+                                   kStorageBuffer, kStorageBuffer, kStorageBuffer, kStorageBuffer},
+                                  sizeof(CullPush), layouts.occlusion.get()));
     }
     return success();
 }

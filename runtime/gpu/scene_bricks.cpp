@@ -14,7 +14,8 @@ namespace hearth::gpu
 namespace
 {
 
-constexpr VkBufferUsageFlags kTable = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
+constexpr VkBufferUsageFlags kTableUsage =
+    VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
 
 /// Of at least a word.
 Result<Buffer> createTable(const Device& device, const formats::PackView& pack, uint64_t bytes,
@@ -24,7 +25,8 @@ Result<Buffer> createTable(const Device& device, const formats::PackView& pack, 
         return Error{Issue::device_limit, pack.name(), "",
                      "the bricks take " + std::to_string(bytes) + " bytes, the device binds " +
                          std::to_string(device.limits.maxStorageBufferRange)};
-    return scene.arena.createBuffer(std::max<uint64_t>(bytes, 4), kTable | more_usage, MemoryKind::device);
+    return scene.arena.createBuffer(std::max<uint64_t>(bytes, 4), kTableUsage | more_usage,
+                                    MemoryKind::device);
 }
 
 /// Albedo, emission and normals of all faces, one behind the other.

@@ -20,7 +20,7 @@ std::string number(double value)
     return text;
 }
 
-std::string quoted(std::string_view text)
+std::string quotedJson(std::string_view text)
 {
     std::string result(1, '"');
     for (const char c : text)
@@ -153,7 +153,7 @@ std::string formatReport(const FrameReport& report, const formats::PackView& pac
     std::string text = "{\"schema\":\"hearth.frame/1\"";
     const auto add = [&](std::string_view name, const std::string& value)
     { text += ",\n \"" + std::string(name) + "\":" + value; };
-    add("device", quoted(report.device));
+    add("device", quotedJson(report.device));
     add("width", std::to_string(report.width));
     add("height", std::to_string(report.height));
     add("error_pixels", number(double{report.error_pixels}));
