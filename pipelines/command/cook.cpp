@@ -280,7 +280,7 @@ void cookGraph(const graph::Graph& graph, CookMemory* memory, const CookOptions&
         options.force);
     const ProgressStyle style =
         options.verbosity == Verbosity::quiet ? ProgressStyle::none : progressStyle(options.progress);
-    Listeners listeners{log, style, {style, graph.actions.size()}, 0};
+    Listeners listeners{log, style, {style, graph.actions.size()}, passOn(options.setting_warnings, options)};
     graph::Executor executor(graph, resolver, cache, actions,
                              {limitsOf(options.jobs, options.memory_bytes), !options.fail_fast,
                               options.lists_files, programFolder(), options.output},
@@ -376,7 +376,10 @@ int cook(const CookOptions& chosen, std::vector<std::string>* looked_for)
     CookOptions options = chosen;
     options.lists_files = looked_for != nullptr || !options.depfile.empty();
     if (options.dry_run)
+    {
+        command::passOn(options.setting_warnings, options.verbosity);
         return dryRun(options);
+    }
     std::optional<graph::Graph> graph;
     CookRecorder recorder;
     CookOutcome& outcome = recorder.report();
