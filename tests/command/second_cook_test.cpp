@@ -209,20 +209,20 @@ TEST_F(SecondCook, whyNamesTheCause)
         {"import     tree.gltf: tree.bin: its content has changed", [&] { writeGltf(folder, "tree", 0.5F); }},
         {"import     tree.gltf: tree.tga: is there now", [&] { folder.write("tree.tga", tgaImage(7)); }},
         // what the file says now only the next cook reads
-        {"import     tree.gltf: parameter animation.error: 0.001 -> 0.002",
+        {"import     2 sources (house.obj, tree.gltf): parameter animation.error: 0.001 -> 0.002",
          [&] { folder.write("house.toml", "[animation]\nerror = 0.002\n"); }, false},
-        {"import     house.obj: parameter animation.error 0.002: no longer given",
+        {"import     2 sources (house.obj, tree.gltf): parameter animation.error 0.002: no longer given",
          [&] { arguments.resize(4); }, false},
-        {"clusters   house.obj: parameter --visibility: new",
+        {"clusters   2 sources (house.obj, tree.gltf): parameter --visibility: new",
          [&]
          {
              arguments = {"house.obj", "tree.gltf", "-o", "a.hearth", "--visibility", "--visibility-quality",
                           "draft"};
          },
          false},
-        {"visibility house.obj: parameter --quality: draft -> default", [&] { arguments.back() = "default"; },
-         false},
-        {"skinning   tree.gltf: hearth-skinning has changed",
+        {"visibility 2 sources (house.obj, tree.gltf): parameter --quality: draft -> default",
+         [&] { arguments.back() = "default"; }, false},
+        {"skinning   2 sources (house.obj, tree.gltf): hearth-skinning has changed",
          [&] { std::ofstream(copies / "hearth-skinning", std::ios::app) << "another build"; }},
         {"link       a.hearth: third.obj: source added",
          [&]
@@ -237,7 +237,8 @@ TEST_F(SecondCook, whyNamesTheCause)
          false},
         {"pack       %: it is not there", [&] { fs::remove(folder / "a.hearth"); }},
         {"pack       %: it is not what was cooked", [&] { folder.write("a.hearth", "damage"); }},
-        {"import     tree.gltf: forced", [&] { arguments.push_back("--force"); }, false},
+        {"import     2 sources (third.obj, tree.gltf): forced", [&] { arguments.push_back("--force"); },
+         false},
         {"link       a.hearth: its result is not in the cache, or not whole",
          [&]
          {
@@ -256,7 +257,7 @@ TEST_F(SecondCook, whyNamesTheCause)
                  });
          },
          false},
-        {"import     tree.gltf: its result is not in the cache",
+        {"import     2 sources (third.obj, tree.gltf): its result is not in the cache",
          [&] { fs::remove_all(folder.cachePath() + "/ac"); }},
     };
     const std::string pack = fs::path(folder / "a.hearth").lexically_normal().string();
