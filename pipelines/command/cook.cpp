@@ -7,6 +7,7 @@
 #include "formats/flush.h"
 #include "pipelines/command/cook_memory.h"
 #include "pipelines/command/cook_report.h"
+#include "pipelines/command/cook_summary.h"
 #include "pipelines/command/cook_tools.h"
 #include "pipelines/command/depfile.h"
 #include "pipelines/command/dry_run.h"
@@ -51,21 +52,45 @@ bool isFatalWarning(const std::string& line, const CookOptions& options)
     return codes.empty() || std::find(codes.begin(), codes.end(), partsOf(line).code) != codes.end();
 }
 
+/// People are told how a cook went as a whole; programs are told each thing once.
+bool hasSummary(const CookOptions& options)
+{
+    return options.verbosity != Verbosity::quiet && messageForm() == MessageForm::text;
+}
+
 /// Pass on a child's messages: errors always, the noise of libraries only when everything is asked for.
-/// returns  how many warnings among them count as errors
-size_t passOn(const std::vector<std::string>& lines, const CookOptions& options)
+/// were_told  the cook before has told the same: warnings are only counted, unless everything is asked for
+/// returns    how many warnings among them count as errors
+size_t passOn(const std::vector<std::string>& lines, bool were_told, const CookOptions& options,
+              CookSummary& summary)
 {
     size_t fatal_count = 0;
     for (const std::string& line : lines)
     {
         const bool is_fatal = isFatalWarning(line, options);
+        const bool is_warning = graph::isWarning(line);
+        const bool is_folded = is_warning && were_told && !is_fatal && hasSummary(options) &&
+                               options.verbosity != Verbosity::all;
         fatal_count += is_fatal ? 1 : 0;
+        if (is_warning)
+            summary.addWarning(line, is_folded);
         if (graph::isError(line) || is_fatal ||
-            (graph::isWarning(line) && options.verbosity != Verbosity::quiet) ||
+            (is_warning && !is_folded && options.verbosity != Verbosity::quiet) ||
             options.verbosity == Verbosity::all)
             print(line);
     }
     return fatal_count;
+}
+
+/// Whether the last cook into the pack had the same result of an action, and so has told its warnings.
+bool wasTold(const graph::Action& action, const graph::ActionOutcome& outcome, const graph::Graph& graph,
+             CookMemory* memory)
+{
+    if (outcome.ending != Ending::kept || outcome.result.warnings.empty() || !memory->journal())
+        return false;
+    const graph::JournalAction* last = graph::lastOf(action, graph, *memory->journal());
+    return last != nullptr && (last->ending == Ending::cooked || last->ending == Ending::kept) &&
+           last->record == outcome.record;
 }
 
 std::string joined(const std::vector<std::string>& words, const char* between)
@@ -83,10 +108,13 @@ struct Listeners
     ProgressStyle style = ProgressStyle::plain;
     ProgressBar bar;
     size_t fatal_warnings = 0;
+    CookSummary summary;
 };
 
 /// The listeners live as long as the events.
-graph::ExecutorEvents eventsFor(const CookOptions& options, Listeners& listeners, CookRecorder& recorder)
+/// memory  of the cook; null: none
+graph::ExecutorEvents eventsFor(const graph::Graph& graph, const CookOptions& options, CookMemory* memory,
+                                Listeners& listeners, CookRecorder& recorder)
 {
     EventLog* const log = listeners.log;
     graph::ExecutorEvents events;
@@ -103,26 +131,30 @@ graph::ExecutorEvents eventsFor(const CookOptions& options, Listeners& listeners
             print(faint(joined(command, " ")));
         listeners.bar.started(action.cooker + " " + action.subject);
     };
-    events.ended = [&options, &listeners, log, &recorder](const graph::Action& action,
-                                                          const graph::ActionOutcome& outcome,
-                                                          const std::vector<std::string>& messages)
+    events.ended = [&graph, &options, memory, &listeners, log,
+                    &recorder](const graph::Action& action, const graph::ActionOutcome& outcome,
+                               const std::vector<std::string>& messages)
     {
         recorder.ended(action, outcome);
         if (log != nullptr)
             log->end(action, outcome);
-        listeners.fatal_warnings += passOn(messages, options);
+        listeners.fatal_warnings +=
+            passOn(messages, wasTold(action, outcome, graph, memory), options, listeners.summary);
         if (outcome.ending == Ending::cooked && options.verbosity != Verbosity::quiet &&
             listeners.style == ProgressStyle::plain)
             printStage(action, outcome);
         listeners.bar.ended();
     };
-    events.failed = [log, &recorder](const Failure& failure)
+    events.failed = [&graph, &listeners, log, &recorder](const Failure& failure)
     {
         recorder.failed(failure);
         if (log != nullptr)
             log->error(failure.error);
         if (!failure.is_told)
             print(failure.error);
+        // of one source alone a failure stands near the end
+        if (graph.source_count > 1)
+            listeners.summary.addFailure(failure.error);
     };
     return events;
 }
@@ -280,13 +312,17 @@ void cookGraph(const graph::Graph& graph, CookMemory* memory, const CookOptions&
         options.force);
     const ProgressStyle style =
         options.verbosity == Verbosity::quiet ? ProgressStyle::none : progressStyle(options.progress);
-    Listeners listeners{log, style, {style, graph.actions.size()}, passOn(options.setting_warnings, options)};
+    Listeners listeners{log, style, {style, graph.actions.size()}, 0, {}};
+    listeners.fatal_warnings = passOn(options.setting_warnings, false, options, listeners.summary);
     graph::Executor executor(graph, resolver, cache, actions,
                              {limitsOf(options.jobs, options.memory_bytes), !options.fail_fast,
                               options.lists_files, programFolder(), options.output},
-                             eventsFor(options, listeners, recorder));
+                             eventsFor(graph, options, memory, listeners, recorder));
     const bool interrupted = !executor.run(hash_there);
     clearBar();
+    if (!interrupted && hasSummary(options))
+        for (const std::string& line : listeners.summary.lines())
+            print(line);
     if (options.lists_files)
         recorder.takeFiles(executor);
     std::string output_cause;

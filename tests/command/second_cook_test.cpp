@@ -150,6 +150,42 @@ TEST_F(SecondCook, repeatsTheWarnings)
         << second.err;
 }
 
+TEST_F(SecondCook, foldsTheWarningsThatWereTold)
+{
+    const std::string warning = "tree.gltf|/images/0: warning: ";
+    const std::string folded =
+        "2 warnings of unchanged sources, as in the cook before: 1 W1302, 1 W1401; hearth cook -v lists "
+        "them\n";
+    const std::vector<std::string> arguments{"tree.gltf", "-o", "a.hearth"};
+    const auto cookWith = [&](const std::vector<std::string>& words)
+    {
+        std::vector<std::string> all = arguments;
+        all.insert(all.end(), words.begin(), words.end());
+        return cook(all).err;
+    };
+    const std::string first = cookWith({});
+    EXPECT_EQ(countOf(first, warning), 1u) << first;
+    EXPECT_EQ(
+        countOf(first, "\n2 warnings: 1 W1302 (an image is missing; a placeholder is drawn), 1 W1401 ("), 1u)
+        << first;
+    for (int i = 0; i < 2; ++i)
+    {
+        const std::string again = cookWith({});
+        EXPECT_EQ(countOf(again, warning), 0u) << again;
+        EXPECT_EQ(countOf(again, folded), 1u) << again;
+    }
+    EXPECT_EQ(cookWith({"-q"}), "");
+    EXPECT_EQ(countOf(cookWith({"-v"}), warning), 1u);
+    EXPECT_EQ(countOf(cookWith({"--log-format", "json"}), "W1302"), 1u) << "a program is told each time";
+    EXPECT_EQ(countOf(cookWith({"--warnings-as-errors"}), warning), 1u) << "why there is no pack";
+    EXPECT_EQ(countOf(cook({"tree.gltf", "-o", "b.hearth"}).err, warning), 1u)
+        << "the cache has it, but no cook into this pack has told it";
+    // another source does not unfold it, a change of its own does
+    EXPECT_EQ(countOf(cook({"house.obj", "tree.gltf", "-o", "a.hearth"}).err, folded), 1u);
+    writeGltf(folder, "tree", 0.5F);
+    EXPECT_EQ(countOf(cook({"house.obj", "tree.gltf", "-o", "a.hearth"}).err, warning), 1u);
+}
+
 TEST_F(SecondCook, anEditOfAnOutputHarmsNothing)
 {
     ran(cook({"house.obj", "-o", "a.hearth"}));
@@ -303,7 +339,7 @@ TEST_F(SecondCook, whatFailedIsTriedAgain)
     writeObj(folder, "house", 3);
     const ProgramEnd end = cook({"tree.gltf", "house.obj", "-o", "a.hearth"});
     EXPECT_EQ(end.exit_code, 65);
-    EXPECT_EQ(countOf(end.err, ": error: "), 1u) << end.err;
+    EXPECT_EQ(countOf(end.err, ": error: "), 2u) << "at once, and again at the end: " << end.err;
     EXPECT_NE(end.err.find("a.hearth: not linked, because a dependency failed: 1 of 2 sources"),
               std::string::npos);
     EXPECT_EQ(countOf(end.err, "clusters  "), 1u) << "the other source was cooked: " << end.err;
@@ -324,7 +360,7 @@ TEST_F(SecondCook, severalFailuresAreAllTold)
     folder.write("tree.bin", "short");
     const ProgramEnd end = cook({"tree.gltf", "missing.obj", "house.obj", "-o", "a.hearth"});
     EXPECT_EQ(end.exit_code, 1) << "65 and 66";
-    EXPECT_EQ(countOf(end.err, ": error: "), 2u) << end.err;
+    EXPECT_EQ(countOf(end.err.substr(end.err.find("all failures again:\n")), ": error: "), 2u) << end.err;
     EXPECT_NE(end.err.find("2 of 3 sources"), std::string::npos) << end.err;
     EXPECT_FALSE(folder.has("a.hearth"));
     EXPECT_EQ(
