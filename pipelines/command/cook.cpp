@@ -12,8 +12,10 @@
 #include "pipelines/command/depfile.h"
 #include "pipelines/command/dry_run.h"
 #include "pipelines/command/event_log.h"
+#include "pipelines/command/left_out_files.h"
 #include "pipelines/command/messages.h"
 #include "pipelines/command/progress.h"
+#include "pipelines/command/source_list.h"
 #include "pipelines/graph/causes.h"
 #include "pipelines/graph/executor.h"
 #include "pipelines/report/write_report.h"
@@ -168,6 +170,17 @@ void printLeftOut(const graph::Graph& graph, const graph::Executor& executor, co
     if (failed > 0 && graph.source_count > 1 && options.verbosity != Verbosity::quiet)
         print(fmt::format("{}: not linked, because a dependency failed: {} of {} sources", options.output,
                           failed, graph.source_count));
+}
+
+/// Name those of the files of cooked folders that nobody has read. Only of a cook that went well: a source that fails may
+/// not have come to its textures.
+void printLeftOutFiles(const std::vector<std::string>& files, const CookOptions& options,
+                       std::vector<std::string> read)
+{
+    read.insert(read.end(), {options.output, options.depfile, options.events_file});
+    read.insert(read.end(), options.report_files.begin(), options.report_files.end());
+    if (const std::string text = leftOutText(files, read); !text.empty())
+        print(text);
 }
 
 // ---- before and after
@@ -410,7 +423,10 @@ int writeReports(const CookOptions& options, CookOutcome& outcome)
 int cook(const CookOptions& chosen, std::vector<std::string>* looked_for)
 {
     CookOptions options = chosen;
-    options.lists_files = looked_for != nullptr || !options.depfile.empty();
+    const std::vector<std::string> files_of_folders = options.verbosity == Verbosity::quiet
+                                                          ? std::vector<std::string>()
+                                                          : filesOfFolders(options.source_words);
+    options.lists_files = looked_for != nullptr || !options.depfile.empty() || !files_of_folders.empty();
     if (options.dry_run)
     {
         command::passOn(options.setting_warnings, options.verbosity);
@@ -439,6 +455,8 @@ int cook(const CookOptions& chosen, std::vector<std::string>* looked_for)
     outcome.seconds = recorder.seconds();
     if (log)
         log->done(outcome.exit_code, outcome.seconds);
+    if (outcome.exit_code == 0)
+        printLeftOutFiles(files_of_folders, options, recorder.lookedFor());
     if (outcome.exit_code == 0 && options.verbosity != Verbosity::quiet)
         print(fmt::format("{:<10}{:>8.2f} s {:>12}  {}", outcome.is_up_to_date ? "up to date" : "cooked",
                           outcome.seconds, readableSize(outcome.output_bytes), options.output));

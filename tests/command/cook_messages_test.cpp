@@ -46,6 +46,25 @@ TEST_F(Cook, failuresAndWarningsComeTogetherAtItsEnd)
     EXPECT_EQ(countOf(json, "W1400"), 1u) << json;
 }
 
+TEST_F(Cook, filesOfAFolderThatNobodyReadsAreNamed)
+{
+    std::filesystem::create_directories(folder / "art/notes");
+    folder.write("art/a.gltf", "");
+    folder.write("art/sky.hdr", "");
+    folder.write("art/notes/plan.txt", "");
+    folder.write("art/.hidden", "");
+    const std::string line =
+        "left out  1 texture that no source uses (art/sky.hdr), 1 file of a kind that is not "
+        "read (art/notes/plan.txt)\n";
+    EXPECT_EQ(countOf(cook({"art", "-o", "art/a.hearth", "--report", "art/a.json"}).err, line), 1u)
+        << cook({"art", "-o", "art/a.hearth", "--report", "art/a.json"}).err;
+    EXPECT_EQ(cook({"art", "-o", "art/a.hearth", "-q"}).err, "");
+    EXPECT_EQ(countOf(cook({"art/a.gltf", "-o", "a.hearth"}).err, "left out"), 0u);
+    folder.write("art/malformed.gltf", "");
+    EXPECT_EQ(countOf(cook({"art", "-o", "b.hearth"}).err, "left out"), 0u)
+        << "nobody knows what it would use";
+}
+
 TEST_F(Cook, warningsMayCountAsErrors)
 {
     const ProgramEnd fine = cook({"warning.gltf", "-o", "a.hearth", "--warnings-as-errors=W1302"});
