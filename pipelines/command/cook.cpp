@@ -172,8 +172,8 @@ void printLeftOut(const graph::Graph& graph, const graph::Executor& executor, co
                           failed, graph.source_count));
 }
 
-/// Name those of the files of cooked folders that nobody has read. Only of a cook that went well: a source that fails may
-/// not have come to its textures.
+/// Name those of the files of cooked folders that nobody has read. Only of a cook that went well: a source
+/// that fails may not have come to its textures.
 void printLeftOutFiles(const std::vector<std::string>& files, const CookOptions& options,
                        std::vector<std::string> read)
 {

@@ -32,9 +32,10 @@ struct CookOptions : graph::CookSettings, Effort
     std::vector<std::string> report_files;
     std::string events_file;  ///< empty: none
     bool lists_files = false; ///< has cookers list what they look for, without a cache too
-    /// What the sources come from, as the user typed it: files of folders that nobody reads are named. None: they are not.
+    /// Words of the user that the sources come from: files of folders that nobody reads are named. None: they
+    /// are not.
     std::vector<std::string> source_words;
-    /// Of the settings, as lines: told before anything runs.
+    /// Warnings of the settings, as lines: told before anything runs.
     std::vector<std::string> setting_warnings;
 };
 

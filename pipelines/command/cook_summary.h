@@ -20,8 +20,9 @@ public:
     /// Note an error line that has just been told.
     void addFailure(const std::string& line);
 
-    /// The lines for the end: all failures again, unless they are the last that was told; then how many warnings there are
-    /// of each code, those that were told and those that were folded. Empty where nothing is to be said.
+    /// The lines for the end: all failures again, unless they are the last that was told; then how many
+    /// warnings there are of each code, those that were told and those that were folded. Empty where nothing
+    /// is to be said.
     std::vector<std::string> lines() const;
 
 private:

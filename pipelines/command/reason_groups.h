@@ -14,10 +14,12 @@ class ReasonGroups
 {
 public:
     /// ending  stands behind the subject, with a blank before it; empty: nothing does
-    /// causes  why the action runs; one that names the action's own source is the same as that of another source
+    /// causes  why the action runs; one that names the action's own source is the same as that of another
+    ///         source
     void add(const graph::Action& action, const std::string& ending, const std::vector<std::string>& causes);
 
-    /// A line for the actions of one cooker with the same ending and causes, in the order in which the first of them came:
+    /// A line for the actions of one cooker with the same ending and causes, in the order in which the first
+    /// of them came:
     /// "  import     a.glb: a.glb: its content has changed", of several
     /// "  import     12 sources (a.glb, b.glb, c.glb and 9 more): its content has changed".
     std::string text() const;

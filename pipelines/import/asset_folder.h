@@ -38,9 +38,9 @@ public:
     /// The name of the asset's file, without its folder.
     const std::string& assetName() const { return asset_name_; }
 
-    /// "; nearest: ..." to stand behind the message of a failed read(): the file that the path probably means. Empty where
-    /// none is near, and where something else is wrong with the file. The folder is listed for it, which is nothing that
-    /// results are kept by: it may stand on stderr, but in no part.
+    /// "; nearest: ..." to stand behind the message of a failed read(): the file that the path probably
+    /// means. Empty where none is near, and where something else is wrong with the file. The folder is listed
+    /// for it, which is nothing that results are kept by: it may stand on stderr, but in no part.
     std::string suggestionFor(std::string_view relative_path, Issue issue) const;
 
 private:

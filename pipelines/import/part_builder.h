@@ -68,8 +68,8 @@ public:
 
     /// Note something that the user should know; printed to stderr by the program and kept in META.
     void warn(Issue issue, std::string where, std::string detail);
-    /// The same with a remark that stands behind the detail on stderr alone: it goes by more than the files that are read,
-    /// such as names of files beside them, and a part must be the same wherever those are.
+    /// The same with a remark that stands behind the detail on stderr alone: it goes by more than the files
+    /// that are read, such as names of files beside them, and a part must be the same wherever those are.
     void warn(Issue issue, std::string where, std::string detail, std::string_view remark);
 
     /// A source file that was read: name relative to the asset's folder, and its content for the hash.

@@ -17,7 +17,7 @@ namespace
 // Each costs some microseconds, and a message cannot be late.
 constexpr size_t kMaxPaths = 2000;
 
-/// Where each name of a path starts, the first at 0.
+/// Starts of the names of a path, the first at 0.
 std::vector<size_t> nameStarts(std::string_view path)
 {
     std::vector<size_t> starts{0};
@@ -59,7 +59,7 @@ bool hasFixedName(std::string_view pattern)
     return false;
 }
 
-/// What was typed, as rules have it: '/' between folders, and no "./" or "/" before the first.
+/// The pattern as rules have it: '/' between folders, and no "./" or "/" before the first.
 std::string normalized(std::string pattern)
 {
     std::replace(pattern.begin(), pattern.end(), '\\', '/');
@@ -68,7 +68,8 @@ std::string normalized(std::string pattern)
     return pattern.substr(std::min(pattern.find_first_not_of('/'), pattern.size()));
 }
 
-/// How much must change before a pattern matches: less is better, first by folders, then by the ending, then by letters.
+/// How much must change before a pattern matches: less is better, first by folders, then by the ending, then
+/// by letters.
 using Cost = std::tuple<size_t, bool, size_t>;
 constexpr Cost kTooMuch{SIZE_MAX, true, SIZE_MAX};
 
