@@ -27,6 +27,12 @@ inline bool finite(Float3 v)
 {
     return hearth::isFinite(v);
 }
+
+/// Whether `low` is nowhere above `high`, and both are finite.
+inline bool validBox(Float3 low, Float3 high)
+{
+    return finite(low) && finite(high) && low.x <= high.x && low.y <= high.y && low.z <= high.z;
+}
 inline bool finite(Float4 v)
 {
     return finite(Float3{v.x, v.y, v.z}) && std::isfinite(v.w);

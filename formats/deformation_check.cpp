@@ -9,11 +9,6 @@ namespace hearth::formats::check
 namespace
 {
 
-bool validBox(Float3 low, Float3 high)
-{
-    return finite(low) && finite(high) && low.x <= high.x && low.y <= high.y && low.z <= high.z;
-}
-
 /// Meshes that a node draws and that skins or morph targets deform, ascending.
 std::vector<uint32_t> deformedMeshes(const PackView& view)
 {
@@ -31,7 +26,7 @@ std::vector<uint32_t> deformedMeshes(const PackView& view)
     return meshes;
 }
 
-Status checkMesh(const PackView& view, size_t i)
+Status checkDeformedMesh(const PackView& view, size_t i)
 {
     constexpr const char* kKind = "deformed mesh";
     const DeformedMeshRecord& record = view.deformedMeshes()[i];
@@ -107,7 +102,7 @@ Status checkDeformedMeshes(const PackView& view)
         if (i >= expected.size() || records[i].mesh != expected[i])
             return fail(view, Issue::meaning_order, "deformed mesh", i,
                         "mesh " + std::to_string(records[i].mesh) + " is not the next that is deformed");
-        HEARTH_TRY(checkMesh(view, i));
+        HEARTH_TRY(checkDeformedMesh(view, i));
         const size_t first = clusters.at();
         HEARTH_TRY(clusters.take(i, records[i].clusters));
         const uint32_t joint_count =

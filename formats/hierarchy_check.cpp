@@ -9,11 +9,6 @@ namespace hearth::formats::check
 namespace
 {
 
-bool validBox(Float3 low, Float3 high)
-{
-    return finite(low) && finite(high) && low.x <= high.x && low.y <= high.y && low.z <= high.z;
-}
-
 bool boxContains(Float3 low, Float3 high, const Box3& box)
 {
     for (int axis = 0; axis < 3; ++axis)

@@ -88,6 +88,8 @@ enum class IssueClass : uint8_t
       "let one of them inherit from none")                                                                   \
     X(no_source, 1512, missing, "a folder or pattern has no source in it",                                   \
       "name a folder with glTF, GLB, OBJ, PLY, STL, OFF or Draco files")                                     \
+    X(rule_unmatched, 1513, warning, "a rule matches no source",                                             \
+      "a pattern starts at the folder of hearth.toml and matches sources, not their textures")               \
     X(camera_path, 1600, malformed, "a camera path is not valid",                                            \
       "write a camera a line: PX,PY,PZ,TX,TY,TZ,FOV")                                                        \
     X(table_rows, 1601, malformed, "rows of numbers are not as they should be",                              \

@@ -7,14 +7,17 @@
 #include "formats/flush.h"
 #include "pipelines/command/cook_memory.h"
 #include "pipelines/command/cook_report.h"
+#include "pipelines/command/cook_summary.h"
 #include "pipelines/command/cook_tools.h"
 #include "pipelines/command/depfile.h"
 #include "pipelines/command/dry_run.h"
 #include "pipelines/command/event_log.h"
+#include "pipelines/command/left_out_files.h"
 #include "pipelines/command/messages.h"
 #include "pipelines/command/picture_progress.h"
 #include "pipelines/command/progress.h"
 #include "pipelines/command/progress_lines.h"
+#include "pipelines/command/source_list.h"
 #include "pipelines/graph/causes.h"
 #include "pipelines/graph/executor.h"
 #include "pipelines/report/write_report.h"
@@ -53,21 +56,45 @@ bool isFatalWarning(const std::string& line, const CookOptions& options)
     return codes.empty() || std::find(codes.begin(), codes.end(), partsOf(line).code) != codes.end();
 }
 
+/// People are told how a cook went as a whole; programs are told each thing once.
+bool hasSummary(const CookOptions& options)
+{
+    return options.verbosity != Verbosity::quiet && messageForm() == MessageForm::text;
+}
+
 /// Pass on a child's messages: errors always, the noise of libraries only when everything is asked for.
-/// returns  how many warnings among them count as errors
-size_t passOn(const std::vector<std::string>& lines, const CookOptions& options)
+/// were_told  the cook before has told the same: warnings are only counted, unless everything is asked for
+/// returns    how many warnings among them count as errors
+size_t passOn(const std::vector<std::string>& lines, bool were_told, const CookOptions& options,
+              CookSummary& summary)
 {
     size_t fatal_count = 0;
     for (const std::string& line : lines)
     {
         const bool is_fatal = isFatalWarning(line, options);
+        const bool is_warning = graph::isWarning(line);
+        const bool is_folded = is_warning && were_told && !is_fatal && hasSummary(options) &&
+                               options.verbosity != Verbosity::all;
         fatal_count += is_fatal ? 1 : 0;
+        if (is_warning)
+            summary.addWarning(line, is_folded);
         if (graph::isError(line) || is_fatal ||
-            (graph::isWarning(line) && options.verbosity != Verbosity::quiet) ||
+            (is_warning && !is_folded && options.verbosity != Verbosity::quiet) ||
             options.verbosity == Verbosity::all)
             print(line);
     }
     return fatal_count;
+}
+
+/// Whether the last cook into the pack had the same result of an action, and so has told its warnings.
+bool wasTold(const graph::Action& action, const graph::ActionOutcome& outcome, const graph::Graph& graph,
+             CookMemory* memory)
+{
+    if (outcome.ending != Ending::kept || outcome.result.warnings.empty() || !memory->journal())
+        return false;
+    const graph::JournalAction* last = graph::lastOf(action, graph, *memory->journal());
+    return last != nullptr && (last->ending == Ending::cooked || last->ending == Ending::kept) &&
+           last->record == outcome.record;
 }
 
 std::string joined(const std::vector<std::string>& words, const char* between)
@@ -90,10 +117,13 @@ struct Listeners
     ProgressBar bar;
     std::optional<ProgressLines> lines; ///< of plain progress
     size_t fatal_warnings = 0;
+    CookSummary summary;
 };
 
 /// The listeners live as long as the events.
-graph::ExecutorEvents eventsFor(const CookOptions& options, Listeners& listeners, CookRecorder& recorder)
+/// memory  of the cook; null: none
+graph::ExecutorEvents eventsFor(const graph::Graph& graph, const CookOptions& options, CookMemory* memory,
+                                Listeners& listeners, CookRecorder& recorder)
 {
     EventLog* const log = listeners.log;
     graph::ExecutorEvents events;
@@ -112,14 +142,15 @@ graph::ExecutorEvents eventsFor(const CookOptions& options, Listeners& listeners
         if (listeners.lines)
             listeners.lines->starting(action);
     };
-    events.ended = [&options, &listeners, log, &recorder](const graph::Action& action,
-                                                          const graph::ActionOutcome& outcome,
-                                                          const std::vector<std::string>& messages)
+    events.ended = [&graph, &options, memory, &listeners, log,
+                    &recorder](const graph::Action& action, const graph::ActionOutcome& outcome,
+                               const std::vector<std::string>& messages)
     {
         recorder.ended(action, outcome);
         if (log != nullptr)
             log->end(action, outcome);
-        listeners.fatal_warnings += passOn(messages, options);
+        listeners.fatal_warnings +=
+            passOn(messages, wasTold(action, outcome, graph, memory), options, listeners.summary);
         if (outcome.ending == Ending::cooked && options.verbosity == Verbosity::all)
             printStage(action, outcome);
         listeners.bar.ended();
@@ -131,13 +162,16 @@ graph::ExecutorEvents eventsFor(const CookOptions& options, Listeners& listeners
         if (listeners.lines)
             listeners.lines->waiting();
     };
-    events.failed = [log, &recorder](const Failure& failure)
+    events.failed = [&graph, &listeners, log, &recorder](const Failure& failure)
     {
         recorder.failed(failure);
         if (log != nullptr)
             log->error(failure.error);
         if (!failure.is_told)
             print(failure.error);
+        // of one source alone a failure stands near the end
+        if (graph.source_count > 1)
+            listeners.summary.addFailure(failure.error);
     };
     return events;
 }
@@ -151,6 +185,17 @@ void printLeftOut(const graph::Graph& graph, const graph::Executor& executor, co
     if (failed > 0 && graph.source_count > 1 && options.verbosity != Verbosity::quiet)
         print(fmt::format("{}: not linked, because a dependency failed: {} of {} sources", options.output,
                           failed, graph.source_count));
+}
+
+/// Name those of the files of cooked folders that nobody has read. Only of a cook that went well: a source
+/// that fails may not have come to its textures.
+void printLeftOutFiles(const std::vector<std::string>& files, const CookOptions& options,
+                       std::vector<std::string> read)
+{
+    read.insert(read.end(), {options.output, options.depfile, options.events_file});
+    read.insert(read.end(), options.report_files.begin(), options.report_files.end());
+    if (const std::string text = leftOutText(files, read); !text.empty())
+        print(text);
 }
 
 // ---- before and after
@@ -294,15 +339,19 @@ void cookGraph(const graph::Graph& graph, CookMemory* memory, const CookOptions&
         graph, cache, actions, [&]() -> const std::optional<graph::Journal>& { return memory->journal(); },
         options.force);
     const ProgressStyle style = styleOf(options);
-    Listeners listeners{log, {style, graph.actions.size()}, std::nullopt, 0};
+    Listeners listeners{log, {style, graph.actions.size()}, std::nullopt, 0, {}};
     if (style == ProgressStyle::plain)
         listeners.lines.emplace(graph, printFaint);
+    listeners.fatal_warnings = passOn(options.setting_warnings, false, options, listeners.summary);
     graph::Executor executor(graph, resolver, cache, actions,
                              {limitsOf(options.jobs, options.memory_bytes), !options.fail_fast,
                               options.lists_files, programFolder(), options.output},
-                             eventsFor(options, listeners, recorder));
+                             eventsFor(graph, options, memory, listeners, recorder));
     const bool interrupted = !executor.run(hash_there);
     clearBar();
+    if (!interrupted && hasSummary(options))
+        for (const std::string& line : listeners.summary.lines())
+            print(line);
     if (options.lists_files)
         recorder.takeFiles(executor);
     std::string output_cause;
@@ -394,9 +443,15 @@ int writeReports(const CookOptions& options, CookOutcome& outcome)
 int cook(const CookOptions& chosen, std::vector<std::string>* looked_for)
 {
     CookOptions options = chosen;
-    options.lists_files = looked_for != nullptr || !options.depfile.empty();
+    const std::vector<std::string> files_of_folders = options.verbosity == Verbosity::quiet
+                                                          ? std::vector<std::string>()
+                                                          : filesOfFolders(options.source_words);
+    options.lists_files = looked_for != nullptr || !options.depfile.empty() || !files_of_folders.empty();
     if (options.dry_run)
+    {
+        command::passOn(options.setting_warnings, options.verbosity);
         return dryRun(options);
+    }
     std::optional<graph::Graph> graph;
     CookRecorder recorder;
     CookOutcome& outcome = recorder.report();
@@ -425,6 +480,8 @@ int cook(const CookOptions& chosen, std::vector<std::string>* looked_for)
     const double seconds = recorder.seconds();
     if (log)
         log->done(exit_code, seconds);
+    if (outcome.exit_code == 0)
+        printLeftOutFiles(files_of_folders, options, recorder.lookedFor());
     if (outcome.exit_code == 0 && options.verbosity != Verbosity::quiet)
         print(fmt::format("{:<10}{:>8.2f} s {:>12}  {}", outcome.is_up_to_date ? "up to date" : "cooked",
                           seconds, readableSize(outcome.output_bytes), options.output));

@@ -33,6 +33,11 @@ struct CookOptions : graph::CookSettings, Effort
     std::vector<std::string> report_files;
     std::string events_file;  ///< empty: none
     bool lists_files = false; ///< has cookers list what they look for, without a cache too
+    /// Words of the user that the sources come from: files of folders that nobody reads are named. None: they
+    /// are not.
+    std::vector<std::string> source_words;
+    /// Warnings of the settings, as lines: told before anything runs.
+    std::vector<std::string> setting_warnings;
 };
 
 /// Cook all sources into one pack, their scenes side by side: run what the cache has no result of. The output appears whole

@@ -15,6 +15,22 @@ namespace hearth::command
 namespace
 {
 
+/// A line for each action that runs: cooker, subject, causes; empty where nothing does.
+std::string forecastText(const graph::Graph& graph, const graph::Forecast& forecast)
+{
+    std::string text;
+    for (size_t i = 0; i < graph.actions.size(); ++i)
+    {
+        if (!forecast.actions[i].runs)
+            continue;
+        text += fmt::format("{:<11}{}: ", graph.actions[i].cooker, graph.actions[i].subject);
+        for (size_t cause = 0; cause < forecast.actions[i].causes.size(); ++cause)
+            text += (cause == 0 ? "" : "; ") + forecast.actions[i].causes[cause];
+        text += '\n';
+    }
+    return text;
+}
+
 constexpr int kSomethingWouldRun = 1;
 
 struct DryRun
@@ -52,21 +68,6 @@ Result<DryRun> forecastCook(const CookOptions& options)
 }
 
 } // namespace
-
-std::string forecastText(const graph::Graph& graph, const graph::Forecast& forecast)
-{
-    std::string text;
-    for (size_t i = 0; i < graph.actions.size(); ++i)
-    {
-        if (!forecast.actions[i].runs)
-            continue;
-        text += fmt::format("{:<11}{}: ", graph.actions[i].cooker, graph.actions[i].subject);
-        for (size_t cause = 0; cause < forecast.actions[i].causes.size(); ++cause)
-            text += (cause == 0 ? "" : "; ") + forecast.actions[i].causes[cause];
-        text += '\n';
-    }
-    return text;
-}
 
 std::string packCause(const graph::Forecast& forecast, const std::optional<std::string>& hash_there)
 {

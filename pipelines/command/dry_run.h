@@ -15,9 +15,6 @@ namespace hearth::command
 ///          Problems have been told on stderr
 int dryRun(const CookOptions& options);
 
-/// A line for each action that runs: cooker, subject, causes; empty where nothing does.
-std::string forecastText(const graph::Graph& graph, const graph::Forecast& forecast);
-
 /// Why the pack would be put in its place, where nothing runs; empty where it is as it should be.
 std::string packCause(const graph::Forecast& forecast, const std::optional<std::string>& hash_there);
 

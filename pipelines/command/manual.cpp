@@ -198,7 +198,7 @@ ManualPage configPage()
     text += ".SH PROFILES THAT ARE BUILT IN\n" + block(std::string(profiles::builtInText()));
     text += ".SH EXAMPLE\n" +
             block("[defaults]\nprofile = \"phone\"\n\n[profile.phone]\ninherits = \"mobile-low\"\n"
-                  "clusters.levels = [{ keep = 0.45 }]\n\n[[rule]]\nmatch = \"props/**/*.glb\"\n"
+                  "clusters.levels = [{ keep = 0.45 }]\n\n[[rule]]\nmatch = \"assets/props/**\"\n"
                   "textures.max_size = 512\n");
     text += ".SH SEE ALSO\n.BR hearth (1),\n.BR hearth\\-config (1)\n";
     return {"hearth.toml.5", text};

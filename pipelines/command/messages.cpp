@@ -24,6 +24,12 @@ MessageForm& form()
     return form;
 }
 
+size_t& toldCount()
+{
+    static size_t count = 0;
+    return count;
+}
+
 /// Where "error: " or "warning: " stands, at the start or behind ": "; npos: nowhere.
 size_t severityAt(std::string_view line, std::string_view severity)
 {
@@ -65,6 +71,11 @@ std::string colored(const std::string& line)
 void setMessageForm(MessageForm chosen)
 {
     form() = chosen;
+}
+
+MessageForm messageForm()
+{
+    return form();
 }
 
 MessageParts partsOf(std::string_view line)
@@ -111,6 +122,12 @@ void tell(const std::string& line)
                              : colorOnStderr()           ? colored(line)
                                                          : line;
     std::fprintf(stderr, "%s\n", text.c_str());
+    ++toldCount();
+}
+
+size_t countTold()
+{
+    return toldCount();
 }
 
 } // namespace hearth::command

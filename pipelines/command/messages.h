@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -17,6 +18,7 @@ enum class MessageForm : uint8_t
 
 /// Of all that follows; a process has one stderr.
 void setMessageForm(MessageForm form);
+MessageForm messageForm();
 
 /// The parts of "file|where: error: text [E1203] hint: what to do"; of a line in no such form, "text" alone.
 struct MessageParts
@@ -32,5 +34,8 @@ MessageParts partsOf(std::string_view line);
 
 /// Print a line, its "error:" or "warning:" in colour where stderr has some; or as JSON.
 void tell(const std::string& line);
+
+/// How many lines tell() has printed.
+size_t countTold();
 
 } // namespace hearth::command

@@ -189,6 +189,7 @@ Effort effortOf(const profiles::Configuration& configuration)
 
 Status configure(const profiles::Configuration& configuration, CookOptions& options)
 {
+    options.source_words = options.sources;
     HEARTH_ASSIGN_OR_RETURN(options.sources, sourcesOf(options.sources));
     bool has_visibility = false;
     for (const std::string& source : options.sources)

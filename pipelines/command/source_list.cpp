@@ -140,4 +140,20 @@ std::vector<std::string> foldersOf(const std::vector<std::string>& words)
     return folders;
 }
 
+std::vector<std::string> filesOfFolders(const std::vector<std::string>& words)
+{
+    std::vector<std::string> files;
+    for (const std::string& word : words)
+    {
+        if (kindOf(word) != WordKind::folder)
+            continue;
+        const auto below = filesBelow(word, [](const fs::path&) { return true; });
+        if (below.ok())
+            files.insert(files.end(), below->begin(), below->end());
+    }
+    std::sort(files.begin(), files.end());
+    files.erase(std::unique(files.begin(), files.end()), files.end());
+    return files;
+}
+
 } // namespace hearth::command

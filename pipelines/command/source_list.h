@@ -21,4 +21,8 @@ Result<std::vector<std::string>> sourcesOf(const std::vector<std::string>& words
 /// may not be there yet.
 std::vector<std::string> foldersOf(const std::vector<std::string>& words);
 
+/// Every file of the folders among the words, and below, models or not, each once and sorted by path; as
+/// sourcesOf() without hidden ones. A folder that cannot be read has none.
+std::vector<std::string> filesOfFolders(const std::vector<std::string>& words);
+
 } // namespace hearth::command

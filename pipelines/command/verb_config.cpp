@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/command/list_settings.h"
+#include "pipelines/command/messages.h"
 #include "pipelines/command/setting_options.h"
+#include "pipelines/command/unmatched_rules.h"
 #include "pipelines/command/verb_tools.h"
 #include "pipelines/command/verbs.h"
 
@@ -33,6 +35,9 @@ void addConfig(cli::CommandLine& app, Work& run)
             run = withConfiguration(options->settings,
                                     [options](const profiles::Configuration& configuration)
                                     {
+                                        if (options->source.empty())
+                                            for (const Error& warning : unmatchedRules(configuration, {}))
+                                                tell(formatMessage(warning));
                                         return printResult(options->format == "json"
                                                                ? settingsJson(configuration, options->source)
                                                                : settingsText(configuration, options->source,

@@ -2,7 +2,9 @@
 #include "pipelines/command/verb_plan.h"
 #include "pipelines/command/common_options.h"
 #include "pipelines/command/farm_run.h"
+#include "pipelines/command/messages.h"
 #include "pipelines/command/setting_options.h"
+#include "pipelines/command/unmatched_rules.h"
 #include "pipelines/command/verb_tools.h"
 #include "pipelines/command/verbs.h"
 
@@ -42,6 +44,9 @@ int planConfigured(MakePlanOptions options, const profiles::Configuration& confi
     options.request.lods = lods;
     options.caches = cachesOf(configuration);
     options.quiet = effortOf(configuration).verbosity == Verbosity::quiet;
+    for (const Error& warning : unmatchedRules(configuration, options.request.sources))
+        if (!options.quiet)
+            tell(formatMessage(warning));
     return makePlanFile(options);
 }
 

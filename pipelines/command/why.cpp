@@ -4,6 +4,7 @@
 #include "pipelines/command/cook_memory.h"
 #include "pipelines/command/cook_tools.h"
 #include "pipelines/command/dry_run.h"
+#include "pipelines/command/reason_groups.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -18,39 +19,35 @@ namespace
 /// Nothing, where all actions are meant.
 using OnlySource = std::optional<size_t>;
 
+const char* endingText(graph::Ending ending)
+{
+    switch (ending)
+    {
+    case graph::Ending::failed:
+        return " (failed)";
+    case graph::Ending::left_out:
+        return " (left out: a dependency failed)";
+    case graph::Ending::unknown:
+        return " (did not come to its end)";
+    default:
+        return "";
+    }
+}
+
 std::string lastCookText(const graph::Journal& journal, OnlySource only)
 {
-    std::string text;
+    ReasonGroups groups;
     for (size_t i = 0; i < journal.actions.size(); ++i)
     {
         const graph::JournalAction& last = journal.actions[i];
         const graph::Action& action = journal.graph.actions[i];
-        if (last.ending == graph::Ending::kept || (only && action.source != *only))
-            continue;
-        const char* ending = last.ending == graph::Ending::failed     ? " (failed)"
-                             : last.ending == graph::Ending::left_out ? " (left out: a dependency failed)"
-                             : last.ending == graph::Ending::unknown  ? " (did not come to its end)"
-                                                                      : "";
-        text += fmt::format("  {:<11}{}{}", action.cooker, action.subject, ending);
-        for (size_t cause = 0; cause < last.causes.size(); ++cause)
-            text += (cause == 0 ? ": " : "; ") + last.causes[cause];
-        text += '\n';
+        if (last.ending != graph::Ending::kept && (!only || action.source == *only))
+            groups.add(action, endingText(last.ending), last.causes);
     }
+    std::string text = groups.text();
     if (!journal.output_cause.empty() && !only)
         text += fmt::format("  {:<11}{}: {}\n", "pack", journal.output, journal.output_cause);
     return text.empty() ? "  nothing\n" : text;
-}
-
-std::string indented(const std::string& text)
-{
-    std::string result;
-    for (size_t at = 0; at < text.size();)
-    {
-        const size_t end = std::min(text.find('\n', at), text.size());
-        result += "  " + text.substr(at, end - at) + "\n";
-        at = end + 1;
-    }
-    return result;
 }
 
 Result<std::string> nextCookText(const graph::Journal& journal, const std::vector<cache::LevelSpec>& caches,
@@ -67,12 +64,17 @@ Result<std::string> nextCookText(const graph::Journal& journal, const std::vecto
     graph::Resolver resolver(
         journal.graph, &memory->cache(), &memory->actions(),
         [&]() -> const std::optional<graph::Journal>& { return memory->journal(); }, false);
-    graph::Forecast forecast = graph::forecast(journal.graph, resolver);
+    const graph::Forecast forecast = graph::forecast(journal.graph, resolver);
     const std::string cause = packCause(forecast, memory->hashes().hashOf(journal.output));
     std::filesystem::current_path(here, error);
-    for (size_t i = 0; only && i < forecast.actions.size(); ++i)
-        forecast.actions[i].runs = forecast.actions[i].runs && journal.graph.actions[i].source == *only;
-    std::string text = indented(forecastText(journal.graph, forecast));
+    ReasonGroups groups;
+    for (size_t i = 0; i < forecast.actions.size(); ++i)
+    {
+        const graph::Action& action = journal.graph.actions[i];
+        if (forecast.actions[i].runs && (!only || action.source == *only))
+            groups.add(action, "", forecast.actions[i].causes);
+    }
+    std::string text = groups.text();
     if (!cause.empty() && !only)
         text += fmt::format("  {:<11}{}: {}\n", "pack", journal.output, cause);
     return text.empty() ? std::string("  nothing: it is up to date\n") : text;

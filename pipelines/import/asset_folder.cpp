@@ -53,7 +53,9 @@ void noteRead(tools::ReadList& reads, const std::string& path, const FileBytes& 
         reads.add(path, file.bytes());
 }
 
-AssetFolder::AssetFolder(const std::string& asset_path, tools::ReadList* reads) : reads_(reads)
+AssetFolder::AssetFolder(const std::string& asset_path, tools::ReadList* reads)
+    : asset_name_(asset_path.substr(asset_path.rfind('/') + 1)), // npos + 1 is 0
+      reads_(reads)
 {
     const std::string file = resolved(asset_path).value_or(asset_path);
     const size_t slash = file.rfind('/');
@@ -102,6 +104,16 @@ Result<FileBytes> AssetFolder::read(std::string_view relative_path, uint64_t max
     else if (reads_ != nullptr)
         reads_->addAbsent(folder_ + std::string(relative_path));
     return file;
+}
+
+std::string AssetFolder::suggestionFor(std::string_view relative_path, Issue issue) const
+{
+    if (issue != Issue::input_missing && issue != Issue::uri_outside)
+        return "";
+    if (!names_)
+        names_.emplace(folder_);
+    const std::string suggestion = names_->suggest(relative_path);
+    return suggestion.empty() ? "" : "; nearest: " + suggestion;
 }
 
 } // namespace hearth::import

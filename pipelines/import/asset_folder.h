@@ -5,9 +5,11 @@
 #include "cook/tools/read_list.h"
 #include "formats/result.h"
 #include "pipelines/import/file_bytes.h"
+#include "pipelines/import/nearest_file.h"
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -33,9 +35,19 @@ public:
     /// The content of the file there. errors: those of locate and FileBytes::read.
     Result<FileBytes> read(std::string_view relative_path, uint64_t max_bytes) const;
 
+    /// The name of the asset's file, without its folder.
+    const std::string& assetName() const { return asset_name_; }
+
+    /// "; nearest: ..." to stand behind the message of a failed read(): the file that the path probably
+    /// means. Empty where none is near, and where something else is wrong with the file. The folder is listed
+    /// for it, which is nothing that results are kept by: it may stand on stderr, but in no part.
+    std::string suggestionFor(std::string_view relative_path, Issue issue) const;
+
 private:
     std::string folder_; ///< resolved, ends with '/'
+    std::string asset_name_;
     tools::ReadList* reads_ = nullptr;
+    mutable std::optional<FileNames> names_; ///< listed when first asked for
 };
 
 } // namespace hearth::import

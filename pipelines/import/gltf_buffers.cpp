@@ -39,7 +39,8 @@ Result<FileBytes> readBufferUri(const std::string& uri, const std::string& where
 {
     Result<FileBytes> bytes = readUri(uri, where + "/uri", context);
     if (!bytes.ok() && bytes.error().issue == Issue::input_missing)
-        return context.error(Issue::buffer_missing, where + "/uri", bytes.error().detail);
+        return context.error(Issue::buffer_missing, where + "/uri",
+                             bytes.error().detail + suggestionForUri(uri, Issue::input_missing, context));
     return bytes;
 }
 
@@ -61,9 +62,16 @@ Result<FileBytes> readUri(const std::string& uri, const std::string& where, cons
     Result<FileBytes> file = context.folder.read(*path, context.options.limits.max_file_bytes);
     if (!file.ok())
         return context.error(file.error().issue, where,
-                             fmt::format("\"{}\": {}", shortened(uri), file.error().detail));
+                             fmt::format("\"{}\" beside {}: {}", shortened(*path), context.folder.assetName(),
+                                         file.error().detail));
     context.part.addSource(*path, file->bytes().size(), file->hash());
     return file;
+}
+
+std::string suggestionForUri(const std::string& uri, Issue issue, const GltfContext& context)
+{
+    const std::optional<std::string> path = isDataUri(uri) ? std::nullopt : percentDecoded(uri);
+    return path ? context.folder.suggestionFor(*path, issue) : "";
 }
 
 Result<GltfBuffers> GltfBuffers::load(const GltfModel& model, const FileBytes& source,

@@ -28,6 +28,9 @@ struct GltfContext
 /// source. errors: uri_malformed, uri_outside, input_missing, input_too_large, read_failed.
 Result<FileBytes> readUri(const std::string& uri, const std::string& where, const GltfContext& context);
 
+/// As AssetFolder::suggestionFor, where readUri has failed with the issue; empty for a data URI.
+std::string suggestionForUri(const std::string& uri, Issue issue, const GltfContext& context);
+
 /// Owns the buffers and the decompressed views. All views are decompressed when it is made, used or not.
 class GltfBuffers
 {

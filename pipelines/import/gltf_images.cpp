@@ -68,7 +68,8 @@ Result<DecodedImage> GltfImages::read(uint32_t image, const std::string& where)
     return decodeImage(buffers_.view(source.buffer_view), nameOf(image), context_.options.limits);
 }
 
-std::optional<DecodedImage> GltfImages::decode(uint32_t image, const std::string& where)
+std::optional<DecodedImage> GltfImages::decode(uint32_t image, const std::string& where,
+                                               const std::string& user)
 {
     asked_for_[image] = true;
     Result<DecodedImage> read_image = read(image, where);
@@ -76,20 +77,23 @@ std::optional<DecodedImage> GltfImages::decode(uint32_t image, const std::string
         return std::move(read_image).value();
     const Error& error = read_image.error();
     const bool missing = error.issue == Issue::input_missing;
+    const bool has_uri = image != kNone && model_.images[image].uri.has_value();
     context_.part.warn(
         missing ? Issue::image_missing : Issue::image_replaced, where,
-        fmt::format("{}: {}", nameOf(image),
-                    error.detail.empty() ? issueInfo(error.issue).summary : std::string_view(error.detail)));
+        fmt::format("image \"{}\" of {}: {}", nameOf(image), user,
+                    error.detail.empty() ? issueInfo(error.issue).summary : std::string_view(error.detail)),
+        has_uri ? suggestionForUri(*model_.images[image].uri, error.issue, context_) : "");
     return std::nullopt;
 }
 
-Result<uint32_t> GltfImages::write(uint32_t image, ImagePurpose purpose, const std::string& where)
+Result<uint32_t> GltfImages::write(uint32_t image, ImagePurpose purpose, const std::string& where,
+                                   const std::string& user)
 {
     const auto found = written_.find({image, purpose});
     if (found != written_.end())
         return found->second;
     const std::string image_where = image == kNone ? where : fmt::format("/images/{}", image);
-    const std::optional<DecodedImage> decoded = decode(image, image_where);
+    const std::optional<DecodedImage> decoded = decode(image, image_where, user);
     ImageRecord record = recordFor(purpose);
     record.name = context_.part.intern(nameOf(image));
     if (!decoded)

@@ -30,10 +30,12 @@ public:
 
     /// The part's image for this one (or for kNone, a texture without an image) and purpose; decoded and written when it
     /// is first asked for. One that is missing or broken becomes a placeholder, with a warning.
-    Result<uint32_t> write(uint32_t image, ImagePurpose purpose, const std::string& where);
+    /// user  what asks for it, for the warning: "material \"oak\""
+    Result<uint32_t> write(uint32_t image, ImagePurpose purpose, const std::string& where,
+                           const std::string& user);
 
     /// The texels, or nothing and a warning.
-    std::optional<DecodedImage> decode(uint32_t image, const std::string& where);
+    std::optional<DecodedImage> decode(uint32_t image, const std::string& where, const std::string& user);
 
     /// Write an image that was made here.
     Result<uint32_t> writeMade(const DecodedImage& image, ImagePurpose purpose, const std::string& name,

@@ -43,7 +43,9 @@ private:
     const GltfModel& model_;
     const GltfContext& context_;
     GltfImages images_;
-    std::string where_; ///< the material that is being written
+    // the material that is being written
+    std::string where_;
+    std::string called_; ///< for people: "material \"oak\""
 };
 
 /// The threshold for the texture's own alpha, which the shader multiplies with the factor's.
@@ -89,8 +91,9 @@ Result<TextureRef> MaterialWriter::reference(const GltfTextureUse& use, ImagePur
                            fmt::format("{} is not kept: there is no UV set {}", name, use.uv_set));
         return kNoTexture;
     }
-    HEARTH_ASSIGN_OR_RETURN(const uint32_t image,
-                            images_.write(imageOf(use), purpose, fmt::format("/textures/{}", use.texture)));
+    HEARTH_ASSIGN_OR_RETURN(
+        const uint32_t image,
+        images_.write(imageOf(use), purpose, fmt::format("/textures/{}", use.texture), called_));
     return referenceTo(image, use);
 }
 
@@ -108,9 +111,10 @@ Status MaterialWriter::convertSpecularGlossinessOf(const GltfMaterial& material,
     {
         const auto decoded = [&](const GltfTextureUse& use)
         {
-            const auto texels = use.texture == kNone
-                                    ? std::nullopt
-                                    : images_.decode(imageOf(use), fmt::format("/textures/{}", use.texture));
+            const auto texels =
+                use.texture == kNone
+                    ? std::nullopt
+                    : images_.decode(imageOf(use), fmt::format("/textures/{}", use.texture), called_);
             return texels && !texels->is_float ? *texels : DecodedImage{};
         };
         const DecodedImage specular_image = decoded(specular);
@@ -201,6 +205,8 @@ Status MaterialWriter::writeAll()
     for (size_t i = 0; i < model_.materials.size(); ++i)
     {
         where_ = fmt::format("/materials/{}", i);
+        called_ = model_.materials[i].name.empty() ? fmt::format("material {}", i)
+                                                   : fmt::format("material \"{}\"", model_.materials[i].name);
         HEARTH_ASSIGN_OR_RETURN(const MaterialRecord record, convert(model_.materials[i]));
         context_.part.materials.push_back(record);
     }

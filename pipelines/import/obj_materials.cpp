@@ -45,6 +45,7 @@ public:
         ScanMaterialIndices indices;
         for (const std::string& name : scan_.material_names)
         {
+            material_ = name;
             const auto found = library_.materials.find(name);
             if (found == library_.materials.end())
                 ++undefined_;
@@ -59,6 +60,7 @@ public:
             part_.warn(Issue::degraded, "",
                        std::to_string(undefined_) +
                            " materials are not in the material libraries and are drawn grey");
+        material_.clear();
         indices.fallback = defaultScanMaterial();
         if (!scan_.texture_file.empty() && !scan_.uvs.empty())
         {
@@ -83,7 +85,9 @@ private:
             at = end + 1;
         }
         if (!all)
-            part_.warn(Issue::material_missing, "", "material library '" + names + "': " + failure_);
+            part_.warn(Issue::material_missing, "",
+                       "material library '" + names + "' beside " + folder_.assetName() + ": " + failure_,
+                       suggestion_);
     }
 
     bool readLibrary(std::string name)
@@ -95,6 +99,7 @@ private:
         if (!file)
         {
             failure_ = file.error().detail;
+            suggestion_ = folder_.suggestionFor(name, file.error().issue);
             return false;
         }
         libraries_read_.push_back(name);
@@ -245,7 +250,9 @@ private:
     {
         const bool missing = error.issue == Issue::input_missing;
         part_.warn(missing ? Issue::image_missing : Issue::image_replaced, "",
-                   "image '" + file + "': " + error.detail);
+                   "image '" + file + "'" + (material_.empty() ? "" : " of material '" + material_ + "'") +
+                       " beside " + folder_.assetName() + ": " + error.detail,
+                   folder_.suggestionFor(file, error.issue));
     }
 
     /// Height maps are grey; the flat normal is (128, 128, 255).
@@ -295,6 +302,8 @@ private:
     MtlLibrary library_;
     std::vector<std::string> libraries_read_;
     std::string failure_;
+    std::string suggestion_;
+    std::string material_; ///< that is being made; empty: the one of faces without any
     std::map<std::string, uint32_t> image_of_key_;
     size_t undefined_ = 0;
 };

@@ -152,11 +152,31 @@ Result<uint32_t> PartBuilder::addImage(ImageRecord record, const DecodedImage& i
 
 void PartBuilder::warn(Issue issue, std::string where, std::string detail)
 {
+    warn(issue, std::move(where), std::move(detail), "");
+}
+
+void PartBuilder::warn(Issue issue, std::string where, std::string detail, std::string_view remark)
+{
     HEARTH_ASSERT(issueInfo(issue).kind == IssueClass::warning);
-    if (warnings_.size() < kMaxWarnings)
-        warnings_.push_back(shortened({issue, source_name_, std::move(where), std::move(detail)}));
-    else
+    if (warnings_.size() >= kMaxWarnings)
+    {
         ++warnings_left_out_;
+        return;
+    }
+    Error error = shortened({issue, source_name_, std::move(where), std::move(detail)});
+    warnings_.push_back({std::move(error), std::string(remark)});
+    cut(warnings_.back().remark);
+}
+
+std::vector<Error> PartBuilder::warnings() const
+{
+    std::vector<Error> told;
+    for (const Warning& warning : warnings_)
+    {
+        told.push_back(warning.error);
+        told.back().detail += warning.remark;
+    }
+    return told;
 }
 
 void PartBuilder::addSource(std::string name, std::span<const std::byte> content)
@@ -173,7 +193,7 @@ void PartBuilder::adoptReport(const PartBuilder& other)
 {
     sources_.insert(sources_.end(), other.sources_.begin(), other.sources_.end());
     warnings_left_out_ += other.warnings_left_out_;
-    for (const Error& warning : other.warnings_)
+    for (const Warning& warning : other.warnings_)
         if (warnings_.size() < kMaxWarnings)
             warnings_.push_back(warning);
         else
@@ -188,11 +208,11 @@ std::string PartBuilder::report() const
                                       source.size, source.hash));
     std::vector<std::string> messages;
     std::vector<std::string> dropped;
-    for (const Error& warning : warnings_)
+    for (const Warning& warning : warnings_)
     {
-        messages.push_back(messageJson(warning));
-        if (warning.issue == Issue::dropped)
-            dropped.push_back(quoteJson(warning.detail));
+        messages.push_back(messageJson(warning.error));
+        if (warning.error.issue == Issue::dropped)
+            dropped.push_back(quoteJson(warning.error.detail));
     }
     std::vector<std::string> clips;
     for (const clips::ClipStatistics& clip : clip_statistics)

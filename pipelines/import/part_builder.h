@@ -68,6 +68,9 @@ public:
 
     /// Note something that the user should know; printed to stderr by the program and kept in META.
     void warn(Issue issue, std::string where, std::string detail);
+    /// The same with a remark that stands behind the detail on stderr alone: it goes by more than the files
+    /// that are read, such as names of files beside them, and a part must be the same wherever those are.
+    void warn(Issue issue, std::string where, std::string detail, std::string_view remark);
 
     /// A source file that was read: name relative to the asset's folder, and its content for the hash.
     void addSource(std::string name, std::span<const std::byte> content);
@@ -101,7 +104,8 @@ public:
     /// Take over the sources and messages of another part, whose meshes become part of this one.
     void adoptReport(const PartBuilder& other);
 
-    const std::vector<Error>& warnings() const { return warnings_; }
+    /// As a person is told of them, with their remarks.
+    std::vector<Error> warnings() const;
 
     /// Messages beyond the first hundred, which are only counted.
     uint64_t warningsLeftOut() const { return warnings_left_out_; }
@@ -119,6 +123,12 @@ private:
         uint64_t hash = 0;
     };
 
+    struct Warning
+    {
+        Error error;
+        std::string remark;
+    };
+
     formats::ContainerWriter writer_;
     std::string source_name_;
     std::string strings_;
@@ -127,7 +137,7 @@ private:
     uint32_t mesh_count_ = 0;
     std::vector<formats::AuthoredLodRecord> lods_;
     std::vector<MovedVertices> moved_vertices_; ///< of each mesh
-    std::vector<Error> warnings_;
+    std::vector<Warning> warnings_;
     uint64_t warnings_left_out_ = 0;
     std::vector<SourceFile> sources_;
 };

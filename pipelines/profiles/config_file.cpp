@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/profiles/config_file.h"
 
+#include "cook/clusters/profile.h"
 #include "pipelines/profiles/toml_value.h"
 
 #include <algorithm>
@@ -95,8 +96,9 @@ Result<Rule> readRule(const TomlNode& node, const Place& place)
     const TomlNode* match = node.find("match");
     if (match == nullptr)
         return place.at("match").wrong(Issue::profile_value, node,
-                                       "is missing: say which sources, as match = \"props/**/*.glb\"");
+                                       "is missing: say which sources, as match = \"assets/props/**\"");
     HEARTH_ASSIGN_OR_RETURN(rule.match, nameAt(*match, place.at("match")));
+    rule.place = place.at("match").of(*match);
     const Keys groups = groupsOf(true);
     Keys known = groups;
     known.insert(known.end(), {"match", "in_profile"});
@@ -185,6 +187,11 @@ Result<TomlNode> parsed(std::string_view text, const std::string& path)
 }
 
 } // namespace
+
+bool Rule::holdsIn(std::string_view profile) const
+{
+    return in_profile.empty() || clusters::matchesPattern(in_profile, profile);
+}
 
 Result<ConfigFile> parseConfig(std::string_view text, const std::string& path, bool has_rules)
 {

@@ -26,6 +26,10 @@ struct Rule
     std::string
         in_profile; ///< only where the cook's profile is called so, with * and ? as wildcards; empty: always
     Values values;  ///< of sources
+    std::string place{}; ///< of `match`: "line 10, column 9, rule[0].match"
+
+    /// Whether it holds in a cook whose profile is called so; empty: that has none.
+    bool holdsIn(std::string_view profile) const;
 };
 
 struct ConfigFile

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/profiles/configuration.h"
 
-#include "cook/clusters/profile.h"
 #include "cook/tools/lines.h"
 #include "cook/tools/suggest.h"
 #include "pipelines/cache/folder_level.h"
@@ -245,7 +244,11 @@ Result<Configuration> Configuration::load(Given given, const Environment& enviro
     return configuration;
 }
 
-/// Empty where the source lies outside of the project.
+const ConfigFile* Configuration::projectFile() const
+{
+    return project_file_ ? &files_[*project_file_] : nullptr;
+}
+
 std::string Configuration::pathInProject(const std::string& source) const
 {
     std::error_code error;
@@ -260,8 +263,7 @@ Values Configuration::ofSource(const std::string& source) const
     {
         const std::string path = pathInProject(source);
         for (const Rule& rule : files_[*project_file_].rules)
-            if (!path.empty() && matchesPath(rule.match, path) &&
-                (rule.in_profile.empty() || clusters::matchesPattern(rule.in_profile, profile_name_)))
+            if (!path.empty() && matchesPath(rule.match, path) && rule.holdsIn(profile_name_))
                 put(rule.values, values);
     }
     put(given_.settings, values);

@@ -53,6 +53,12 @@ public:
     const std::string& profileName() const { return profile_name_; }
     /// The files that were read, nearest first.
     const std::vector<ConfigFile>& files() const { return files_; }
+    /// The one that may have rules; nullptr where there is none.
+    const ConfigFile* projectFile() const;
+    /// The folder of the project's file, absolute, with a slash at its end; empty where there is none.
+    const std::string& projectFolder() const { return project_folder_; }
+    /// The path of a source from that folder, by which rules match it; empty where it lies elsewhere.
+    std::string pathInProject(const std::string& source) const;
 
 private:
     Status readFiles(const Environment& environment);
@@ -62,7 +68,6 @@ private:
                       std::vector<const Profile*>& chain);
     std::optional<size_t> levelOf(const std::string& name, size_t from) const;
     const ConfigFile& fileAt(size_t level) const;
-    std::string pathInProject(const std::string& source) const;
 
     Given given_;
     Values environment_;

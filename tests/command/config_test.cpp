@@ -135,6 +135,38 @@ TEST_F(Settings, reachTheCookersOfTheSourcesThatTheyAreOf)
     EXPECT_TRUE(has("specular a.hearth"));
 }
 
+TEST_F(Settings, warnOfARuleThatMatchesNothing)
+{
+    std::filesystem::create_directories(folder / "assets/props");
+    std::filesystem::create_directories(folder / "assets/trees");
+    folder.write("assets/props/chair.gltf", "{}");
+    folder.write("assets/trees/oak.glb", "");
+    folder.write("hearth.toml", std::string(kProject) + "[[rule]]\nmatch = 'assets/trees/*'\n");
+    const std::string warning =
+        "hearth.toml|line 9, column 9, rule[0].match: warning: 'props/**/*.glb' matches no source; nearest: "
+        "assets/props/chair.gltf, which 'assets/props/**/*.gl*' would match [W1513] hint: ";
+    const std::vector<std::string> dry_run{"cook", "assets/props", "-o", "a.hearth", "--dry-run"};
+    EXPECT_EQ(countOf(hearth(dry_run).err, warning), 1u) << hearth(dry_run).err;
+    EXPECT_EQ(countOf(hearth(dry_run).err, "W1513"), 1u) << "the rule for trees is one for another cook";
+    EXPECT_EQ(countOf(hearth({"plan", "assets/props", "-o", "-"}).err, warning), 1u);
+    EXPECT_EQ(hearth({"plan", "assets/props", "-o", "-", "-q"}).err, "");
+    EXPECT_EQ(countOf(hearth({"config"}).err, warning), 1u);
+    EXPECT_EQ(hearth({"config", "assets/trees/oak.glb"}).err, "");
+
+    std::filesystem::create_directories(folder / "elsewhere");
+    folder.write("elsewhere/hearth.toml", kProject);
+    EXPECT_NE(
+        hearth({"cook", "assets/props", "-o", "a.hearth", "-n", "--config", "elsewhere/hearth.toml"})
+            .err.find("'props/**/*.glb' matches no source: none lies in the folder of this file [W1513]"),
+        std::string::npos);
+    folder.write("hearth.toml", std::string(kProject) + "in_profile = 'desktop'\n");
+    EXPECT_EQ(hearth(dry_run).err, "") << "the rule is not in force";
+    std::filesystem::create_directories(folder / "props/old");
+    folder.write("props/old/bench.glb", "");
+    folder.write("hearth.toml", kProject);
+    EXPECT_EQ(hearth(dry_run).err, "") << "a model that is not cooked this time";
+}
+
 TEST_F(Settings, workFromAnotherFolder)
 {
     std::filesystem::create_directories(folder / "house/props");

@@ -25,6 +25,46 @@ TEST_F(Cook, passesWarningsOnButNotNoise)
     EXPECT_EQ(countOf(cook({"-v", "warning.gltf", "-o", "a.hearth"}).err, "noise"), 1u);
 }
 
+TEST_F(Cook, failuresAndWarningsComeTogetherAtItsEnd)
+{
+    const std::vector<std::string> sources{"malformed.gltf", "warning.gltf", "a.gltf", "-o",
+                                           "a.hearth",       "-j1"};
+    const ProgramEnd end = cook(sources);
+    const std::string failure = "malformed.gltf|/meshes/0: error: is bad [E1101] hint: mend it\n";
+    EXPECT_EQ(countOf(end.err, failure), 2u) << end.err;
+    EXPECT_TRUE(end.err.ends_with("the failure again:\n" + failure +
+                                  "1 warning: 1 W1400 (a part of the source is not kept)\n"
+                                  "a.hearth: not linked, because a dependency failed: 1 of 3 sources\n"))
+        << end.err;
+    std::vector<std::string> arguments = sources;
+    arguments.emplace_back("-q");
+    EXPECT_EQ(cook(arguments).err, failure);
+    arguments.back() = "--no-cache";
+    arguments.insert(arguments.end(), {"--log-format", "json"});
+    const std::string json = cook(arguments).err;
+    EXPECT_EQ(countOf(json, "E1101"), 1u) << "a program is told once: " << json;
+    EXPECT_EQ(countOf(json, "W1400"), 1u) << json;
+}
+
+TEST_F(Cook, filesOfAFolderThatNobodyReadsAreNamed)
+{
+    std::filesystem::create_directories(folder / "art/notes");
+    folder.write("art/a.gltf", "");
+    folder.write("art/sky.hdr", "");
+    folder.write("art/notes/plan.txt", "");
+    folder.write("art/.hidden", "");
+    const std::string line =
+        "left out  1 texture that no source uses (art/sky.hdr), 1 file of a kind that is not "
+        "read (art/notes/plan.txt)\n";
+    EXPECT_EQ(countOf(cook({"art", "-o", "art/a.hearth", "--report", "art/a.json"}).err, line), 1u)
+        << cook({"art", "-o", "art/a.hearth", "--report", "art/a.json"}).err;
+    EXPECT_EQ(cook({"art", "-o", "art/a.hearth", "-q"}).err, "");
+    EXPECT_EQ(countOf(cook({"art/a.gltf", "-o", "a.hearth"}).err, "left out"), 0u);
+    folder.write("art/malformed.gltf", "");
+    EXPECT_EQ(countOf(cook({"art", "-o", "b.hearth"}).err, "left out"), 0u)
+        << "nobody knows what it would use";
+}
+
 TEST_F(Cook, warningsMayCountAsErrors)
 {
     const ProgramEnd fine = cook({"warning.gltf", "-o", "a.hearth", "--warnings-as-errors=W1302"});

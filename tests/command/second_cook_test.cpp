@@ -151,6 +151,42 @@ TEST_F(SecondCook, repeatsTheWarnings)
         << second.err;
 }
 
+TEST_F(SecondCook, foldsTheWarningsThatWereTold)
+{
+    const std::string warning = "tree.gltf|/images/0: warning: ";
+    const std::string folded =
+        "2 warnings of unchanged sources, as in the cook before: 1 W1302, 1 W1401; hearth cook -v lists "
+        "them\n";
+    const std::vector<std::string> arguments{"tree.gltf", "-o", "a.hearth"};
+    const auto cookWith = [&](const std::vector<std::string>& words)
+    {
+        std::vector<std::string> all = arguments;
+        all.insert(all.end(), words.begin(), words.end());
+        return cook(all).err;
+    };
+    const std::string first = cookWith({});
+    EXPECT_EQ(countOf(first, warning), 1u) << first;
+    EXPECT_EQ(
+        countOf(first, "\n2 warnings: 1 W1302 (an image is missing; a placeholder is drawn), 1 W1401 ("), 1u)
+        << first;
+    for (int i = 0; i < 2; ++i)
+    {
+        const std::string again = cookWith({});
+        EXPECT_EQ(countOf(again, warning), 0u) << again;
+        EXPECT_EQ(countOf(again, folded), 1u) << again;
+    }
+    EXPECT_EQ(cookWith({"-q"}), "");
+    EXPECT_EQ(countOf(cookWith({"-v"}), warning), 1u);
+    EXPECT_EQ(countOf(cookWith({"--log-format", "json"}), "W1302"), 1u) << "a program is told each time";
+    EXPECT_EQ(countOf(cookWith({"--warnings-as-errors"}), warning), 1u) << "why there is no pack";
+    EXPECT_EQ(countOf(cook({"tree.gltf", "-o", "b.hearth"}).err, warning), 1u)
+        << "the cache has it, but no cook into this pack has told it";
+    // another source does not unfold it, a change of its own does
+    EXPECT_EQ(countOf(cook({"house.obj", "tree.gltf", "-o", "a.hearth"}).err, folded), 1u);
+    writeGltf(folder, "tree", 0.5F);
+    EXPECT_EQ(countOf(cook({"house.obj", "tree.gltf", "-o", "a.hearth"}).err, warning), 1u);
+}
+
 TEST_F(SecondCook, anEditOfAnOutputHarmsNothing)
 {
     ran(cook({"house.obj", "-o", "a.hearth"}));
@@ -210,20 +246,20 @@ TEST_F(SecondCook, whyNamesTheCause)
         {"import     tree.gltf: tree.bin: its content has changed", [&] { writeGltf(folder, "tree", 0.5F); }},
         {"import     tree.gltf: tree.tga: is there now", [&] { folder.write("tree.tga", tgaImage(7)); }},
         // what the file says now only the next cook reads
-        {"import     tree.gltf: parameter animation.error: 0.001 -> 0.002",
+        {"import     2 sources (house.obj, tree.gltf): parameter animation.error: 0.001 -> 0.002",
          [&] { folder.write("house.toml", "[animation]\nerror = 0.002\n"); }, false},
-        {"import     house.obj: parameter animation.error 0.002: no longer given",
+        {"import     2 sources (house.obj, tree.gltf): parameter animation.error 0.002: no longer given",
          [&] { arguments.resize(4); }, false},
-        {"clusters   house.obj: parameter --visibility: new",
+        {"clusters   2 sources (house.obj, tree.gltf): parameter --visibility: new",
          [&]
          {
              arguments = {"house.obj", "tree.gltf", "-o", "a.hearth", "--visibility", "--visibility-quality",
                           "draft"};
          },
          false},
-        {"visibility house.obj: parameter --quality: draft -> default", [&] { arguments.back() = "default"; },
-         false},
-        {"skinning   tree.gltf: hearth-skinning has changed",
+        {"visibility 2 sources (house.obj, tree.gltf): parameter --quality: draft -> default",
+         [&] { arguments.back() = "default"; }, false},
+        {"skinning   2 sources (house.obj, tree.gltf): hearth-skinning has changed",
          [&] { std::ofstream(copies / "hearth-skinning", std::ios::app) << "another build"; }},
         {"link       a.hearth: third.obj: source added",
          [&]
@@ -238,7 +274,8 @@ TEST_F(SecondCook, whyNamesTheCause)
          false},
         {"pack       %: it is not there", [&] { fs::remove(folder / "a.hearth"); }},
         {"pack       %: it is not what was cooked", [&] { folder.write("a.hearth", "damage"); }},
-        {"import     tree.gltf: forced", [&] { arguments.push_back("--force"); }, false},
+        {"import     2 sources (third.obj, tree.gltf): forced", [&] { arguments.push_back("--force"); },
+         false},
         {"link       a.hearth: its result is not in the cache, or not whole",
          [&]
          {
@@ -257,7 +294,7 @@ TEST_F(SecondCook, whyNamesTheCause)
                  });
          },
          false},
-        {"import     tree.gltf: its result is not in the cache",
+        {"import     2 sources (third.obj, tree.gltf): its result is not in the cache",
          [&] { fs::remove_all(folder.cachePath() + "/ac"); }},
     };
     const std::string pack = fs::path(folder / "a.hearth").lexically_normal().string();
@@ -303,7 +340,7 @@ TEST_F(SecondCook, whatFailedIsTriedAgain)
     writeObj(folder, "house", 3);
     const ProgramEnd end = cook({"tree.gltf", "house.obj", "-o", "a.hearth"});
     EXPECT_EQ(end.exit_code, 65);
-    EXPECT_EQ(countOf(end.err, ": error: "), 1u) << end.err;
+    EXPECT_EQ(countOf(end.err, ": error: "), 2u) << "at once, and again at the end: " << end.err;
     EXPECT_NE(end.err.find("a.hearth: not linked, because a dependency failed: 1 of 2 sources"),
               std::string::npos);
     EXPECT_EQ(countOf(end.err, "clusters  "), 1u) << "the other source was cooked: " << end.err;
@@ -324,7 +361,7 @@ TEST_F(SecondCook, severalFailuresAreAllTold)
     folder.write("tree.bin", "short");
     const ProgramEnd end = cook({"tree.gltf", "missing.obj", "house.obj", "-o", "a.hearth"});
     EXPECT_EQ(end.exit_code, 1) << "65 and 66";
-    EXPECT_EQ(countOf(end.err, ": error: "), 2u) << end.err;
+    EXPECT_EQ(countOf(end.err.substr(end.err.find("all failures again:\n")), ": error: "), 2u) << end.err;
     EXPECT_NE(end.err.find("2 of 3 sources"), std::string::npos) << end.err;
     EXPECT_FALSE(folder.has("a.hearth"));
     EXPECT_EQ(

@@ -182,6 +182,52 @@ TEST(GltfImages, becomePlaceholdersWhenTheyAreMissingOrBroken)
     }
 }
 
+TEST(GltfImages, nameTheirMaterialAndTheNearestFileWhereTheyAreMissing)
+{
+    const TemporaryFolder folder;
+    folder.write("textures/wood.tga", tga(1, 1, kGrey));
+    folder.write("textures/notes.txt", "wood.png");
+    std::filesystem::create_symlink("/etc/hostname", folder.path("textures/link.png"));
+    struct Row
+    {
+        const char* uri; ///< as JSON has it
+        const char* path;
+        const char* nearest;
+    };
+    const Row rows[] = {
+        {"textures/Wood.TGA", "textures/Wood.TGA", R"("textures/wood.tga", whose letters differ in case)"},
+        {R"(textures\\wood.tga)", R"(textures\wood.tga)",
+         R"("textures/wood.tga", with '/' between folders, not '\')"},
+        {"wood.tga", "wood.tga", R"("textures/wood.tga", in another folder)"},
+        {"textures/wood.png", "textures/wood.png", R"("textures/wood.tga", in another format)"},
+        {"Wood.png", "Wood.png", R"("textures/wood.tga", in another folder and format)"},
+        {"textures/wo%6Fds.tga", "textures/woods.tga", R"("textures/wood.tga")"},
+        {"../art/wood.tga", "../art/wood.tga", R"("textures/wood.tga", in another folder)"},
+        {"./Textures/wood.tga", "./Textures/wood.tga",
+         R"("textures/wood.tga", whose letters differ in case)"},
+        {"textures/stone.png", "textures/stone.png", ""},
+        {"textures/link.png", "textures/link.png", ""},
+        {"textures/notes.png", "textures/notes.png", ""},
+    };
+    for (const Row& row : rows)
+    {
+        const Imported result = importBytes(
+            R"({"asset":{"version":"2.0"},"images":[{"uri":")" + std::string(row.uri) +
+                R"("}],"textures":[{"source":0}],"materials":[{"name":"oak","emissiveTexture":{"index":0}}]})",
+            &folder);
+        ASSERT_TRUE(result.ok()) << result.message();
+        ASSERT_EQ(result.warnings.size(), 1u) << row.uri;
+        const std::string& told = result.warnings[0].detail;
+        EXPECT_NE(told.find(R"(of material "oak": ")" + std::string(row.path) + R"(" beside test.gltf: )"),
+                  std::string::npos)
+            << told;
+        const size_t nearest = told.find("; nearest: ");
+        EXPECT_EQ(nearest == std::string::npos ? "" : told.substr(nearest + 11), row.nearest) << told;
+        EXPECT_EQ(result.text(kChunkMeta).find("nearest"), std::string::npos)
+            << "the part does not depend on files that were not read";
+    }
+}
+
 TEST(GltfImages, preferTheOneOfTheTextureAndElseThatOfAnExtension)
 {
     const TemporaryFolder folder;

@@ -180,6 +180,21 @@ TEST(ImportScan, missingFilesAreWarningsAndPlaceholders)
     EXPECT_EQ(scan.materials[0].normal_texture.image, kNone); // a placeholder would only disturb the surface
 }
 
+TEST(ImportScan, missingFilesAreNamedWithTheirMaterialAndTheNearestFile)
+{
+    const TemporaryFolder folder;
+    write(folder, "a.mtl", "newmtl oak\nmap_Kd wood.PNG\n");
+    write(folder, "wood.png", textOf(test::kPngRgba8));
+    const Imported scan =
+        import(importScan, folder, "a.obj", "mtllib A.mtl\nmtllib a.mtl\n" + kQuad + "usemtl oak\nf 1 2 3\n");
+    EXPECT_TRUE(scan.warned(Issue::image_missing,
+                            "image 'wood.PNG' of material 'oak' beside a.obj: No such file or directory; "
+                            "nearest: \"wood.png\", whose letters differ in case"));
+    EXPECT_TRUE(scan.warned(Issue::material_missing,
+                            "material library 'A.mtl' beside a.obj: No such file or directory; nearest: "
+                            "\"a.mtl\", whose letters differ in case"));
+}
+
 TEST(ImportScan, neverLeavesItsFolder)
 {
     const TemporaryFolder outside;

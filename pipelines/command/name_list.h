@@ -1,0 +1,14 @@
+// A list of names for a line of text: the first few, and how many more there are.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace hearth::command
+{
+
+/// "a.glb", "a.glb, b.glb", "a.glb, b.glb, c.glb and 9 more"; empty of no names.
+std::string namesText(const std::vector<std::string>& names);
+
+} // namespace hearth::command
