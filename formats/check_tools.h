@@ -27,12 +27,6 @@ inline bool finite(Float3 v)
 {
     return hearth::isFinite(v);
 }
-
-/// Whether `low` is nowhere above `high`, and both are finite.
-inline bool validBox(Float3 low, Float3 high)
-{
-    return finite(low) && finite(high) && low.x <= high.x && low.y <= high.y && low.z <= high.z;
-}
 inline bool finite(Float4 v)
 {
     return finite(Float3{v.x, v.y, v.z}) && std::isfinite(v.w);
@@ -44,6 +38,12 @@ inline bool finite(std::span<const float> values)
 inline bool finite(const Affine3& t)
 {
     return finite(t.m[0]) && finite(t.m[1]) && finite(t.m[2]);
+}
+
+/// Whether `low` is nowhere above `high`, and both are finite.
+inline bool validBox(Float3 low, Float3 high)
+{
+    return finite(low) && finite(high) && low.x <= high.x && low.y <= high.y && low.z <= high.z;
 }
 
 /// Finite and inside [low, high].

@@ -39,7 +39,7 @@ Box3 carried(const Affine3d& transform, const Box3& box)
     return result;
 }
 
-Json pointJson(Float3 p)
+Json boundsPoint(Float3 p)
 {
     return {p.x, p.y, p.z};
 }
@@ -92,7 +92,7 @@ Result<Json> meshJson(const PackView& pack, uint32_t mesh_number, const std::opt
         if (pose)
             box = carried(pose->palette()[joint], box);
         Json json{{"level", cluster.level},
-                  {"box", {{"min", pointJson(box.min)}, {"max", pointJson(box.max)}}},
+                  {"box", {{"min", boundsPoint(box.min)}, {"max", boundsPoint(box.max)}}},
                   {"triangles", nullptr}};
         if (const auto first = first_triangles.find(number); first != first_triangles.end())
             json["triangles"] = {{"first", first->second}, {"count", cluster.triangle_count}};

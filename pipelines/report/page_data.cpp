@@ -18,7 +18,7 @@ namespace
 // More names of files that one asset reads are only counted: a page is no listing.
 constexpr size_t kMostDependencies = 100;
 
-Json listOf(const Json& object, const char* key)
+Json elementsOf(const Json& object, const char* key)
 {
     const Json* list = object.find(key);
     return list != nullptr && list->is_array() ? *list : Json::array();
@@ -47,7 +47,7 @@ Json meshRow(const Json& mesh, size_t asset)
 {
     const Json source = mesh.value("source", Json::object());
     Json levels = Json::array();
-    for (const Json& level : listOf(mesh, "levels"))
+    for (const Json& level : elementsOf(mesh, "levels"))
         levels.push_back(levelRow(level));
     return Json::array({mesh.value("name", ""), asset, source.value("triangles", uint64_t{0}),
                         source.value("vertices", uint64_t{0}),
@@ -65,7 +65,7 @@ Json psnrOf(const Json& texture, const char* key)
 Json usesRow(const Json& texture)
 {
     Json uses = Json::array();
-    for (const Json& use : listOf(texture, "uses"))
+    for (const Json& use : elementsOf(texture, "uses"))
         uses.push_back(Json::array({use.value("material", ""), use.value("role", "")}));
     return uses;
 }
@@ -91,9 +91,9 @@ Json assetOf(const Json& asset)
         if (asset.contains(key))
             slim[key] = asset[key];
     slim["stages"] = Json::array();
-    for (const Json& stage : listOf(asset, "stages"))
+    for (const Json& stage : elementsOf(asset, "stages"))
         slim["stages"].push_back(stageRow(stage));
-    const Json dependencies = listOf(asset, "deps");
+    const Json dependencies = elementsOf(asset, "deps");
     slim["dep_count"] = dependencies.size();
     slim["deps"] = Json::array();
     for (size_t i = 0; i < std::min(dependencies.size(), kMostDependencies); ++i)
@@ -111,7 +111,7 @@ Json explanations(const Json& report)
 {
     std::set<std::string> codes;
     for (const char* key : {"failures", "messages"})
-        for (const Json& message : listOf(report, key))
+        for (const Json& message : elementsOf(report, key))
             codes.insert(message.value("code", ""));
     Json texts = Json::object();
     for (const IssueInfo& info : allIssues())
@@ -139,7 +139,7 @@ uint64_t bytesOf(const Json& mesh)
 Json meshesOf(const Json& asset)
 {
     const Json clusters = asset.value("clusters", Json());
-    return clusters.is_object() ? listOf(clusters, "meshes") : Json::array();
+    return clusters.is_object() ? elementsOf(clusters, "meshes") : Json::array();
 }
 
 std::string dataUri(const std::string& jpeg)
@@ -159,13 +159,13 @@ std::string pageData(const std::string& report_text)
             data[key] = report[key];
     for (const char* key : {"assets", "meshes", "textures", "stages"})
         data[key] = Json::array();
-    const Json assets = listOf(report, "assets");
+    const Json assets = elementsOf(report, "assets");
     for (size_t i = 0; i < assets.size(); ++i)
     {
         data["assets"].push_back(assetOf(assets[i]));
         for (const Json& mesh : meshesOf(assets[i]))
             data["meshes"].push_back(meshRow(mesh, i));
-        for (const Json& texture : listOf(assets[i], "textures"))
+        for (const Json& texture : elementsOf(assets[i], "textures"))
             data["textures"].push_back(textureRow(texture, i));
     }
     // of what belongs to no asset
@@ -187,7 +187,7 @@ std::vector<MeshOfPack> importantMeshes(const std::string& report_text)
         bool is_largest; ///< of its asset
     };
     std::vector<Ranked> ranked;
-    for (const Json& asset : listOf(report, "assets"))
+    for (const Json& asset : elementsOf(report, "assets"))
     {
         const size_t first = ranked.size();
         for (const Json& mesh : meshesOf(asset))

@@ -125,7 +125,7 @@ TEST(PageData, isRowsOfWhatThePageShows)
 
 TEST(PageData, saysWhichSettingsMakeEachCookerCheaper)
 {
-    const Json savings = Json::parse(pageData(smallReport().dump()))["savings"];
+    const Json savings = Json::parse(pageData(smallReport().dump())).value()["savings"];
     const auto& visibility = savings["visibility"];
     const auto quality = std::find_if(visibility.begin(), visibility.end(),
                                       [](const Json& saving) { return saving[0] == "visibility.quality"; });
