@@ -24,10 +24,11 @@ namespace hearth::tools
 namespace
 {
 
-// A child that writes more than this is broken; the rest is read and forgotten.
-// Callers of wait() show how long it takes, in seconds.
-constexpr int kBetweenCalls_ms = 1000;
+// wait() looks this often whether a child has ended, and calls its caller. SIGCHLD alone would not do: other threads of the
+// process do not block it, and what one of them receives is lost.
+constexpr int kLookInterval_ms = 100;
 
+// A child that writes more than this is broken; the rest is read and forgotten.
 constexpr size_t kMaxMessages = size_t{1} << 20;
 
 double secondsOf(const timeval& time)
@@ -305,7 +306,7 @@ std::optional<ChildEnd> ChildProcesses::wait(const std::function<void()>& waitin
         std::vector<pollfd> files{{signal_file_, POLLIN, 0}};
         for (const Child& child : children_)
             files.push_back({child.messages_pipe, POLLIN, 0});
-        ::poll(files.data(), files.size(), waiting ? kBetweenCalls_ms : -1);
+        ::poll(files.data(), files.size(), kLookInterval_ms);
         if (waiting)
             waiting();
         for (Child& child : children_)

@@ -123,7 +123,8 @@ TEST_F(Cook, tellsThatPicturesAreDrawnAndCountsTheirTime)
     EXPECT_LT(drawn, cooked) << "the total is the last line";
     EXPECT_GE(std::stod(end.err.substr(cooked + 8)), 1.2) << end.err;
     const std::string events = folder.read("events");
-    EXPECT_GE(Json::parse(events.substr(events.find("{\"event\":\"done\""))).value()["seconds"].get<double>(), 1.2);
+    EXPECT_GE(Json::parse(events.substr(events.find("{\"event\":\"done\""))).value()["seconds"].get<double>(),
+              1.2);
     EXPECT_EQ(countOf(folder.read("page.html"), "data:image/jpeg"), 8u);
 
     std::filesystem::remove(folder / "a.hearth");

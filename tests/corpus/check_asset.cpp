@@ -203,8 +203,8 @@ bool look(std::vector<std::string>& faults, const std::string& name, const Workp
 /// 0 where the pack does not say.
 uint64_t number(const Json& object, const char* name)
 {
-    const auto found = object.find(name);
-    return found != object.end() && found->is_number_unsigned() ? found->get<uint64_t>() : 0;
+    const Json* found = object.find(name);
+    return found != nullptr && found->is_number_unsigned() ? found->get<uint64_t>() : 0;
 }
 
 void compareCounts(std::vector<std::string>& faults, const Asset& asset, const Json& inspected)
