@@ -47,6 +47,11 @@ if(PROJECT_IS_TOP_LEVEL)
   target_compile_options(hearth_warnings INTERFACE -Werror)
 endif()
 
+if(HEARTH_JOIN_SOURCES AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  # GCC takes a source that is joined with others for a header, and warns of its anonymous namespaces
+  target_compile_options(hearth_warnings INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-Wno-subobject-linkage>)
+endif()
+
 add_library(hearth_settings INTERFACE)
 # One result on every machine: no contraction into fused multiply-adds, no reassociation.
 # Position-independent and with threads everywhere, so that all share their precompiled headers.
