@@ -181,7 +181,8 @@ TEST_F(SecondCook, foldsTheWarningsThatWereTold)
     EXPECT_EQ(countOf(cook({"tree.gltf", "-o", "b.hearth"}).err, warning), 1u)
         << "the cache has it, but no cook into this pack has told it";
     // another source does not unfold it, a change of its own does
-    EXPECT_EQ(countOf(cook({"house.obj", "tree.gltf", "-o", "a.hearth"}, {"HEARTH_LOG=normal"}).err, folded), 1u);
+    EXPECT_EQ(countOf(cook({"house.obj", "tree.gltf", "-o", "a.hearth"}, {"HEARTH_LOG=normal"}).err, folded),
+              1u);
     writeGltf(folder, "tree", 0.5F);
     EXPECT_EQ(countOf(cook({"house.obj", "tree.gltf", "-o", "a.hearth"}).err, warning), 1u);
 }
