@@ -145,7 +145,8 @@ TEST_F(Diff, texelsAreCompared)
     ASSERT_EQ(diff.things[0].facts.size(), 1u);
     EXPECT_EQ(diff.things[0].facts[0].what, "texels");
     EXPECT_EQ(diff.things[0].note, "baseColor of paint");
-    EXPECT_EQ(Json::parse(command::diffJson(diff, "a", "b")).value()["changes"][0]["note"], diff.things[0].note);
+    EXPECT_EQ(Json::parse(command::diffJson(diff, "a", "b")).value()["changes"][0]["note"],
+              diff.things[0].note);
 }
 
 TEST_F(Diff, textHasTotalsFirstAndHashesOnDemand)

@@ -95,7 +95,8 @@ TEST(TextureStatistics, sayWhatBecameOfAnImage)
     const auto& bark = json["images"][0];
     EXPECT_EQ(bark["name"], "bark");
     EXPECT_EQ(bark["uses"], Json::parse(R"([{"material": "Oak", "role": "baseColor"},
-                                                     {"material": "", "role": "emissive"}])").value());
+                                                     {"material": "", "role": "emissive"}])")
+                                .value());
     EXPECT_EQ(bark["width"], 4);
     EXPECT_EQ(bark["mips"], 3);
     EXPECT_EQ(bark["format"], "rgba8-srgb");
