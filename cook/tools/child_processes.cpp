@@ -15,6 +15,7 @@
 #include <sys/resource.h>
 #include <sys/signalfd.h>
 #include <sys/socket.h>
+#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -24,8 +25,7 @@ namespace hearth::tools
 namespace
 {
 
-// wait() looks this often whether a child has ended, and calls its caller. SIGCHLD alone would not do: other threads of the
-// process do not block it, and what one of them receives is lost.
+// wait() calls its caller this often, and looks whether a child has ended of which no file tells.
 constexpr int kLookInterval_ms = 100;
 
 // A child that writes more than this is broken; the rest is read and forgotten.
@@ -87,7 +87,7 @@ ChildProcesses::ChildProcesses()
 {
     sigset_t signals;
     ::sigemptyset(&signals);
-    for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGCHLD})
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP})
         ::sigaddset(&signals, signal);
     ::sigprocmask(SIG_BLOCK, &signals, &old_signals_);
     signal_file_ = ::signalfd(-1, &signals, SFD_CLOEXEC | SFD_NONBLOCK);
@@ -101,6 +101,7 @@ ChildProcesses::~ChildProcesses()
         // nothing to save: what a cooker has written so far is of no use
         ::kill(child.process, SIGKILL);
         ::waitpid(child.process, nullptr, 0);
+        closeFile(child.end_file);
         closeFile(child.messages_pipe);
         closeFile(child.work_socket);
     }
@@ -159,6 +160,8 @@ Result<size_t> ChildProcesses::start(const std::vector<std::string>& command, bo
         return cannotStart(command[0], error);
     }
     child.id = next_id_++;
+    // not by <sys/pidfd.h>: that of glibc 2.36 cannot be called from C++
+    child.end_file = static_cast<int>(::syscall(SYS_pidfd_open, child.process, 0));
     child.messages_pipe = ends[0];
     child.work_socket = work[0];
     child.is_batch = is_batch;
@@ -282,6 +285,7 @@ void ChildProcesses::reap()
         end.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - child->start).count();
         end.cpu_seconds = secondsOf(usage.ru_utime) + secondsOf(usage.ru_stime);
         end.peak_rss_bytes = static_cast<uint64_t>(usage.ru_maxrss) * 1024;
+        closeFile(child->end_file);
         closeFile(child->messages_pipe);
         closeFile(child->work_socket);
         child = children_.erase(child);
@@ -305,16 +309,18 @@ std::optional<ChildEnd> ChildProcesses::wait(const std::function<void()>& waitin
 
         std::vector<pollfd> files{{signal_file_, POLLIN, 0}};
         for (const Child& child : children_)
+        {
+            files.push_back({child.end_file, POLLIN, 0});
             files.push_back({child.messages_pipe, POLLIN, 0});
+        }
         ::poll(files.data(), files.size(), kLookInterval_ms);
         if (waiting)
             waiting();
         for (Child& child : children_)
             drain(child);
         signalfd_siginfo signal{};
-        while (::read(signal_file_, &signal, sizeof(signal)) == sizeof(signal))
-            if (signal.ssi_signo != SIGCHLD)
-                return std::nullopt;
+        if (::read(signal_file_, &signal, sizeof(signal)) == sizeof(signal))
+            return std::nullopt;
     }
 }
 

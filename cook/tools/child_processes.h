@@ -70,6 +70,9 @@ private:
     {
         size_t id = 0;
         pid_t process = 0;
+        /// Is readable when the process has ended; -1 where the kernel has no such files. SIGCHLD would not do: any
+        /// thread of this process may take it.
+        int end_file = -1;
         int messages_pipe = -1;
         int work_socket = -1; ///< of a batch that may be given more
         bool is_batch = false;

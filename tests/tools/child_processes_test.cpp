@@ -3,7 +3,9 @@
 
 #include "formats/flush.h"
 
+#include <atomic>
 #include <cerrno>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <gtest/gtest.h>
@@ -75,6 +77,46 @@ TEST(ChildProcesses, runSeveralAtOnce)
     EXPECT_EQ(children.running(), 2u);
     EXPECT_EQ(children.wait()->id, quick);
     EXPECT_EQ(children.wait()->id, slow);
+}
+
+TEST(ChildProcesses, noticeEveryEndWhereOtherThreadsTakeTheSignal)
+{
+    // SIGCHLD reaches these threads, where a handler swallows it
+    struct sigaction swallowing
+    {
+    };
+    struct sigaction before
+    {
+    };
+    swallowing.sa_handler = [](int) {};
+    ASSERT_EQ(::sigaction(SIGCHLD, &swallowing, &before), 0);
+    std::atomic<bool> is_done = false;
+    std::vector<std::thread> workers;
+    for (int i = 0; i < 2; ++i)
+        workers.emplace_back(
+            [&]
+            {
+                while (!is_done)
+                    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+            });
+    constexpr int kChildren = 500;
+    const auto from = std::chrono::steady_clock::now();
+    {
+        ChildProcesses children;
+        for (int i = 0; i < kChildren; ++i)
+        {
+            ASSERT_TRUE(children.start({"/bin/true"}).ok());
+            const auto end = children.wait();
+            ASSERT_TRUE(end) << "a child's end is no signal to end";
+            EXPECT_EQ(end->exit_code, 0);
+        }
+    }
+    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - from;
+    EXPECT_LT(seconds.count(), kChildren * 0.05) << "each end is noticed when it comes";
+    is_done = true;
+    for (std::thread& worker : workers)
+        worker.join();
+    ASSERT_EQ(::sigaction(SIGCHLD, &before, nullptr), 0);
 }
 
 TEST(ChildProcesses, callWhileTheyWait)
