@@ -257,16 +257,17 @@ MatrixSet nodeFromParent(const NodeMotion& motion, Tolerance tolerance)
     return set;
 }
 
-size_t hullSize(const NodeMotion& motion, Tolerance tolerance)
+double hullSize(const NodeMotion& motion, Tolerance tolerance)
 {
     if (motion.fixed)
         return 1;
     const double scale = std::max(motion.norm(), motion.canBeFlat() ? 0.0 : motion.inverseNorm());
+    const size_t translations = cornerCount(motion.translations, tolerance.shift);
+    const size_t scales = std::max(
+        cornerCount(motion.scales, 0.5 * tolerance.linear),
+        motion.canBeFlat() ? size_t{1} : cornerCount(reciprocals(motion.scales), 0.5 * tolerance.linear));
     return motion.rotations.hullSize(ofRotation(motion, tolerance, scale)) *
-           cornerCount(motion.translations, tolerance.shift) *
-           std::max(cornerCount(motion.scales, 0.5 * tolerance.linear),
-                    motion.canBeFlat() ? size_t{1}
-                                       : cornerCount(reciprocals(motion.scales), 0.5 * tolerance.linear));
+           static_cast<double>(translations * scales);
 }
 
 std::vector<Interval> morphWeightRanges(const MotionTables& tables, uint32_t node, size_t targets)

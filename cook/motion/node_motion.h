@@ -47,8 +47,8 @@ MatrixSet parentFromNode(const NodeMotion& motion, Tolerance tolerance);
 /// Transforms from the parent to the node. The node cannot be flat.
 MatrixSet nodeFromParent(const NodeMotion& motion, Tolerance tolerance);
 
-/// At least the number of matrices in either set.
-size_t hullSize(const NodeMotion& motion, Tolerance tolerance);
+/// At least the number of matrices in either set, perhaps beyond the range of an integer.
+double hullSize(const NodeMotion& motion, Tolerance tolerance);
 
 /// Morph weights of a node: one range for each target, from 0 to 1 and wherever the clips and the rest pose take them.
 /// targets  as many as the mesh has

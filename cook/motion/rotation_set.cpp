@@ -217,12 +217,14 @@ public:
             return;
         }
         const double most_half = std::min(kMostCellHalf, std::sqrt(tolerance * 0.5));
-        cells_ = static_cast<size_t>(std::ceil(interval.half() / most_half));
+        cells_ = std::ceil(interval.half() / most_half);
         first_ = interval.low;
-        half_ = interval.half() / static_cast<double>(cells_);
+        half_ = interval.half() / cells_;
     }
 
-    size_t nodes() const { return 2 * cells_ + 1; }
+    /// Whole, but not always within the range of an integer.
+    double nodeCount() const { return 2 * cells_ + 1; }
+    size_t nodes() const { return static_cast<size_t>(nodeCount()); }
     double at(size_t node) const { return first_ + static_cast<double>(node) * half_; }
     /// Half of the cell that a node is the middle of; 0 for the end of one.
     double halfAt(size_t node) const { return node % 2 == 1 ? half_ : 0.0; }
@@ -235,7 +237,7 @@ public:
     double slack() const { return slack_; }
 
 private:
-    size_t cells_ = 0;
+    double cells_ = 0;
     double first_ = 0;
     double half_ = 0;
     double slack_ = 0;
@@ -363,17 +365,17 @@ RotationSet RotationSet::around(const RotationPoints& points)
     return set;
 }
 
-size_t RotationSet::hullSize(double tolerance) const
+double RotationSet::hullSize(double tolerance) const
 {
-    size_t size = 0;
+    double size = 0;
     for (const RotationPatch& patch : patches_)
     {
         const std::array<AxisCells, 3> cells = cellsOf(patch, tolerance);
         if (slackOf(cells) > 1)
             return 1;
-        size += cells[0].nodes() * cells[1].nodes() * cells[2].nodes();
+        size += cells[0].nodeCount() * cells[1].nodeCount() * cells[2].nodeCount();
     }
-    return std::max(size, size_t{1});
+    return std::max(size, 1.0);
 }
 
 RotationHull RotationSet::hull(double tolerance) const

@@ -42,8 +42,9 @@ public:
     /// where control points stand out; the coarser, the fewer matrices.
     RotationHull hull(double tolerance) const;
 
-    /// At least the number of matrices of that hull.
-    size_t hullSize(double tolerance) const;
+    /// At least the number of matrices of that hull: beyond the range of an integer for a tolerance near 0, which hull()
+    /// cannot be asked for.
+    double hullSize(double tolerance) const;
 
     /// Whether it can be any rotation.
     bool unbounded() const { return patches_.empty(); }

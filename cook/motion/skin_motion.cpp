@@ -160,7 +160,7 @@ std::unique_ptr<JointMotion> SkinMotion::measured(uint32_t main, uint32_t joint)
     {
         double count = 1;
         for (size_t i = 0; i < steps->size(); ++i)
-            count *= static_cast<double>(hullSize(nodes_[(*steps)[i].node], scaled(i, tolerance)));
+            count *= hullSize(nodes_[(*steps)[i].node], scaled(i, tolerance));
         return count;
     };
     while (matrices() > static_cast<double>(kMostMatrices))

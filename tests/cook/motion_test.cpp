@@ -130,6 +130,21 @@ TEST(RotationSet, isTightAtItsTolerance)
     }
 }
 
+TEST(RotationSet, aFinerHullIsNeverSaidToBeSmaller)
+{
+    // a joint whose bind matrix is nearly flat asks for tolerances of any smallness
+    std::mt19937 random(2);
+    const RotationSet set = RotationSet::around(pointsAround(random, 0.5, false));
+    double coarser = 0;
+    for (double tolerance = 1; tolerance > 0; tolerance *= 0.25)
+    {
+        const double size = set.hullSize(tolerance);
+        ASSERT_GE(size, coarser) << "tolerance " << tolerance;
+        coarser = size;
+    }
+    EXPECT_GT(coarser, 1e300);
+}
+
 TEST(RotationSet, turnsAboutOneAxisKeepIt)
 {
     const Double3 axis{0, 0.6, 0.8};
