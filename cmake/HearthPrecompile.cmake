@@ -30,3 +30,11 @@ hearth_precompiled_library(hearth_precompiled HEADERS ${hearth_precompiled_heade
 hearth_precompiled_library(hearth_precompiled_without_exceptions
   HEADERS ${hearth_precompiled_headers}
   OPTIONS -fno-exceptions)
+if(HEARTH_SANITIZE)
+  hearth_precompiled_library(hearth_precompiled_optimised
+    HEADERS ${hearth_precompiled_headers}
+    OPTIONS -O1)
+  hearth_precompiled_library(hearth_precompiled_without_exceptions_optimised
+    HEADERS ${hearth_precompiled_headers}
+    OPTIONS -fno-exceptions -O1)
+endif()

@@ -7,18 +7,24 @@ add_custom_target(hearth_threads_tests COMMENT "The tests that run under the thr
 add_custom_target(hearth_benches COMMENT "Benchmarks and measuring programs")
 add_dependencies(hearth_tests hearth_product)
 
-# hearth_library(NAME SOURCES ... LINKS ... PRIVATE_LINKS ... [NO_EXCEPTIONS]): a static library held to the project's warnings.
-# LINKS are the arrows of the architecture; PRIVATE_LINKS are third-party libraries that stay inside the .cpp files.
+# hearth_library(NAME SOURCES ... LINKS ... PRIVATE_LINKS ... [NO_EXCEPTIONS] [COMPUTES]): a static library held to the
+# project's warnings. LINKS are the arrows of the architecture; PRIVATE_LINKS are third-party libraries that stay inside the
+# .cpp files. COMPUTES: its tests compute so much that it is optimised under the sanitizers too; the rest is not, since
+# compiling would take longer than it saves.
 function(hearth_library name)
-  cmake_parse_arguments(ARG "NO_EXCEPTIONS" "" "SOURCES;LINKS;PRIVATE_LINKS" ${ARGN})
+  cmake_parse_arguments(ARG "NO_EXCEPTIONS;COMPUTES" "" "SOURCES;LINKS;PRIVATE_LINKS" ${ARGN})
   add_library(${name} STATIC ${ARG_SOURCES})
   target_link_libraries(${name} PUBLIC hearth_settings ${ARG_LINKS} PRIVATE hearth_warnings ${ARG_PRIVATE_LINKS})
+  set(precompiled hearth_precompiled)
   if(ARG_NO_EXCEPTIONS)
     target_compile_options(${name} PRIVATE -fno-exceptions)
-    hearth_precompile(${name} hearth_precompiled_without_exceptions)
-  else()
-    hearth_precompile(${name} hearth_precompiled)
+    string(APPEND precompiled _without_exceptions)
   endif()
+  if(ARG_COMPUTES AND HEARTH_SANITIZE)
+    target_compile_options(${name} PRIVATE -O1)
+    string(APPEND precompiled _optimised)
+  endif()
+  hearth_precompile(${name} ${precompiled})
 endfunction()
 
 configure_file(${CMAKE_CURRENT_LIST_DIR}/program_version.cpp.in ${PROJECT_BINARY_DIR}/program_version.cpp @ONLY)

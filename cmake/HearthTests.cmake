@@ -6,14 +6,15 @@ hearth_precompiled_library(hearth_precompiled_tests
   LINKS GTest::gtest
   OPTIONS ${hearth_test_options})
 
-# hearth_test(NAME SOURCES ... LINKS ... [LABELS ...] [RUNS ...] [DEFINITIONS ...] [LAUNCHER ...] [TIMEOUT SECONDS] [COST SECONDS]):
-# an entry of ctest that runs the tests of SOURCES. All entries of a folder with the same labels are linked into one program,
+# hearth_test(NAME [COMPUTES] SOURCES ... LINKS ... [LABELS ...] [RUNS ...] [DEFINITIONS ...] [LAUNCHER ...] [TIMEOUT SECONDS]
+# [COST SECONDS]): an entry of ctest that runs the tests of SOURCES. All entries of a folder with the same labels are linked into one program,
 # FOLDER_LABELS_tests in <build>/tests; each runs in a process of its own.
 #   RUNS      programs of the project that the test starts, from the folder HEARTH_BIN
 #   LAUNCHER  a command that runs the test program
+#   COMPUTES  the test itself computes for minutes unless it is optimised: it is so under the sanitizers too
 #   COST      about how long it takes, where that is long: ctest starts the longest first
 function(hearth_test name)
-  cmake_parse_arguments(ARG "" "TIMEOUT;COST" "SOURCES;LINKS;LABELS;RUNS;DEFINITIONS;LAUNCHER" ${ARGN})
+  cmake_parse_arguments(ARG "COMPUTES" "TIMEOUT;COST" "SOURCES;LINKS;LABELS;RUNS;DEFINITIONS;LAUNCHER" ${ARGN})
   file(RELATIVE_PATH folder ${PROJECT_SOURCE_DIR}/tests ${CMAKE_CURRENT_SOURCE_DIR})
   set(words ${folder} ${ARG_LABELS})
   list(REMOVE_DUPLICATES words)
@@ -29,6 +30,9 @@ function(hearth_test name)
   target_sources(${program} PRIVATE ${ARG_SOURCES})
   target_link_libraries(${program} PRIVATE ${ARG_LINKS})
   target_compile_definitions(${program} PRIVATE ${ARG_DEFINITIONS})
+  if(ARG_COMPUTES AND HEARTH_SANITIZE)
+    set_source_files_properties(${ARG_SOURCES} PROPERTIES COMPILE_OPTIONS -O1 SKIP_PRECOMPILE_HEADERS ON)
+  endif()
   if(ARG_RUNS)
     add_dependencies(${program} ${ARG_RUNS})
   endif()

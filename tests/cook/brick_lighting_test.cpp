@@ -1,6 +1,7 @@
 // Light among bricks against closed forms: furnaces, sealed rooms, planes, plates, and lights that go out.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "tests/cook/lit_bricks.h"
+#include "tests/support/sanitized.h"
 
 #include <gtest/gtest.h>
 
@@ -367,7 +368,7 @@ TEST(FaceLighting, parallelPlatesExchangeByTheirFormFactor)
     const BrickTables tables = model.build();
     const BrickView view = brickViewOf(tables);
     FaceLighting lighting(view);
-    lighting.sweep(darkness(), 4096, 2);
+    lighting.sweep(darkness(), test::kSanitized ? 1024 : 4096, 2);
     const uint32_t face = faceAt(tables, 8, 0, 8, kUp);
     const float albedo = decodeAlbedo(tables.albedo[face]).x;
     const double expected = 2 * toSquare(0.5 * kSide / kGap);

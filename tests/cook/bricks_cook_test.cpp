@@ -8,6 +8,7 @@
 #include "sample_assets/samples.h"
 #include "sample_assets/shapes.h"
 #include "tests/command/sandbox.h"
+#include "tests/support/sanitized.h"
 
 #include <filesystem>
 #include <gtest/gtest.h>
@@ -255,7 +256,7 @@ TEST_F(BricksCook, leavesHolesInGrass)
 
 TEST_F(BricksCook, takesOnlyWhatStandsStill)
 {
-    const auto character = parts("character", {.triangles = 3000});
+    const auto character = parts("character", {.triangles = kSanitized ? 1000u : 3000u});
     ASSERT_EQ(bricks(joined(room(), {"-o", "room.part"})).exit_code, 0);
     const ProgramEnd both =
         bricks(joined(joined(room(), character), {"-o", "both.part", "--stats", "stats.json"}));
@@ -284,7 +285,8 @@ TEST_F(BricksCook, putsSourcesSideBySide)
 
 TEST_F(BricksCook, makesTheSameBytesWithAnyNumberOfThreads)
 {
-    const auto arguments = joined(parts("grass", {.triangles = 20000, .texture_size = 64}), room());
+    const auto arguments =
+        joined(parts("grass", {.triangles = kSanitized ? 4000u : 20000u, .texture_size = 64}), room());
     for (const char* threads : {"1", "2", "3", "7"})
         ASSERT_EQ(bricks(joined(arguments, {"-o", threads, "--voxel-size", "0.1", "-j", threads})).exit_code,
                   0);

@@ -6,6 +6,7 @@
 #include "formats/pack_view.h"
 #include "tests/cook/random_characters.h"
 #include "tests/formats/temporary_folder.h"
+#include "tests/support/sanitized.h"
 
 #include <gtest/gtest.h>
 
@@ -136,7 +137,7 @@ Figures check(const Character& character, const StatedError& stated, size_t time
         EXPECT_GE(double{tables.animations[clip].error}, statistics.proven_error);
         EXPECT_LE(statistics.bytes_after, statistics.bytes_before);
         double worst = 0, slack = 0;
-        for (const double time : timesOf(character, source.animations[clip], times, seed))
+        for (const double time : timesOf(character, source.animations[clip], trials(times), seed))
         {
             const auto wanted = placesAt(character, source, source.animations[clip], time);
             const auto is = placesAt(character, tables, tables.animations[clip], time);

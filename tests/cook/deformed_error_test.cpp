@@ -5,6 +5,7 @@
 #include "tests/cook/shapes.h"
 #include "tests/cook/surface_distance.h"
 #include "tests/formats/temporary_folder.h"
+#include "tests/support/sanitized.h"
 
 #include "cook/mesh/triangles.h"
 
@@ -13,6 +14,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 #include <map>
 
 namespace hearth::test
@@ -24,8 +26,8 @@ namespace
 using clusters::Hierarchy;
 using namespace formats;
 
-constexpr size_t kSamples = 4000; // a side and pose
-constexpr size_t kPoses = 5;
+constexpr size_t kSamples = kSanitized ? 500 : 4000; // a side and pose
+constexpr size_t kPoses = kSanitized ? 1 : 5;
 
 /// What the test of one mesh found, for the log.
 struct Figures
@@ -167,6 +169,13 @@ void expectSound(const std::string& source)
     }
 }
 
+void makeCharacter(const std::string& file, size_t triangles)
+{
+    const std::string command = std::string(HEARTH_BIN) + "/hearth-samples character --triangles " +
+                                std::to_string(triangles) + " -o '" + file + "'";
+    ASSERT_EQ(std::system(command.c_str()), 0);
+}
+
 /// A file of the real assets; empty where they are not there.
 std::string asset(const char* file)
 {
@@ -184,8 +193,7 @@ TEST(DeformedError, ofTheCharacterHoldsInEveryPose)
 {
     const TemporaryFolder folder;
     const std::string file = folder.file("character.glb");
-    ASSERT_EQ(std::system((std::string(HEARTH_BIN) + "/hearth-samples character -o '" + file + "'").c_str()),
-              0);
+    makeCharacter(file, kSanitized ? 4000 : 20000);
     expectSound(file);
 }
 
@@ -193,10 +201,7 @@ TEST(DeformedError, ofLevelsMadeByHandHoldsInEveryPose)
 {
     const TemporaryFolder folder;
     const std::string file = folder.file("character.glb");
-    ASSERT_EQ(
-        std::system((std::string(HEARTH_BIN) + "/hearth-samples character --triangles 8000 -o '" + file + "'")
-                        .c_str()),
-        0);
+    makeCharacter(file, kSanitized ? 4000 : 8000);
     const auto model = DeformedModel::import(file);
     ASSERT_NE(model, nullptr);
     const DeformedModel::Mesh& mesh = model->meshes().at(0);
@@ -227,7 +232,7 @@ TEST(DeformedError, ofLevelsMadeByHandHoldsInEveryPose)
 TEST(DeformedPages, holdAsManyTargetsAsAFaceHas)
 {
     // each target moves all vertices: no cluster can leave one out
-    constexpr size_t kTargets = 150;
+    constexpr size_t kTargets = kSanitized ? 40 : 150;
     mesh::SourceMesh mesh = shapes::terrain(24);
     std::mt19937 random(1);
     std::normal_distribution<float> normal(0, 0.01f);
@@ -248,6 +253,8 @@ TEST_P(DeformedErrorOf, holdsInEveryPose)
     const std::string file = asset(GetParam());
     if (file.empty())
         GTEST_SKIP() << "HEARTH_ASSETS does not name a folder of assets";
+    if (kSanitized && std::filesystem::file_size(file) > 2 * kLargeFile)
+        GTEST_SKIP() << "too large for a sanitizer";
     expectSound(file);
 }
 

@@ -4,6 +4,7 @@
 #include "cook/clusters/validate.h"
 #include "tests/cook/shapes.h"
 #include "tests/cook/soundness.h"
+#include "tests/support/sanitized.h"
 
 #include <gtest/gtest.h>
 
@@ -140,7 +141,7 @@ TEST(Hierarchy, respectsSeams)
 
 TEST(Hierarchy, ofAnySizeEndsInOneCluster)
 {
-    for (uint32_t n = 5; n <= 40; ++n)
+    for (uint32_t n = 5; n <= 40; n += test::kSanitized ? 7 : 1)
     {
         const Hierarchy of_blocks = buildHierarchy(shapes::blocks(n));
         EXPECT_EQ(of_blocks.levels.back().clusters.count, 1u) << "blocks " << n;
@@ -352,7 +353,7 @@ TEST(Hierarchy, ofAFanWithOneTipIsSound)
 {
     SourceMesh mesh;
     mesh.positions.push_back({0, 0, 1});
-    const uint32_t count = 20000;
+    const uint32_t count = test::kSanitized ? 4000 : 20000;
     for (uint32_t i = 0; i < count; ++i)
     {
         const float angle = 6.2831853f * static_cast<float>(i) / static_cast<float>(count);
@@ -438,7 +439,7 @@ TEST(Hierarchy, withEveryAttributeFitsItsPages)
 
 TEST(Hierarchy, isTheSameForAnyNumberOfThreads)
 {
-    const SourceMesh mesh = shapes::rock(90, 0.4f);
+    const SourceMesh mesh = shapes::rock(test::kSanitized ? 40 : 90, 0.4f);
     const auto build = [&](size_t threads)
     {
         const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);

@@ -5,11 +5,13 @@
 #include "tests/cook/cuts.h"
 #include "tests/cook/shapes.h"
 #include "tests/cook/soundness.h"
+#include "tests/support/sanitized.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 namespace
 {
@@ -19,6 +21,9 @@ using clusters::Config;
 using clusters::Hierarchy;
 using clusters::LevelStep;
 using mesh::SourceMesh;
+
+/// Quads along an edge of a rock's six faces.
+constexpr uint32_t kRockSide = test::kSanitized ? 30 : 60;
 
 Hierarchy build(const SourceMesh& mesh, clusters::Reduction reduction)
 {
@@ -97,8 +102,9 @@ TEST(Reduction, ofFewGroupsKeepsMoreWhereThereIsMoreToLose)
 
 TEST(Reduction, goesOnWhereNothingIsLost)
 {
-    const Hierarchy flat = build(shapes::grid(150), {});
-    const Hierarchy rough = build(shapes::terrain(150), {});
+    constexpr uint32_t kSide = test::kSanitized ? 60 : 150;
+    const Hierarchy flat = build(shapes::grid(kSide), {});
+    const Hierarchy rough = build(shapes::terrain(kSide), {});
     EXPECT_LT(flat.levels[1].triangle_count, rough.levels[1].triangle_count * 97 / 100);
 }
 
@@ -115,7 +121,7 @@ TEST(Reduction, balancesOnlyGroupsThatKeepAlike)
 TEST(Reduction, followsItsCurveAndRepeatsTheLastEntry)
 {
     const Hierarchy hierarchy =
-        build(shapes::rock(60, 0.3f), {.curve = {{.keep = 0.8f}, {.keep = 0.3f}, {.keep = 0.6f}}});
+        build(shapes::rock(kRockSide, 0.3f), {.curve = {{.keep = 0.8f}, {.keep = 0.3f}, {.keep = 0.6f}}});
     const double wanted[] = {0.8, 0.3, 0.6, 0.6};
     for (size_t level = 0; level < 4; ++level)
         // groups round down to full clusters, one of ten at the most here
@@ -124,7 +130,7 @@ TEST(Reduction, followsItsCurveAndRepeatsTheLastEntry)
 
 TEST(Reduction, withAnErrorWeightKeepsAHeroMeshFineLonger)
 {
-    const SourceMesh mesh = shapes::rock(60, 0.3f);
+    const SourceMesh mesh = shapes::rock(kRockSide, 0.3f);
     const Hierarchy plain = build(mesh, {});
     const Hierarchy hero = build(mesh, {.curve = {{.keep = 0.5f, .error_weight = 4}}});
     ASSERT_EQ(plain.levels.size(), hero.levels.size());
@@ -140,7 +146,7 @@ TEST(Reduction, withAnErrorWeightKeepsAHeroMeshFineLonger)
 
 TEST(Reduction, withWeightsThatFallKeepsErrorsMonotoneAndDoesNotMultiplyThem)
 {
-    const SourceMesh mesh = shapes::rock(60, 0.3f);
+    const SourceMesh mesh = shapes::rock(kRockSide, 0.3f);
     const Hierarchy plain = build(mesh, {});
     const Hierarchy weighted = build(mesh, {.curve = {{0.5f, 1}, {0.5f, 50}, {0.5f, 1}}});
     EXPECT_FLOAT_EQ(weighted.levels[1].max_error, plain.levels[1].max_error);
@@ -164,7 +170,7 @@ TEST(Reduction, meetsItsTargets)
         {{6, 150}},   {{1, 25000}, {3, 12000}, {6, 500}},
         {{9, 9000}},  {{2, 8000}, {3, 7000}, {4, 6000}},
     };
-    for (const auto& targets : cases)
+    for (const auto& targets : std::span(cases).last(test::kSanitized ? 1 : std::size(cases)))
     {
         const Hierarchy hierarchy = build(mesh, {.targets = targets});
         EXPECT_EQ(hierarchy.counts.stuck_groups, 0u);
@@ -212,8 +218,9 @@ TEST(Reduction, meetsItsTargetsThoughSomeGroupsCannotDoTheirShare)
 TEST(Reduction, meetsATargetThatNeedsNoFewerClusters)
 {
     // clusters of split vertices are far from full: a fifth less of their triangles are as many clusters
-    expectTargetMet(shapes::blocks(40), 1, 0.8);
-    expectTargetMet(shapes::blocks(40), 3, 0.8);
+    const SourceMesh blocks = shapes::blocks(test::kSanitized ? 20 : 40);
+    expectTargetMet(blocks, 1, 0.8);
+    expectTargetMet(blocks, 3, 0.8);
 }
 
 TEST(Reduction, ignoresTargetsThatAreNoReduction)

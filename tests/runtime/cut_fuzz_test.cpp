@@ -4,6 +4,7 @@
 #include "runtime/pack/cut.h"
 #include "tests/cook/shapes.h"
 #include "tests/runtime/cooked_mesh.h"
+#include "tests/support/sanitized.h"
 
 #include <bit>
 #include <cmath>
@@ -17,7 +18,7 @@ namespace
 
 using namespace formats;
 
-constexpr uint32_t kCasesPerMesh = 250;
+constexpr uint32_t kCasesPerMesh = kSanitized ? 24 : 250;
 
 std::vector<shared::Group> groupsWith(const PackView& view, const std::vector<uint8_t>& resident_groups)
 {

@@ -4,6 +4,7 @@
 #include "runtime/pack/page_stream.h"
 #include "tests/cook/shapes.h"
 #include "tests/runtime/test_scene.h"
+#include "tests/support/sanitized.h"
 
 #include <condition_variable>
 #include <deque>
@@ -215,7 +216,7 @@ TEST(ResidentGroups, areThoseOfTheWholeRuleAfterEachChange)
     std::mt19937 random(3);
     pack::ResidentGroups groups(view);
     std::vector<uint8_t> pages(view.pages().size(), 0), told(view.groups().size(), 0);
-    for (int i = 0; i < 400; ++i)
+    for (size_t i = 0; i < trials(400); ++i)
     {
         const auto page = static_cast<uint32_t>(random() % pages.size());
         pages[page] ^= 1;
@@ -238,7 +239,7 @@ TEST(ResidentGroups, areThoseOfTheWholeRuleAfterEachChange)
 TEST(PageStream, bringsEveryResidentPageToItsSlotWhateverThreadsReadIt)
 {
     TestScene scene;
-    scene.addMesh(plain(shapes::rock(96, 0.3f)));
+    scene.addMesh(plain(shapes::rock(kSanitized ? 60 : 96, 0.3f)));
     const PackView view = scene.build();
     const pack::PageGraph graph = pack::PageGraph::of(view);
     ASSERT_GT(graph.pageCount(), 20u);
@@ -264,7 +265,7 @@ TEST(PageStream, bringsEveryResidentPageToItsSlotWhateverThreadsReadIt)
         EXPECT_LE(stream.statistics().bytes_in_use, stream.statistics().budget_bytes);
     };
     // threads take their time: frames until enough has come and gone
-    constexpr uint64_t kEnough = uint64_t{100} * formats::kPageMaxBytes;
+    constexpr uint64_t kEnough = uint64_t{kSanitized ? 20 : 100} * formats::kPageMaxBytes;
     while ((stream.statistics().bytes_streamed < kEnough || failures == 0) && serial < 50000 &&
            !testing::Test::HasFailure())
     {

@@ -75,7 +75,8 @@ TEST(PosePlayer, findsClipsByNameOrNumber)
 
 TEST(PosePlayer, palettesAreThoseOfTheSkin)
 {
-    const DeformedScene test({.limbs = 1, .tentacles = 1, .blobs = 1, .rocks = 0}, 21);
+    const DeformedScene test(
+        {.limbs = 1, .tentacles = 1, .blobs = 1, .rocks = 0, .pose_count = 2, .rings = 12}, 21);
     const pack::PosePlayer player(test.pack());
     ASSERT_EQ(player.posed().size(), 3u);
     const size_t joints[] = {6, 12, 1}, targets[] = {0, 3, 2};

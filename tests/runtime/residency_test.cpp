@@ -1,6 +1,7 @@
 // The streaming policy: small cases with known answers, and random histories against a slow model of the rules.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "tests/runtime/streaming_caller.h"
+#include "tests/support/sanitized.h"
 
 #include <algorithm>
 #include <gmock/gmock.h>
@@ -252,7 +253,7 @@ TEST(Streaming, keepsItsPromisesThroughRandomHistories)
 {
     std::mt19937 random(1);
     uint64_t starts = 0, evictions = 0, failures = 0;
-    for (uint32_t seed = 0; seed < 1000 && !testing::Test::HasFailure(); ++seed)
+    for (uint32_t seed = 0; seed < trials(1000) && !testing::Test::HasFailure(); ++seed)
     {
         SCOPED_TRACE("history " + std::to_string(seed));
         const auto nodes = randomPages(random, 40);
@@ -274,9 +275,9 @@ TEST(Streaming, keepsItsPromisesThroughRandomHistories)
         for (const auto& [page, count] : caller.failureCounts())
             failures += count;
     }
-    EXPECT_GT(starts, 10000u);
-    EXPECT_GT(evictions, 2000u);
-    EXPECT_GT(failures, 500u);
+    EXPECT_GT(starts, trials(10000));
+    EXPECT_GT(evictions, trials(2000));
+    EXPECT_GT(failures, trials(500));
 }
 
 /// What is wanted: companions of the requests, then all that these need, and the roots. With the priorities that count.
