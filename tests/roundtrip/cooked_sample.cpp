@@ -11,6 +11,10 @@
 #include <memory>
 #include <sstream>
 
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
 namespace hearth::roundtrip
 {
 
@@ -70,6 +74,54 @@ T must(Result<T> result)
     return std::move(result).value();
 }
 
+/// Held by one process at a time.
+class FileLock
+{
+public:
+    explicit FileLock(const std::string& path) : file_(open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666))
+    {
+        if (file_ < 0 || flock(file_, LOCK_EX) != 0)
+            std::abort();
+    }
+    ~FileLock() { close(file_); }
+    FileLock(const FileLock&) = delete;
+
+private:
+    int file_;
+};
+
+/// Sizes and times of the programs that make a sample: another one for each build of any of them.
+std::string stampOfPrograms()
+{
+    std::string stamp;
+    for (const Program program : {Program::samples, Program::import, Program::clusters, Program::textures,
+                                  Program::skinning, Program::link})
+    {
+        const std::filesystem::path path = pathOf(program);
+        stamp += path.string() + " " + std::to_string(std::filesystem::file_size(path)) + " " +
+                 std::to_string(std::filesystem::last_write_time(path).time_since_epoch().count()) + "\n";
+    }
+    return stamp;
+}
+
+/// Make the source, the parts and the pack of a sample in a folder.
+void cookSample(const SampleSpec& spec, const std::filesystem::path& folder)
+{
+    const std::string source = folder / "sample.glb", part = folder / "import.part";
+    const std::string clusters = folder / "clusters.part", textures = folder / "textures.part";
+    const std::string skinning = folder / "skinning.part";
+    std::vector<std::string> arguments{spec.kind, "-o", source, "--texture-size",
+                                       std::to_string(spec.texture_size)};
+    if (spec.triangles > 0)
+        arguments.insert(arguments.end(), {"--triangles", std::to_string(spec.triangles)});
+    mustRun(Program::samples, arguments);
+    mustRun(Program::import, {source, "-o", part});
+    mustRun(Program::clusters, {part, "-o", clusters});
+    mustRun(Program::textures, {part, "-o", textures});
+    mustRun(Program::skinning, {part, clusters, "-o", skinning});
+    mustRun(Program::link, {part, clusters, textures, skinning, "-o", folder / "sample.hearth"});
+}
+
 } // namespace
 
 ProgramEnd runProgram(Program program, const std::vector<std::string>& arguments)
@@ -109,26 +161,25 @@ ScratchFolder::~ScratchFolder()
 
 CookedSample::CookedSample(const SampleSpec& spec)
 {
-    const std::string source = folder_.path("sample.glb"), part = folder_.path("import.part");
-    const std::string clusters = folder_.path("clusters.part"), textures = folder_.path("textures.part");
-    const std::string skinning = folder_.path("skinning.part");
-    pack_path_ = folder_.path("sample.hearth");
-    std::vector<std::string> arguments{spec.kind, "-o", source, "--texture-size",
-                                       std::to_string(spec.texture_size)};
-    if (spec.triangles > 0)
-        arguments.insert(arguments.end(), {"--triangles", std::to_string(spec.triangles)});
-    mustRun(Program::samples, arguments);
-    mustRun(Program::import, {source, "-o", part});
-    mustRun(Program::clusters, {part, "-o", clusters});
-    mustRun(Program::textures, {part, "-o", textures});
-    mustRun(Program::skinning, {part, clusters, "-o", skinning});
-    mustRun(Program::link, {part, clusters, textures, skinning, "-o", pack_path_});
-
+    const std::filesystem::path folder =
+        std::filesystem::path(HEARTH_SHARED_SAMPLES) /
+        (spec.kind + "-" + std::to_string(spec.triangles) + "-" + std::to_string(spec.texture_size));
+    std::filesystem::create_directories(folder);
+    {
+        const FileLock lock(folder / "lock");
+        const std::string made_by = stampOfPrograms();
+        if (textOf(folder / "made-by") != made_by)
+        {
+            cookSample(spec, folder);
+            std::ofstream(folder / "made-by") << made_by;
+        }
+    }
+    pack_path_ = folder / "sample.hearth";
     pack_ = std::make_unique<pack::Pack>(must(pack::Pack::open(pack_path_)));
     geometry_ =
         std::make_unique<reference::PackGeometry>(must(reference::PackGeometry::decode(pack_->view())));
     import_part_ = std::make_unique<formats::PackView>(
-        must(formats::PackView::read(must(formats::ContainerReader::open(part)))));
+        must(formats::PackView::read(must(formats::ContainerReader::open(folder / "import.part")))));
 }
 
 const CookedSample& cookedSample(const SampleSpec& spec)

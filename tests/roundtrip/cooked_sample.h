@@ -57,8 +57,8 @@ struct SampleSpec
     uint32_t texture_size = 64;
 };
 
-/// A sample as source, as import part and as pack. Stops the test program where a step fails: nothing after it means
-/// anything.
+/// A sample as import part and as pack. All test programs of a build share it: the first one that asks cooks it, the others
+/// wait. Stops the test program where a step fails: nothing after it means anything.
 class CookedSample
 {
 public:
@@ -70,14 +70,13 @@ public:
     const std::string& packPath() const { return pack_path_; }
 
 private:
-    ScratchFolder folder_;
     std::string pack_path_;
     std::unique_ptr<pack::Pack> pack_;
     std::unique_ptr<reference::PackGeometry> geometry_;
     std::unique_ptr<formats::PackView> import_part_;
 };
 
-/// The sample of that spec, cooked when first asked for and kept until the program ends.
+/// The sample of that spec, opened when first asked for and kept until the program ends.
 const CookedSample& cookedSample(const SampleSpec& spec);
 
 } // namespace hearth::roundtrip
