@@ -81,6 +81,45 @@ Affine3d widened(const Affine3& transform)
     return result;
 }
 
+namespace
+{
+
+constexpr float kMaxFloat = std::numeric_limits<float>::max();
+
+/// The largest float that is not above a value; those that are finite alone.
+float roundedDown(double value)
+{
+    const auto nearest = static_cast<float>(std::clamp(value, -double{kMaxFloat}, double{kMaxFloat}));
+    return double{nearest} > value ? std::max(std::nextafter(nearest, -kMaxFloat), -kMaxFloat) : nearest;
+}
+
+float roundedUp(double value)
+{
+    return -roundedDown(-value);
+}
+
+} // namespace
+
+Box3 transformBox(const Affine3d& transform, const Box3& box)
+{
+    if (box.empty())
+        return box;
+    const Double3 low = widen(box.min), high = widen(box.max);
+    const Double3 center = transformPoint(transform, (low + high) * 0.5);
+    const Double3 half = (high - low) * 0.5;
+    const double centers[3] = {center.x, center.y, center.z};
+    Box3 result;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+        const auto& row = transform.m[axis];
+        const double reach =
+            std::abs(row[0]) * half.x + std::abs(row[1]) * half.y + std::abs(row[2]) * half.z;
+        result.min[axis] = roundedDown(centers[axis] - reach);
+        result.max[axis] = roundedUp(centers[axis] + reach);
+    }
+    return result;
+}
+
 std::optional<Affine3> narrowed(const Affine3d& transform)
 {
     Affine3 result;

@@ -30,6 +30,10 @@ std::optional<Affine3d> inverted(const Affine3d& transform);
 
 Affine3d widened(const Affine3& transform);
 
+/// The box around a box that a transform carries, rounded outwards; finite, also where it leaves what floats can say.
+/// An empty box stays empty.
+Box3 transformBox(const Affine3d& transform, const Box3& box);
+
 /// In single precision, or nothing where a number does not fit.
 std::optional<Affine3> narrowed(const Affine3d& transform);
 

@@ -145,7 +145,9 @@ Status checkShadowSpheres(const PackView& view);
 Status checkMeshTables(const PackView& view);
 Status checkPageTables(const PackView& view, Bulk bulk);
 Status checkPageGeometry(const PackView& view, const PageLoop& loop);
+Status checkAuthoredLevels(const PackView& view);
 Status checkDeformedMeshes(const PackView& view);
+Status checkAssets(const PackView& view);
 Status checkSpecularTable(const PackView& view);
 Status checkBrickTables(const PackView& view);
 

@@ -5,6 +5,7 @@
 #include "formats/bricks.h"
 #include "formats/deformation.h"
 #include "formats/mesh.h"
+#include "formats/provenance.h"
 #include "formats/scene.h"
 #include "formats/specular.h"
 
@@ -42,6 +43,7 @@ inline constexpr std::array kChunkList{
     ChunkInfo{kChunkKeys, 1, "f32[]", false, "times and values of all channels"},
     ChunkInfo{kChunkKeyBits, 1, "u32[]", false, "packed keys of channels"},
     ChunkInfo{kChunkMorphWeights, 1, "f32[]", false, "rest weights of nodes with morph targets"},
+    ChunkInfo{kChunkAssets, 1, "AssetRecord[]", false, "the sources, and what of the pack each is"},
     ChunkInfo{kChunkMeshes, 2, "MeshRecord[]", false, "one for each mesh of the source, same index"},
     ChunkInfo{kChunkLevels, 1, "LevelRecord[]", false, "levels of detail of all meshes"},
     ChunkInfo{kChunkGroups, 2, "GroupRecord[]", false, "groups of all meshes"},
@@ -51,8 +53,10 @@ inline constexpr std::array kChunkList{
     ChunkInfo{kChunkPages, 2, "pages", false, "geometry; stored without a codec, each page has its own"},
     ChunkInfo{kChunkSourceMesh, 1, "SourceMeshHeader, SourceArray[], data", true,
               "parts only: a mesh as imported"},
-    ChunkInfo{kChunkAuthoredLods, 1, "AuthoredLodRecord[]", false,
+    ChunkInfo{kChunkAuthoredLods, 2, "AuthoredLodRecord[]", false,
               "parts only: which meshes are levels of detail of others"},
+    ChunkInfo{kChunkAuthoredLevels, 1, "AuthoredLevelRecord[]", false,
+              "which levels were made by hand, and from what"},
     ChunkInfo{kChunkDeformedMeshes, 1, "DeformedMeshRecord[]", false, "meshes with a skin or morph targets"},
     ChunkInfo{kChunkDeformedClusters, 2, "DeformedClusterRecord[]", false,
               "where their clusters can be in all poses"},

@@ -78,6 +78,8 @@ enum class IssueClass : uint8_t
     X(dropped, 1400, warning, "a part of the source is not kept", "")                                        \
     X(degraded, 1401, warning, "a part of the source is drawn in a simpler way", "")                         \
     X(repaired, 1402, warning, "a part of the source was repaired", "")                                      \
+    X(size_outlier, 1410, warning, "a source is much larger or smaller than the others of its cook",         \
+      "if its unit is wrong, set import.scale in a rule")                                                    \
     X(profile_syntax, 1500, config, "a file of settings is not valid TOML",                                  \
       "see https://toml.io for how TOML is written")                                                         \
     X(profile_key, 1501, config, "a setting is not known here", "check its spelling: see hearth config")     \
@@ -90,6 +92,8 @@ enum class IssueClass : uint8_t
       "name a folder with glTF, GLB, OBJ, PLY, STL, OFF or Draco files")                                     \
     X(rule_unmatched, 1513, warning, "a rule matches no source",                                             \
       "a pattern starts at the folder of hearth.toml and matches sources, not their textures")               \
+    X(lod_repeated, 1514, warning, "two files are the same level of detail",                                 \
+      "rename one, or list the levels in a rule of hearth.toml: import.lods")                                \
     X(camera_path, 1600, malformed, "a camera path is not valid",                                            \
       "write a camera a line: PX,PY,PZ,TX,TY,TZ,FOV")                                                        \
     X(table_rows, 1601, malformed, "rows of numbers are not as they should be",                              \

@@ -217,6 +217,8 @@ struct AuthoredLodRecord
 {
     uint32_t mesh;
     uint32_t lod;
+    uint32_t number;
+    StringRef name;
 };
 
 /// Chunk SMSH: SourceMeshHeader, then array_count SourceArrays, then the data, each array 16-aligned.
@@ -322,9 +324,13 @@ HEARTH_RECORD(hearth::formats::PageRecord, 56,
                            "chunk PGPA: pages, all earlier, that hold what this page refines"),
               HEARTH_FIELD(hearth::formats::PageRecord, hash, "XXH3-64 of the stored bytes"),
               HEARTH_FIELD(hearth::formats::PageRecord, reserved, "0"));
-HEARTH_RECORD(hearth::formats::AuthoredLodRecord, 8,
+HEARTH_RECORD(hearth::formats::AuthoredLodRecord, 20,
               HEARTH_FIELD(hearth::formats::AuthoredLodRecord, mesh, "chunk SMSH of this index"),
-              HEARTH_FIELD(hearth::formats::AuthoredLodRecord, lod, "chunk SMSH of this index"));
+              HEARTH_FIELD(hearth::formats::AuthoredLodRecord, lod, "chunk SMSH of this index"),
+              HEARTH_FIELD(hearth::formats::AuthoredLodRecord, number,
+                           "3 of rock_LOD3; none where nobody gave it a number"),
+              HEARTH_FIELD(hearth::formats::AuthoredLodRecord, name,
+                           "of the file or node that it came from; may be empty"));
 HEARTH_RECORD(hearth::formats::SourceMeshHeader, 32,
               HEARTH_FIELD(hearth::formats::SourceMeshHeader, array_count, ""),
               HEARTH_FIELD(hearth::formats::SourceMeshHeader, face_count, "polygons before triangulation"),

@@ -77,6 +77,7 @@ Status checkTexts(const PackView& view)
 {
     HEARTH_TRY(checkUtf8(view, kChunkMeta, view.meta()));
     HEARTH_TRY(checkUtf8(view, kChunkStrings, view.strings()));
+    HEARTH_TRY(checkNames(view, "asset", view.assets()));
     HEARTH_TRY(checkNames(view, "material", view.materials()));
     HEARTH_TRY(checkNames(view, "image", view.images()));
     HEARTH_TRY(checkNames(view, "skin", view.skins()));
@@ -84,7 +85,8 @@ Status checkTexts(const PackView& view)
     HEARTH_TRY(checkNames(view, "node", view.nodes()));
     HEARTH_TRY(checkNames(view, "camera", view.cameras()));
     HEARTH_TRY(checkNames(view, "light", view.lights()));
-    return checkNames(view, "mesh", view.meshes());
+    HEARTH_TRY(checkNames(view, "mesh", view.meshes()));
+    return checkNames(view, "authored level", view.authoredLevels());
 }
 
 } // namespace check
@@ -139,7 +141,9 @@ Status checkPackBy(const PackView& view, check::Bulk bulk, const CheckHierarchy&
     HEARTH_TRY(check::checkShadowSpheres(view));
     HEARTH_TRY(check_hierarchy());
     HEARTH_TRY(check::checkMaterialsOfClusters(view));
+    HEARTH_TRY(check::checkAuthoredLevels(view));
     HEARTH_TRY(check::checkDeformedMeshes(view));
+    HEARTH_TRY(check::checkAssets(view));
     HEARTH_TRY(checkSpecular(view));
     return checkBricks(view);
 }

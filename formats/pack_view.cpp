@@ -119,12 +119,14 @@ Status PackView::readTables(PageBytes page_bytes)
     HEARTH_TRY(table(kChunkKeys, keys_));
     HEARTH_TRY(table(kChunkKeyBits, key_bits_));
     HEARTH_TRY(table(kChunkMorphWeights, morph_weights_));
+    HEARTH_TRY(table(kChunkAssets, assets_));
     HEARTH_TRY(table(kChunkMeshes, meshes_));
     HEARTH_TRY(table(kChunkLevels, levels_));
     HEARTH_TRY(table(kChunkGroups, groups_));
     HEARTH_TRY(table(kChunkClusters, clusters_));
     HEARTH_TRY(table(kChunkPageTable, pages_));
     HEARTH_TRY(table(kChunkPageParents, page_parents_));
+    HEARTH_TRY(table(kChunkAuthoredLevels, authored_levels_));
     HEARTH_TRY(table(kChunkDeformedMeshes, deformed_meshes_));
     HEARTH_TRY(table(kChunkDeformedClusters, deformed_clusters_));
     HEARTH_TRY(table(kChunkClusterJoints, cluster_joints_));

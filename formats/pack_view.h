@@ -8,6 +8,7 @@
 #include "formats/container_reader.h"
 #include "formats/deformation.h"
 #include "formats/mesh.h"
+#include "formats/provenance.h"
 #include "formats/scene.h"
 #include "formats/specular.h"
 #include "formats/visibility_code.h"
@@ -286,6 +287,8 @@ public:
     /// A name; empty where it points outside the string table.
     std::string_view text(StringRef ref) const;
 
+    /// None in parts.
+    std::span<const AssetRecord> assets() const { return assets_.span(); }
     std::span<const NodeRecord> nodes() const { return nodes_.span(); }
     std::span<const InstanceRecord> instances() const { return instances_.span(); }
     std::span<const CameraRecord> cameras() const { return cameras_.span(); }
@@ -306,6 +309,7 @@ public:
     std::span<const ClusterRecord> clusters() const { return clusters_.span(); }
     std::span<const PageRecord> pages() const { return pages_.span(); }
     std::span<const uint32_t> pageParents() const { return page_parents_.span(); }
+    std::span<const AuthoredLevelRecord> authoredLevels() const { return authored_levels_.span(); }
     std::span<const DeformedMeshRecord> deformedMeshes() const { return deformed_meshes_.span(); }
     std::span<const DeformedClusterRecord> deformedClusters() const { return deformed_clusters_.span(); }
     std::span<const uint32_t> clusterJoints() const { return cluster_joints_.span(); }
@@ -352,6 +356,7 @@ private:
     ContainerReader reader_;
     ChunkData meta_;
     ChunkData strings_;
+    Records<AssetRecord> assets_;
     Records<NodeRecord> nodes_;
     Records<InstanceRecord> instances_;
     Records<CameraRecord> cameras_;
@@ -372,6 +377,7 @@ private:
     Records<ClusterRecord> clusters_;
     Records<PageRecord> pages_;
     Records<uint32_t> page_parents_;
+    Records<AuthoredLevelRecord> authored_levels_;
     Records<DeformedMeshRecord> deformed_meshes_;
     Records<DeformedClusterRecord> deformed_clusters_;
     Records<uint32_t> cluster_joints_;

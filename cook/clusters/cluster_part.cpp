@@ -4,6 +4,7 @@
 #include "cook/clusters/part_motion.h"
 #include "cook/mesh/free_memory.h"
 #include "formats/pack_view.h"
+#include "formats/provenance.h"
 
 #include <chrono>
 #include <limits>
@@ -28,6 +29,7 @@ struct Tables
     std::vector<ClusterRecord> clusters;
     std::vector<PageRecord> pages;
     std::vector<uint32_t> page_parents;
+    std::vector<AuthoredLevelRecord> authored_levels;
 };
 
 void move(uint32_t& index, size_t offset)
@@ -82,6 +84,13 @@ void appendTables(Tables& tables, Hierarchy hierarchy, uint64_t page_offset, con
     append(tables.page_parents, hierarchy.page_parents);
 }
 
+StringRef addText(Tables& tables, std::string_view text)
+{
+    const StringRef ref{static_cast<uint32_t>(tables.strings.size()), static_cast<uint32_t>(text.size())};
+    tables.strings += text;
+    return text.empty() ? StringRef{} : ref;
+}
+
 bool fits(const Tables& tables)
 {
     constexpr size_t kMost = std::numeric_limits<int32_t>::max();
@@ -117,27 +126,52 @@ Result<std::vector<std::string>> materialNames(const ContainerReader& part)
 namespace
 {
 
-/// The authored levels of each mesh, by the meshes that they are, finest first.
+/// A level that was made by hand: the mesh that it is, and what people know it by.
+struct AuthoredLod
+{
+    uint32_t mesh;
+    uint32_t number; ///< kNone: it has none
+    std::string name;
+};
+
+/// The authored levels of each mesh, finest first.
 struct LodLists
 {
-    std::vector<std::vector<uint32_t>> of_mesh;
+    std::vector<std::vector<AuthoredLod>> of_mesh;
     std::vector<uint8_t> is_lod;
 };
 
 Result<LodLists> readLodLists(const ContainerReader& part, uint32_t mesh_count)
 {
-    LodLists lists{std::vector<std::vector<uint32_t>>(mesh_count), std::vector<uint8_t>(mesh_count, 0)};
+    LodLists lists{std::vector<std::vector<AuthoredLod>>(mesh_count), std::vector<uint8_t>(mesh_count, 0)};
     HEARTH_ASSIGN_OR_RETURN(const Records<AuthoredLodRecord> records,
                             part.records<AuthoredLodRecord>(kChunkAuthoredLods));
+    HEARTH_ASSIGN_OR_RETURN(const ChunkData strings, part.read(kChunkStrings));
+    const std::string_view text(reinterpret_cast<const char*>(strings.bytes().data()),
+                                strings.bytes().size());
     for (const AuthoredLodRecord& record : records)
     {
         if (record.mesh >= mesh_count || record.lod >= mesh_count || record.mesh == record.lod)
             return Error{Issue::meaning_reference, part.name(), chunkName(kChunkAuthoredLods, 0),
                          "a record names a mesh that does not exist, or one as its own level"};
-        lists.of_mesh[record.mesh].push_back(record.lod);
+        if (!insideTable({record.name.offset, record.name.length}, text.size()))
+            return Error{Issue::meaning_range, part.name(), chunkName(kChunkAuthoredLods, 0),
+                         "a name lies outside chunk STRS"};
+        lists.of_mesh[record.mesh].push_back(
+            {record.lod, record.number, std::string(text.substr(record.name.offset, record.name.length))});
         lists.is_lod[record.lod] = 1;
     }
     return lists;
+}
+
+/// Say which levels of a mesh were made by hand; `level_of_lod` as Hierarchy::authored_levels.
+void appendAuthoredLevels(Tables& tables, uint32_t mesh, std::span<const uint32_t> level_of_lod,
+                          std::span<const AuthoredLod> lods)
+{
+    for (size_t i = 0; i < level_of_lod.size(); ++i)
+        if (level_of_lod[i] != kNone)
+            tables.authored_levels.push_back(
+                {mesh, level_of_lod[i], lods[i].number, addText(tables, lods[i].name)});
 }
 
 /// A mesh that is a level of others is part of theirs, and has no hierarchy itself.
@@ -153,9 +187,9 @@ Result<BuiltMesh> buildMesh(const ContainerReader& part, const LodLists& lods, c
     if (lods.is_lod[index] != 0)
         return built;
     std::vector<mesh::SourceMesh> authored;
-    for (const uint32_t lod : lods.of_mesh[index])
+    for (const AuthoredLod& lod : lods.of_mesh[index])
     {
-        HEARTH_ASSIGN_OR_RETURN(mesh::SourceMesh level, mesh::readSourceMesh(part, lod));
+        HEARTH_ASSIGN_OR_RETURN(mesh::SourceMesh level, mesh::readSourceMesh(part, lod.mesh));
         authored.push_back(std::move(level));
     }
     HEARTH_ASSIGN_OR_RETURN(const OwnedMotion owned, motion.of(index, source));
@@ -216,7 +250,9 @@ Status writeClustersPart(const ContainerReader& part, const std::string& output_
             const uint64_t page_offset = writer.chunkSize();
             HEARTH_TRY(writer.append(built.hierarchy.page_bytes));
             mesh::freeMemory(built.hierarchy.page_bytes);
+            const std::vector<uint32_t> level_of_lod = std::move(built.hierarchy.authored_levels);
             appendTables(tables, std::move(built.hierarchy), page_offset, built.name);
+            appendAuthoredLevels(tables, first, level_of_lod, lods.of_mesh[first]);
             if (!fits(tables))
                 return Error{Issue::input_too_large, part.name(), chunkName(kChunkSourceMesh, first),
                              "more than 2^31 clusters"};
@@ -232,6 +268,8 @@ Status writeClustersPart(const ContainerReader& part, const std::string& output_
     HEARTH_TRY(addTable(writer, kChunkClusters, tables.clusters));
     HEARTH_TRY(addTable(writer, kChunkPageTable, tables.pages));
     HEARTH_TRY(addTable(writer, kChunkPageParents, tables.page_parents));
+    if (!tables.authored_levels.empty())
+        HEARTH_TRY(addTable(writer, kChunkAuthoredLevels, tables.authored_levels));
     return writer.finish();
 }
 

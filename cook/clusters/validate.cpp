@@ -390,7 +390,8 @@ Status checkFinestLevel(const mesh::SourceMesh& source, std::span<const mesh::So
 {
     const mesh::SourceMesh on_grid = onGrid(source, authored, h.mesh.attributes);
     std::vector<uint64_t> hashes(source.vertexCount());
-    for (uint32_t v = 0; v < hashes.size(); ++v)
+    // a mesh of triangles without area has no grid, and no cluster that would have a vertex on it
+    for (uint32_t v = 0; h.mesh.grid_step > 0 && v < hashes.size(); ++v)
         hashes[v] = sourceVertexHash(on_grid, h.mesh.attributes, h.mesh.grid_step, v);
     std::vector<TriangleKey> wanted;
     for (size_t t = 0; t < source.triangleCount(); ++t)

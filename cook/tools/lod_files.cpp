@@ -10,10 +10,31 @@ namespace hearth::tools
 namespace
 {
 
-// More levels than anybody makes by hand.
-constexpr uint32_t kMaxLevel = 64;
+// Three digits are more levels than anybody makes by hand.
+constexpr size_t kMaxDigits = 3;
+constexpr uint32_t kMaxLevel = 999;
 
 } // namespace
+
+std::optional<LodName> parseLodName(std::string_view name)
+{
+    size_t digits = 0;
+    while (digits < name.size() && name[name.size() - 1 - digits] >= '0' &&
+           name[name.size() - 1 - digits] <= '9')
+        ++digits;
+    constexpr std::string_view kMark = "_lod";
+    if (digits == 0 || digits > kMaxDigits || name.size() < digits + kMark.size())
+        return std::nullopt;
+    LodName parsed;
+    for (const char c : name.substr(0, name.size() - digits))
+        parsed.stem += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    if (!parsed.stem.ends_with(kMark))
+        return std::nullopt;
+    parsed.stem.resize(parsed.stem.size() - kMark.size());
+    for (const char c : name.substr(name.size() - digits))
+        parsed.level = parsed.level * 10 + static_cast<uint32_t>(c - '0');
+    return parsed;
+}
 
 Result<std::vector<LodFile>> parseLodFiles(std::span<const std::string> options)
 {
@@ -26,7 +47,7 @@ Result<std::vector<LodFile>> parseLodFiles(std::span<const std::string> options)
         if (error != std::errc() || end != option.data() + equals || equals + 1 >= option.size() ||
             file.level < 1 || file.level > kMaxLevel)
             return Error{Issue::usage, "--lod " + option, "",
-                         "must be a number from 1 to 64, = and a file, as in --lod 1=rock_low.glb"};
+                         "must be a number from 1 to 999, = and a file, as in --lod 1=rock_low.glb"};
         file.path = option.substr(equals + 1);
         if (std::any_of(files.begin(), files.end(), [&](const LodFile& f) { return f.level == file.level; }))
             return Error{Issue::usage, "--lod " + option, "", "the level is there twice"};

@@ -1,16 +1,34 @@
-// The option --lod N=FILE: a file that is a level of detail of a source.
+// Levels of detail that somebody made by hand: their names, and the option --lod N=FILE.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
 #include "formats/result.h"
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace hearth::tools
 {
+
+struct LodName
+{
+    std::string stem; ///< in small letters
+    uint32_t level = 0;
+};
+
+/// "Rock_LOD2" is level 2 of "rock"; nothing for other names. A number has three digits at most.
+std::optional<LodName> parseLodName(std::string_view name);
+
+/// The number and the name that an authored level got from whoever made it.
+struct LodLabel
+{
+    std::optional<uint32_t> number;
+    std::string name; ///< of a file without folders, or of a node
+};
 
 struct LodFile
 {

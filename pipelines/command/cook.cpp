@@ -17,6 +17,7 @@
 #include "pipelines/command/picture_progress.h"
 #include "pipelines/command/progress.h"
 #include "pipelines/command/progress_lines.h"
+#include "pipelines/command/size_outliers.h"
 #include "pipelines/command/source_list.h"
 #include "pipelines/graph/causes.h"
 #include "pipelines/graph/executor.h"
@@ -86,11 +87,12 @@ size_t passOn(const std::vector<std::string>& lines, bool were_told, const CookO
     return fatal_count;
 }
 
-/// Whether the last cook into the pack had the same result of an action, and so has told its warnings.
+/// Returns whether the last cook into the pack had the same result of an action, and so has printed its warnings.
+/// memory  of the cook; null: none
 bool wasTold(const graph::Action& action, const graph::ActionOutcome& outcome, const graph::Graph& graph,
              CookMemory* memory)
 {
-    if (outcome.ending != Ending::kept || outcome.result.warnings.empty() || !memory->journal())
+    if (outcome.ending != Ending::kept || memory == nullptr || !memory->journal())
         return false;
     const graph::JournalAction* last = graph::lastOf(action, graph, *memory->journal());
     return last != nullptr && (last->ending == Ending::cooked || last->ending == Ending::kept) &&
@@ -149,8 +151,8 @@ graph::ExecutorEvents eventsFor(const graph::Graph& graph, const CookOptions& op
         recorder.ended(action, outcome);
         if (log != nullptr)
             log->end(action, outcome);
-        listeners.fatal_warnings +=
-            passOn(messages, wasTold(action, outcome, graph, memory), options, listeners.summary);
+        const bool were_told = !messages.empty() && wasTold(action, outcome, graph, memory);
+        listeners.fatal_warnings += passOn(messages, were_told, options, listeners.summary);
         if (outcome.ending == Ending::cooked && options.verbosity == Verbosity::all)
             printStage(action, outcome);
         listeners.bar.ended();
@@ -174,6 +176,19 @@ graph::ExecutorEvents eventsFor(const graph::Graph& graph, const CookOptions& op
             listeners.summary.addFailure(failure.error);
     };
     return events;
+}
+
+/// Warn of sources that are of another scale than the others, by the pack that was linked.
+void passOnOutliers(const graph::Graph& graph, const graph::Executor& executor, const CookOptions& options,
+                    CookMemory* memory, Listeners& listeners, CookRecorder& recorder)
+{
+    const std::string& linked = executor.packPath().empty() ? options.output : executor.packPath();
+    const bool were_told = wasTold(graph.actions.back(), executor.outcomes().back(), graph, memory);
+    for (const SizeOutlier& outlier : findSizeOutliers(linked, options.sources))
+    {
+        listeners.fatal_warnings += passOn({outlier.warning}, were_told, options, listeners.summary);
+        recorder.report().source_warnings[outlier.source] = outlier.warning;
+    }
 }
 
 /// Which sources could not be cooked, where others could: what depends on them is no failure of its own.
@@ -214,13 +229,19 @@ Status checkOutput(const CookOptions& options)
     if (!options.depfile.empty() &&
         graph::absolutePath(options.depfile) == graph::absolutePath(options.output))
         return Error{Issue::usage, options.depfile, "", "the depfile would overwrite the output"};
-    HEARTH_ASSIGN_OR_RETURN(const std::vector<LodFile> lods, parseLodFiles(options.lods));
-    if (!lods.empty() && options.sources.size() > 1)
-        return Error{Issue::usage, "--lod", "",
-                     "needs a cook of one source: which of several it is for is not said"};
-    for (const LodFile& lod : lods)
-        if (std::filesystem::equivalent(lod.path, options.output, error))
-            return Error{Issue::usage, options.output, "", "the output would overwrite a level of detail"};
+    for (const std::vector<std::string>& words : options.lods_of_source)
+    {
+        HEARTH_ASSIGN_OR_RETURN(const std::vector<LodFile> lods, parseLodFiles(words));
+        for (const LodFile& lod : lods)
+        {
+            if (std::filesystem::equivalent(lod.path, options.output, error))
+                return Error{Issue::usage, options.output, "",
+                             "the output would overwrite a level of detail"};
+            if (std::filesystem::equivalent(lod.path, options.depfile, error))
+                return Error{Issue::usage, options.depfile, "",
+                             "the depfile would overwrite a level of detail"};
+        }
+    }
     return success();
 }
 
@@ -349,6 +370,8 @@ void cookGraph(const graph::Graph& graph, CookMemory* memory, const CookOptions&
                              eventsFor(graph, options, memory, listeners, recorder));
     const bool interrupted = !executor.run(hash_there);
     clearBar();
+    if (!interrupted && executor.failures().empty())
+        passOnOutliers(graph, executor, options, memory, listeners, recorder);
     if (!interrupted && hasSummary(options))
         for (const std::string& line : listeners.summary.lines())
             print(line);

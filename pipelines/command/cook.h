@@ -18,6 +18,7 @@ using graph::VisibilityOptions;
 
 struct CookOptions : graph::CookSettings, Effort
 {
+    std::vector<std::string> lods;   ///< of --lod, "N=FILE": levels of detail of the only source
     bool fail_fast = false;          ///< end at the first failure; else cook what does not depend on it
     std::vector<std::string> caches; ///< of --cache, nearest first; none: as cache::cacheSpecs says
     bool no_cache = false;

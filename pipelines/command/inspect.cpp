@@ -16,7 +16,10 @@ namespace
 
 LevelSummary summarizeLevel(const PackView& pack, const LevelRecord& level)
 {
-    LevelSummary summary{level.clusters.count, level.triangle_count, level.max_error};
+    LevelSummary summary;
+    summary.clusters = level.clusters.count;
+    summary.triangles = level.triangle_count;
+    summary.max_error = level.max_error;
     for (const ClusterRecord& cluster : recordsOf(pack.clusters(), level.clusters))
     {
         // none, or nonsense in a part, whose records nobody has checked
@@ -28,6 +31,18 @@ LevelSummary summarizeLevel(const PackView& pack, const LevelRecord& level)
         summary.uv_error = std::max(summary.uv_error, group.uv_error);
     }
     return summary;
+}
+
+void addAuthoredLevels(const PackView& pack, uint32_t mesh, std::span<LevelSummary> levels)
+{
+    for (const AuthoredLevelRecord& record : pack.authoredLevels())
+        if (record.mesh == mesh && record.level < levels.size())
+        {
+            AuthoredSummary& authored = levels[record.level].authored.emplace();
+            authored.name = pack.text(record.name);
+            if (record.number != kNone)
+                authored.number = record.number;
+        }
 }
 
 void addClusters(MeshSummary& summary, std::span<const ClusterRecord> clusters)
@@ -87,6 +102,7 @@ MeshSummary summarizeMesh(const PackView& pack, uint32_t index)
     summary.pages = mesh.pages.count;
     for (const LevelRecord& level : recordsOf(pack.levels(), mesh.levels))
         summary.levels.push_back(summarizeLevel(pack, level));
+    addAuthoredLevels(pack, index, summary.levels);
     summary.record_bytes = sizeof(MeshRecord) + mesh.levels.count * sizeof(LevelRecord) +
                            mesh.groups.count * sizeof(GroupRecord) +
                            mesh.clusters.count * sizeof(ClusterRecord);

@@ -5,11 +5,19 @@
 #include "formats/pack_view.h"
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace hearth::command
 {
+
+/// The file or node that a level made by hand came from.
+struct AuthoredSummary
+{
+    std::string name;               ///< of a file or node; may be empty
+    std::optional<uint32_t> number; ///< 3 of rock_LOD3
+};
 
 struct LevelSummary
 {
@@ -17,8 +25,9 @@ struct LevelSummary
     uint32_t triangles = 0;
     float max_error = 0; ///< object space; the others are what it is made of, each the largest
     float position_error = 0;
-    float normal_error = 0; ///< radians
-    float uv_error = 0;     ///< object space
+    float normal_error = 0;                  ///< radians
+    float uv_error = 0;                      ///< object space
+    std::optional<AuthoredSummary> authored; ///< none: it was generated, or is the source
 };
 
 struct MeshSummary

@@ -6,8 +6,6 @@
 #include "pipelines/command/extract.h"
 #include "pipelines/command/open_pack.h"
 
-#include <cmath>
-#include <limits>
 #include <map>
 
 namespace hearth::command
@@ -17,27 +15,6 @@ using namespace formats;
 
 namespace
 {
-
-/// The box around a box that a transform carries.
-Box3 carried(const Affine3d& transform, const Box3& box)
-{
-    constexpr float kFar = std::numeric_limits<float>::infinity();
-    const Double3 low = widen(box.min), high = widen(box.max);
-    const Double3 middle = transformPoint(transform, (low + high) * 0.5);
-    const Double3 half = (high - low) * 0.5;
-    const double middles[3] = {middle.x, middle.y, middle.z};
-    Box3 result;
-    for (int axis = 0; axis < 3; ++axis)
-    {
-        const auto& row = transform.m[axis];
-        const double reach =
-            std::abs(row[0]) * half.x + std::abs(row[1]) * half.y + std::abs(row[2]) * half.z;
-        // one step of a float outwards: extract rounds its vertices
-        result.min[axis] = std::nextafter(static_cast<float>(middles[axis] - reach), -kFar);
-        result.max[axis] = std::nextafter(static_cast<float>(middles[axis] + reach), kFar);
-    }
-    return result;
-}
 
 Json boundsPoint(Float3 p)
 {
@@ -90,7 +67,7 @@ Result<Json> meshJson(const PackView& pack, uint32_t mesh_number, const std::opt
             joint = bounds.joint;
         }
         if (pose)
-            box = carried(pose->palette()[joint], box);
+            box = transformBox(pose->palette()[joint], box);
         Json json{{"level", cluster.level},
                   {"box", {{"min", boundsPoint(box.min)}, {"max", boundsPoint(box.max)}}},
                   {"triangles", nullptr}};

@@ -24,9 +24,13 @@ double ratio(uint64_t part, uint64_t whole)
 
 Json levelJson(const LevelSummary& level)
 {
-    return {{"clusters", level.clusters},         {"triangles", level.triangles},
-            {"max_error", level.max_error},       {"position_error", level.position_error},
-            {"normal_error", level.normal_error}, {"uv_error", level.uv_error}};
+    Json json{{"clusters", level.clusters},         {"triangles", level.triangles},
+              {"max_error", level.max_error},       {"position_error", level.position_error},
+              {"normal_error", level.normal_error}, {"uv_error", level.uv_error}};
+    if (level.authored)
+        json["authored"] = {{"name", level.authored->name},
+                            {"number", level.authored->number ? Json(*level.authored->number) : Json()}};
+    return json;
 }
 
 Json meshJson(const MeshSummary& mesh, uint32_t index)
@@ -80,6 +84,19 @@ Json materialJson(const PackView& pack, uint32_t index)
             {"alpha_mode", alphaModeName(material.alpha_mode)},
             {"double_sided", (material.flags & kMaterialDoubleSided) != 0},
             {"unlit", (material.flags & kMaterialUnlit) != 0}};
+}
+
+Json assetJson(const PackView& pack, uint32_t index)
+{
+    const AssetRecord& asset = pack.assets()[index];
+    const auto range = [](Range of) -> Json { return {{"first", of.first}, {"count", of.count}}; };
+    return {{"index", index},
+            {"name", pack.text(asset.name)},
+            {"box", {pointJson(asset.box_min), pointJson(asset.box_max)}},
+            {"size", pointJson(asset.box_max - asset.box_min)},
+            {"instances", range(asset.instances)},
+            {"meshes", range(asset.meshes)},
+            {"nodes", range(asset.nodes)}};
 }
 
 /// One object for each record of a table.
@@ -270,6 +287,7 @@ std::string inspectJson(const PackView& pack, const PackSummary& summary)
               {"meshes", Json::array()}};
     for (const SourceSummary& source : summary.meta.sources)
         json["sources"].push_back({{"name", source.name}, {"bytes", source.bytes}, {"xxh3", source.hash}});
+    json["assets"] = listJson(pack.assets().size(), [&](uint32_t i) { return assetJson(pack, i); });
     for (uint32_t i = 0; i < summary.meshes.size(); ++i)
         json["meshes"].push_back(meshJson(summary.meshes[i], i));
     json["scene"] = sceneJson(pack, summary);

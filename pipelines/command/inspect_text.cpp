@@ -50,6 +50,23 @@ std::string sceneText(const PackView& pack, const PackSummary& summary)
         summary.joint_nodes, pack.animations().size(), summary.morph_targets);
 }
 
+/// "495 x 310 x 290 m"
+std::string sizeText(Float3 size)
+{
+    return fmt::format("{:.3g} x {:.3g} x {:.3g} m", size.x, size.y, size.z);
+}
+
+std::string assetsText(const PackView& pack)
+{
+    std::string text;
+    for (const AssetRecord& asset : pack.assets())
+        text +=
+            fmt::format("asset      \"{}\": {}, {} meshes, {} instances\n", printable(pack.text(asset.name)),
+                        largestSide(asset) > 0 ? sizeText(asset.box_max - asset.box_min) : "draws nothing",
+                        asset.meshes.count, asset.instances.count);
+    return text;
+}
+
 std::string specularText(const PackView& pack)
 {
     std::string text;
@@ -74,6 +91,17 @@ std::string bricksText(const PackView& pack)
     return text;
 }
 
+/// "  by hand: rock_LOD3.ply (LOD 3)"; empty for other levels.
+std::string authoredText(const LevelSummary& level)
+{
+    if (!level.authored)
+        return "";
+    std::string text = "  by hand";
+    if (!level.authored->name.empty())
+        text += ": " + printable(level.authored->name);
+    return level.authored->number ? text + fmt::format(" (LOD {})", *level.authored->number) : text;
+}
+
 std::string meshText(const MeshSummary& mesh, size_t index)
 {
     std::string text = fmt::format("\nmesh {} \"{}\": {} triangles, {} vertices, {} faces; {}\n", index,
@@ -90,9 +118,10 @@ std::string meshText(const MeshSummary& mesh, size_t index)
     for (size_t i = 0; i < mesh.levels.size(); ++i)
     {
         const LevelSummary& level = mesh.levels[i];
-        text += fmt::format("  {:>5}  {:>8}  {:>10}  {:>13.6g}  {:>13.6g}  {:>6.1f}\u00b0  {:>13.6g}\n", i,
+        text += fmt::format("  {:>5}  {:>8}  {:>10}  {:>13.6g}  {:>13.6g}  {:>6.1f}\u00b0  {:>13.6g}{}\n", i,
                             level.clusters, level.triangles, level.max_error, level.position_error,
-                            double{level.normal_error} * 180 / std::numbers::pi, level.uv_error);
+                            double{level.normal_error} * 180 / std::numbers::pi, level.uv_error,
+                            authoredText(level));
     }
     const double clusters = mesh.clusters == 0 ? 1 : mesh.clusters;
     text += fmt::format(
@@ -160,8 +189,8 @@ std::string chunksText(const PackView& pack)
 
 std::string inspectText(const PackView& pack, const PackSummary& summary)
 {
-    std::string text =
-        headText(pack, summary) + sceneText(pack, summary) + specularText(pack) + bricksText(pack);
+    std::string text = headText(pack, summary) + sceneText(pack, summary) + assetsText(pack) +
+                       specularText(pack) + bricksText(pack);
     for (size_t i = 0; i < summary.meshes.size(); ++i)
         text += meshText(summary.meshes[i], i);
     return text + imagesText(pack) + messagesText(summary.meta) + chunksText(pack);

@@ -2,6 +2,7 @@
 #include "pipelines/command/left_out_files.h"
 
 #include "pipelines/command/name_list.h"
+#include "pipelines/command/source_list.h"
 
 #include <algorithm>
 #include <array>
@@ -62,6 +63,14 @@ struct Group
     std::vector<std::string> files;
 };
 
+/// Returns the index of the file's group: textures, files that somebody could use, others.
+size_t groupOf(const std::string& file)
+{
+    if (hasEnding(file, kImages))
+        return 0;
+    return hasEnding(file, kParts) || isModel(file) ? 1 : 2;
+}
+
 std::string textOf(const Group& group)
 {
     return fmt::format("{} {} ({})", group.files.size(),
@@ -82,7 +91,7 @@ std::string leftOutText(const std::vector<std::string>& files, const std::vector
          {"file of a kind that is not read", "files of kinds that are not read", {}}}};
     for (const std::string& file : files)
         if (!hasEnding(file, kOwn) && !used.contains(real.of(file)))
-            groups[hasEnding(file, kImages) ? 0 : hasEnding(file, kParts) ? 1 : 2].files.push_back(file);
+            groups[groupOf(file)].files.push_back(file);
     std::string text;
     for (const Group& group : groups)
         if (!group.files.empty())

@@ -2,7 +2,9 @@
 #include "pipelines/command/setting_options.h"
 
 #include "pipelines/command/common_options.h"
+#include "pipelines/command/lod_groups.h"
 #include "pipelines/command/source_list.h"
+#include "pipelines/command/unmatched_rules.h"
 #include "pipelines/command/verb_tools.h"
 #include "pipelines/profiles/told.h"
 
@@ -70,11 +72,13 @@ Status checkInUse(const profiles::Values& values, bool has_visibility, bool has_
     return success();
 }
 
+/// Without the levels of detail, which stand beside the sources.
 farm::Assignments assignmentsOf(const profiles::Values& values, profiles::Scope scope)
 {
     farm::Assignments assignments;
     for (const auto& [key, value] : values)
-        if (profiles::findSetting(profiles::profileSettings(), key)->scope == scope)
+        if (key != profiles::kImportLods &&
+            profiles::findSetting(profiles::profileSettings(), key)->scope == scope)
             assignments.push_back(key + "=" + value.text);
     return assignments;
 }
@@ -187,10 +191,38 @@ Effort effortOf(const profiles::Configuration& configuration)
     return effort;
 }
 
+namespace
+{
+
+/// Choose the sources among the files, and the levels of detail of each; --lod goes over names and rules.
+/// errors: usage, profile_value
+Status takeSources(const profiles::Configuration& configuration, std::vector<std::string> files,
+                   CookOptions& options)
+{
+    if (!options.lods.empty() && files.size() > 1)
+        return Error{Issue::usage, "--lod", "",
+                     "needs a cook of one source: which of several it is for is not said"};
+    if (!options.lods.empty())
+    {
+        options.sources = std::move(files);
+        options.lods_of_source = {options.lods};
+        return success();
+    }
+    HEARTH_ASSIGN_OR_RETURN(LodGroups groups, groupLods(files, configuration));
+    options.sources = std::move(groups.sources);
+    options.lods_of_source = std::move(groups.lods_of_source);
+    for (const Error& warning : groups.warnings)
+        options.setting_warnings.push_back(formatMessage(warning));
+    return success();
+}
+
+} // namespace
+
 Status configure(const profiles::Configuration& configuration, CookOptions& options)
 {
     options.source_words = options.sources;
-    HEARTH_ASSIGN_OR_RETURN(options.sources, sourcesOf(options.sources));
+    HEARTH_ASSIGN_OR_RETURN(const std::vector<std::string> files, sourcesOf(options.sources));
+    HEARTH_TRY(takeSources(configuration, files, options));
     bool has_visibility = false;
     for (const std::string& source : options.sources)
     {
@@ -207,18 +239,18 @@ Status configure(const profiles::Configuration& configuration, CookOptions& opti
     HEARTH_TRY(checkInUse(of_pack, has_visibility, options.bricks.has_value()));
     static_cast<Effort&>(options) = effortOf(configuration);
     options.caches = cachesOf(configuration);
+    for (const Error& warning : unmatchedRules(configuration, files))
+        options.setting_warnings.push_back(formatMessage(warning));
     return success();
 }
 
-Result<farm::Request> requestOf(const profiles::Configuration& configuration,
-                                const std::vector<std::string>& sources)
+Result<farm::Request> requestOf(const profiles::Configuration& configuration, CookOptions& options)
 {
     // what is wrong is told with the place where it was written
-    CookOptions cook;
-    cook.sources = sources;
-    HEARTH_TRY(configure(configuration, cook));
+    HEARTH_TRY(configure(configuration, options));
     farm::Request request;
-    request.sources = cook.sources;
+    request.sources = options.sources;
+    request.lods_of_source = options.lods_of_source;
     for (const std::string& source : request.sources)
         request.settings_of_source.push_back(
             assignmentsOf(configuration.ofSource(source), profiles::Scope::source));

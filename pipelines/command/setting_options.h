@@ -58,15 +58,14 @@ Work withConfiguration(const SettingOptions& settings,
 
 Effort effortOf(const profiles::Configuration& configuration);
 
-/// Have the sources cooked as the configuration says: what folders and patterns stand for, settings of each source and of the
-/// pack, and the options of the command that the command line leaves open.
+/// Have the sources cooked as the configuration says: what folders and patterns stand for, which files are levels of detail of
+/// others, settings of each source and of the pack, and the options of the command that the command line leaves open.
 /// errors: no_source, usage, profile_value
 Status configure(const profiles::Configuration& configuration, CookOptions& options);
 
 /// The same as data that a plan can hold: what each source is cooked by, wherever it was written.
-/// sources  as the user typed them
+/// options  with what the user typed; they are configured as for hearth cook
 /// errors   those of configure
-Result<farm::Request> requestOf(const profiles::Configuration& configuration,
-                                const std::vector<std::string>& sources);
+Result<farm::Request> requestOf(const profiles::Configuration& configuration, CookOptions& options);
 
 } // namespace hearth::command

@@ -18,14 +18,6 @@ namespace fs = std::filesystem;
 
 constexpr std::array<std::string_view, 7> kModels{".gltf", ".glb", ".obj", ".ply", ".stl", ".off", ".drc"};
 
-bool isModel(const fs::path& path)
-{
-    std::string ending = path.extension().string();
-    std::transform(ending.begin(), ending.end(), ending.begin(),
-                   [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
-    return std::find(kModels.begin(), kModels.end(), ending) != kModels.end();
-}
-
 /// Looks at the folders and files below `folder` that are not hidden, in the order of the disk.
 Status visit(const fs::path& folder, const std::function<void(const fs::directory_entry&)>& look)
 {
@@ -93,6 +85,14 @@ Result<std::vector<std::string>> filesOfPattern(const std::string& pattern)
 
 } // namespace
 
+bool isModel(const std::string& path)
+{
+    std::string ending = fs::path(path).extension().string();
+    std::transform(ending.begin(), ending.end(), ending.begin(),
+                   [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+    return std::find(kModels.begin(), kModels.end(), ending) != kModels.end();
+}
+
 Result<std::vector<std::string>> sourcesOf(const std::vector<std::string>& words)
 {
     std::vector<std::string> sources;
@@ -102,7 +102,8 @@ Result<std::vector<std::string>> sourcesOf(const std::vector<std::string>& words
         std::vector<std::string> files{word};
         if (kind == WordKind::folder)
         {
-            HEARTH_ASSIGN_OR_RETURN(files, filesBelow(word, isModel));
+            HEARTH_ASSIGN_OR_RETURN(
+                files, filesBelow(word, [](const fs::path& path) { return isModel(path.string()); }));
         }
         else if (kind == WordKind::pattern)
         {

@@ -10,6 +10,9 @@
 namespace hearth::command
 {
 
+/// Whether the name's ending is that of a model: glTF, GLB, OBJ, PLY, STL, OFF or Draco.
+bool isModel(const std::string& path);
+
 /// The files that words stand for, in their order. A folder stands for all models in it and below, sorted by path: glTF, GLB,
 /// OBJ, PLY, STL, OFF and Draco files; images are what models refer to, and lie there too. A pattern ("props/**/*.glb"; it must
 /// be quoted, or the shell takes it) stands for the files that match, whatever their kind. Hidden files and folders are left out.

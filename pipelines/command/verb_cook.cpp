@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/command/setting_options.h"
-#include "pipelines/command/unmatched_rules.h"
 #include "pipelines/command/verb_tools.h"
 #include "pipelines/command/verbs.h"
 #include "pipelines/command/watch.h"
@@ -46,8 +45,6 @@ Result<CookOptions> configured(const CookOptions& options, const SettingOptions&
         files.push_back(file.path);
     CookOptions all = options;
     HEARTH_TRY(configure(configuration, all));
-    for (const Error& warning : unmatchedRules(configuration, all.sources))
-        all.setting_warnings.push_back(formatMessage(warning));
     return all;
 }
 

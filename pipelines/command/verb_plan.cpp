@@ -4,7 +4,6 @@
 #include "pipelines/command/farm_run.h"
 #include "pipelines/command/messages.h"
 #include "pipelines/command/setting_options.h"
-#include "pipelines/command/unmatched_rules.h"
 #include "pipelines/command/verb_tools.h"
 #include "pipelines/command/verbs.h"
 
@@ -37,16 +36,18 @@ std::string shardsFault(const std::string& text)
 int planConfigured(MakePlanOptions options, const profiles::Configuration& configuration,
                    const std::vector<std::string>& sources, const std::vector<std::string>& lods)
 {
-    auto request = requestOf(configuration, sources);
+    CookOptions cook;
+    cook.sources = sources;
+    cook.lods = lods;
+    auto request = requestOf(configuration, cook);
     if (!request.ok())
         return fail(request.error());
     options.request = std::move(request).value();
-    options.request.lods = lods;
-    options.caches = cachesOf(configuration);
-    options.quiet = effortOf(configuration).verbosity == Verbosity::quiet;
-    for (const Error& warning : unmatchedRules(configuration, options.request.sources))
+    options.caches = cook.caches;
+    options.quiet = cook.verbosity == Verbosity::quiet;
+    for (const std::string& warning : cook.setting_warnings)
         if (!options.quiet)
-            tell(formatMessage(warning));
+            tell(warning);
     return makePlanFile(options);
 }
 

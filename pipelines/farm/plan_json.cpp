@@ -31,7 +31,7 @@ void readMembers(const Json& json, Plan& plan)
 {
     const Json& cook = json.at("cook");
     cook.at("sources").get_to(plan.request.sources);
-    cook.at("lods").get_to(plan.request.lods);
+    cook.at("lods").get_to(plan.request.lods_of_source);
     cook.at("settings").get_to(plan.request.settings_of_source);
     cook.at("pack").get_to(plan.request.settings_of_pack);
     json.at("folder").get_to(plan.folder);
@@ -176,7 +176,7 @@ std::string planText(const Plan& plan)
 {
     Json json = Json::parse(graph::planJson(plan.graph)).value();
     json["cook"] = {{"sources", plan.request.sources},
-                    {"lods", plan.request.lods},
+                    {"lods", plan.request.lods_of_source},
                     {"settings", plan.request.settings_of_source},
                     {"pack", plan.request.settings_of_pack}};
     json["folder"] = plan.folder;

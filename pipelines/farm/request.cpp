@@ -40,11 +40,12 @@ Result<graph::CookSettings> settingsOf(const Request& request)
 {
     if (request.sources.empty())
         return Error{Issue::usage, "hearth", "", "there are no sources"};
-    if (request.settings_of_source.size() != request.sources.size())
-        return Error{Issue::usage, "hearth", "", "each source needs its settings"};
+    if (request.settings_of_source.size() != request.sources.size() ||
+        request.lods_of_source.size() != request.sources.size())
+        return Error{Issue::usage, "hearth", "", "each source needs its settings and its levels of detail"};
     graph::CookSettings settings;
     settings.sources = request.sources;
-    settings.lods = request.lods;
+    settings.lods_of_source = request.lods_of_source;
     settings.output = kPackName;
     for (const Assignments& assignments : request.settings_of_source)
     {

@@ -20,8 +20,8 @@ using Assignments = std::vector<std::string>;
 struct Request
 {
     std::vector<std::string> sources;
-    std::vector<std::string> lods;               ///< "N=FILE": levels of detail of the only source
-    std::vector<Assignments> settings_of_source; ///< [sources.size()]
+    std::vector<std::vector<std::string>> lods_of_source; ///< [sources.size()]: levels of detail, as "N=FILE"
+    std::vector<Assignments> settings_of_source;          ///< [sources.size()]
     Assignments settings_of_pack;
 };
 

@@ -70,13 +70,16 @@ Input partOfSource(const Graph& graph, size_t action)
 }
 
 /// Appends the source's actions; returns those whose parts the link reads, in this order: import, clusters, textures,
-/// skinning.
-std::vector<size_t> addSource(Graph& graph, size_t index, std::span<const tools::LodFile> lods,
-                              const CookSettings& settings)
+/// skinning. errors: those of parseLodFiles.
+Result<std::vector<size_t>> addSource(Graph& graph, size_t index, const CookSettings& settings)
 {
     const std::string& source = settings.sources[index];
     const SourceSettings told =
         settings.settings_of_source.empty() ? SourceSettings() : settings.settings_of_source[index];
+    HEARTH_ASSIGN_OR_RETURN(const std::vector<tools::LodFile> lods,
+                            tools::parseLodFiles(settings.lods_of_source.empty()
+                                                     ? std::vector<std::string>()
+                                                     : settings.lods_of_source[index]));
     /// Runs hearth-`kind` over the parts of actions before.
     const auto add = [&](const std::string& kind, const std::vector<size_t>& inputs)
     {
@@ -111,7 +114,7 @@ std::vector<size_t> addSource(Graph& graph, size_t index, std::span<const tools:
     addFlags(actions[clusters], {"--no-manual-lods"});
     const size_t skinning = add("skinning", {import_action, clusters});
     if (!told.visibility)
-        return {import_action, clusters, textures, skinning};
+        return std::vector{import_action, clusters, textures, skinning};
     addFlags(actions[clusters], {"--visibility"});
     const size_t visibility = add("visibility", {import_action, clusters});
     actions[visibility].depends_on_processor = true;
@@ -119,7 +122,7 @@ std::vector<size_t> addSource(Graph& graph, size_t index, std::span<const tools:
     addOutput(actions[visibility], "--stats", kVisibilityStatistics);
     addFlags(actions[visibility], {"--no-noise-estimate"});
     addOutput(actions[visibility], "--picture", kVisibilityPicture);
-    return {import_action, visibility, textures, skinning};
+    return std::vector{import_action, visibility, textures, skinning};
 }
 
 /// The table that shading needs beside visibilities; no source has a say in it.
@@ -184,13 +187,16 @@ Result<Graph> makeCookGraph(const CookSettings& settings)
 {
     HEARTH_ASSERT(settings.settings_of_source.empty() ||
                   settings.settings_of_source.size() == settings.sources.size());
-    HEARTH_ASSIGN_OR_RETURN(const std::vector<tools::LodFile> lods, tools::parseLodFiles(settings.lods));
+    HEARTH_ASSERT(settings.lods_of_source.empty() ||
+                  settings.lods_of_source.size() == settings.sources.size());
     Graph graph;
     graph.source_count = settings.sources.size();
     std::vector<size_t> inputs;
     for (size_t i = 0; i < settings.sources.size(); ++i)
-        for (const size_t part : addSource(graph, i, lods, settings))
-            inputs.push_back(part);
+    {
+        HEARTH_ASSIGN_OR_RETURN(const std::vector<size_t> parts, addSource(graph, i, settings));
+        inputs.insert(inputs.end(), parts.begin(), parts.end());
+    }
     addLink(graph, inputs, settings);
     addEstimates(graph);
     return graph;

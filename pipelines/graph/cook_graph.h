@@ -47,7 +47,8 @@ struct CookSettings
 {
     std::vector<std::string> sources;
     std::string output;
-    std::vector<std::string> lods; ///< "N=FILE": levels of detail of the only source
+    /// [sources.size()], or empty: the levels of detail of each source that were made by hand, as "N=FILE".
+    std::vector<std::vector<std::string>> lods_of_source;
     std::vector<SourceSettings>
         settings_of_source;             ///< [sources.size()], or empty: their cookers are told nothing
     std::optional<BrickOptions> bricks; ///< none: the pack has no grid of bricks

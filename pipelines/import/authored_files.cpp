@@ -16,14 +16,18 @@ using namespace formats;
 namespace
 {
 
+/// For who never asked for levels: files become levels by their names alone.
+constexpr const char* kStandAlone =
+    "if these files are no levels of one mesh, let them stand alone: hearth.toml, [[rule]], import.lods = []";
+
 /// The instance that stands for all: one mesh in one place. errors: lod_file.
 Result<InstanceRecord> onlyInstance(std::span<const InstanceRecord> instances, const std::string& file)
 {
     if (instances.size() == 1)
         return instances[0];
     return Error{Issue::lod_file, file, "",
-                 fmt::format("draws {} meshes: with levels of detail in files, each file draws one",
-                             instances.size())};
+                 fmt::format("draws {} meshes: with levels of detail in files, each file draws one; {}",
+                             instances.size(), kStandAlone)};
 }
 
 /// What the joints of the instance's skin are called; none where it has no skin.
@@ -80,16 +84,15 @@ struct Base
     std::vector<std::string> joints; ///< names; none without a skin
 };
 
-Status addLevel(const PackView& from, const std::string& path, const Base& base, PartBuilder& part)
+Status addLevel(const PackView& from, const tools::LodFile& file, const Base& base, PartBuilder& part)
 {
-    HEARTH_ASSIGN_OR_RETURN(const InstanceRecord instance, onlyInstance(from.instances(), path));
+    const std::string name = file.path.substr(file.path.rfind('/') + 1); // npos + 1 is 0
+    HEARTH_ASSIGN_OR_RETURN(const InstanceRecord instance, onlyInstance(from.instances(), file.path));
     HEARTH_ASSIGN_OR_RETURN(mesh::SourceMesh mesh, mesh::readSourceMesh(from.container(), instance.mesh));
     const auto drop = [&](const char* why)
     {
         // the part keeps the message: no word of where this machine has its files
-        part.warn(
-            Issue::dropped, "",
-            fmt::format("level of detail {} {}: it is not kept", path.substr(path.rfind('/') + 1), why));
+        part.warn(Issue::dropped, "", fmt::format("level of detail {} {}: it is not kept", name, why));
     };
     const auto nameOf = [&](StringRef name) { return from.text(name); };
     if (jointNames(from.nodes(), from.skins(), from.joints(), instance, nameOf) != base.joints)
@@ -109,7 +112,7 @@ Status addLevel(const PackView& from, const std::string& path, const Base& base,
     const uint32_t first_image = part.imageCount();
     HEARTH_TRY(copyImages(from, part));
     copyMaterials(from, first_image, part);
-    return part.addLod(base.instance.mesh, mesh);
+    return part.addLod(base.instance.mesh, mesh, {file.level, name});
 }
 
 } // namespace
@@ -119,8 +122,10 @@ Status addAuthoredFiles(std::span<const tools::LodFile> files, const std::string
 {
     HEARTH_ASSIGN_OR_RETURN(const InstanceRecord instance, onlyInstance(part.instances, part.sourceName()));
     if (part.hasLods())
-        return Error{Issue::lod_file, part.sourceName(), "",
-                     "has levels of detail of its own: they cannot be mixed with those of files"};
+        return Error{
+            Issue::lod_file, part.sourceName(), "",
+            std::string("has levels of detail of its own: they cannot be mixed with those of files; ") +
+                kStandAlone};
     const auto nameOf = [&](StringRef name) { return part.text(name); };
     const Base base{instance,
                     jointNames<decltype(nameOf)>(part.nodes, part.skins, part.joints, instance, nameOf)};
@@ -133,7 +138,7 @@ Status addAuthoredFiles(std::span<const tools::LodFile> files, const std::string
         part.adoptReport(level);
         HEARTH_ASSIGN_OR_RETURN(ContainerReader reader, ContainerReader::open(path, Check::structure));
         HEARTH_ASSIGN_OR_RETURN(const PackView view, PackView::read(std::move(reader)));
-        HEARTH_TRY(addLevel(view, file.path, base, part));
+        HEARTH_TRY(addLevel(view, file, base, part));
     }
     return success();
 }

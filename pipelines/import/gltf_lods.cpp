@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/import/gltf_lods.h"
 
+#include "cook/tools/lod_files.h"
 #include "pipelines/import/gltf_mesh_uses.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <map>
+#include <optional>
 
 namespace hearth::import
 {
@@ -203,11 +205,11 @@ private:
                                          chain.mesh, same_mesh->node));
     }
 
-    std::optional<LodName> nameOf(uint32_t node) const
+    std::optional<tools::LodName> nameOf(uint32_t node) const
     {
         const GltfNode& n = model_.nodes[node];
-        std::optional<LodName> name = parseLodName(n.name);
-        return name || n.mesh == kNone ? name : parseLodName(model_.meshes[n.mesh].name);
+        std::optional<tools::LodName> name = tools::parseLodName(n.name);
+        return name || n.mesh == kNone ? name : tools::parseLodName(model_.meshes[n.mesh].name);
     }
 
     /// Nodes side by side whose names differ in the level alone.
@@ -216,7 +218,7 @@ private:
         std::map<std::pair<uint32_t, std::string>, std::map<uint32_t, uint32_t>> node_of_level;
         for (uint32_t node = 0; node < model_.nodes.size(); ++node)
         {
-            const std::optional<LodName> name = nameOf(node);
+            const std::optional<tools::LodName> name = nameOf(node);
             if (!name || lods_.hidden[node] || is_base_[node])
                 continue;
             const auto [first, fresh] =
@@ -251,7 +253,7 @@ private:
                 node_of_mesh[mesh] = node;
         std::map<std::string, std::map<uint32_t, uint32_t>> mesh_of_level;
         for (uint32_t mesh = 0; mesh < model_.meshes.size(); ++mesh)
-            if (const auto name = parseLodName(model_.meshes[mesh].name))
+            if (const auto name = tools::parseLodName(model_.meshes[mesh].name))
                 if ((node_of_mesh[mesh] == kNone) != (name->level == 0))
                     mesh_of_level[name->stem].try_emplace(name->level, mesh);
         for (const auto& [stem, levels] : mesh_of_level)
@@ -294,28 +296,6 @@ private:
 GltfLods findLods(const GltfModel& model, const GltfContext& context)
 {
     return LodFinder(model, context).find();
-}
-
-std::optional<LodName> parseLodName(std::string_view name)
-{
-    // three digits are more levels than anybody makes
-    constexpr size_t kMaxDigits = 3;
-    size_t digits = 0;
-    while (digits < name.size() && name[name.size() - 1 - digits] >= '0' &&
-           name[name.size() - 1 - digits] <= '9')
-        ++digits;
-    constexpr std::string_view kMark = "_lod";
-    if (digits == 0 || digits > kMaxDigits || name.size() < digits + kMark.size())
-        return std::nullopt;
-    LodName parsed;
-    for (const char c : name.substr(0, name.size() - digits))
-        parsed.stem += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-    if (!parsed.stem.ends_with(kMark))
-        return std::nullopt;
-    parsed.stem.resize(parsed.stem.size() - kMark.size());
-    for (const char c : name.substr(name.size() - digits))
-        parsed.level = parsed.level * 10 + static_cast<uint32_t>(c - '0');
-    return parsed;
 }
 
 } // namespace hearth::import

@@ -4,9 +4,6 @@
 
 #include "pipelines/import/gltf_buffers.h"
 
-#include <optional>
-#include <string>
-#include <string_view>
 #include <vector>
 
 namespace hearth::import
@@ -39,14 +36,5 @@ struct GltfLods
 
 /// Find all levels. What is not usable is left out, with a warning that names it.
 GltfLods findLods(const GltfModel& model, const GltfContext& context);
-
-struct LodName
-{
-    std::string stem; ///< in small letters
-    uint32_t level = 0;
-};
-
-/// "Rock_LOD2" is level 2 of "rock"; nothing for other names.
-std::optional<LodName> parseLodName(std::string_view name);
 
 } // namespace hearth::import

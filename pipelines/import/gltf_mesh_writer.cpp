@@ -50,6 +50,7 @@ private:
     };
     Result<Read> read(const MeshUse& use);
     MeshUse useOf(const GltfLodChain& chain, const GltfLod& lod) const;
+    tools::LodLabel labelOf(const GltfLod& lod) const;
     std::optional<Transform> objectFromLod(const GltfLodChain& chain, const GltfLod& lod,
                                            const MeshSummary& summary) const;
 
@@ -125,6 +126,17 @@ std::optional<Transform> MeshWriter::objectFromLod(const GltfLodChain& chain, co
     return object_from_world ? std::optional(*object_from_world * world_from_lod) : std::nullopt;
 }
 
+/// The name of the node, or of its mesh where that alone has a number, or the node has no name.
+tools::LodLabel MeshWriter::labelOf(const GltfLod& lod) const
+{
+    const std::string& of_mesh = model_.meshes[lod.mesh].name;
+    const std::string& of_node = lod.node == kNone ? of_mesh : model_.nodes[lod.node].name;
+    for (const std::string& name : {of_node, of_mesh})
+        if (const auto parsed = tools::parseLodName(name))
+            return {parsed->level, name};
+    return {std::nullopt, of_node.empty() ? of_mesh : of_node};
+}
+
 Status MeshWriter::writeLods(const GltfLodChain& chain)
 {
     const uint32_t finest = uses_.of_node[chain.node];
@@ -151,7 +163,7 @@ Status MeshWriter::writeLods(const GltfLodChain& chain)
         else if (!object_from_lod || !bakeTransform(level.mesh, *object_from_lod))
             drop("cannot be moved to where that stands");
         else
-            HEARTH_TRY(context_.part.addLod(finest, level.mesh));
+            HEARTH_TRY(context_.part.addLod(finest, level.mesh, labelOf(lod)));
     }
     return success();
 }

@@ -12,6 +12,7 @@
 #include "pipelines/import/authored_files.h"
 #include "pipelines/import/part_clips.h"
 #include "pipelines/import/read_source.h"
+#include "pipelines/import/source_space.h"
 
 #include <cstdio>
 
@@ -30,6 +31,8 @@ struct Arguments
     std::string depfile;
     std::string statistics;
     double crease_angle_deg = 60;
+    double scale = 1;
+    std::string up = "y";
 };
 
 constexpr double kRadiansPerDegree = 3.14159265358979323846 / 180;
@@ -68,6 +71,8 @@ Result<clips::StatedError> statedError(const Arguments& arguments)
 
 Status finish(const Arguments& arguments, const clips::StatedError& stated_error, import::PartBuilder& part)
 {
+    HEARTH_TRY(import::bringIntoMetres(
+        {arguments.scale, arguments.up == "z" ? import::UpAxis::z : import::UpAxis::y}, part));
     import::compressClips(part, stated_error);
     HEARTH_TRY(part.finish());
     return arguments.statistics.empty() ? success()
@@ -107,6 +112,12 @@ int program(int argc, char** argv)
                   "degrees: sharper edges of a mesh without normals stay hard; 180: none does")
         .showDefault()
         .range(0.0, 180.0);
+    app.addOption("--scale", arguments.scale, "metres of a unit of the source, as 0.01 of centimetres")
+        .showDefault()
+        .range(import::kLeastScale, import::kLargestScale);
+    app.addOption("--up", arguments.up, "the axis of the source that points up")
+        .choices({"y", "z"})
+        .showDefault();
     const cli::Option profile =
         app.addOption("--profile", arguments.profile, "TOML file: the error that clips may have");
     app.addOption("--set", arguments.settings, "KEY=VALUE: a line of a profile, as animation.error=0.001")

@@ -125,10 +125,10 @@ Status PartBuilder::addMesh(const mesh::SourceMesh& mesh)
     return mesh::writeSourceMesh(writer_, mesh_count_++, mesh);
 }
 
-Status PartBuilder::addLod(uint32_t of, const mesh::SourceMesh& mesh)
+Status PartBuilder::addLod(uint32_t of, const mesh::SourceMesh& mesh, const tools::LodLabel& label)
 {
     HEARTH_ASSERT(of < mesh_count_);
-    lods_.push_back({of, mesh_count_});
+    lods_.push_back({of, mesh_count_, label.number.value_or(kNone), intern(label.name)});
     HEARTH_TRY(addMesh(mesh));
     add(moved_vertices_[of], moved_vertices_.back());
     return success();

@@ -4,6 +4,7 @@
 
 #include "cook/clips/compress.h"
 #include "cook/mesh/source_mesh.h"
+#include "cook/tools/lod_files.h"
 #include "formats/container_writer.h"
 #include "formats/scene.h"
 #include "pipelines/import/moved_vertices.h"
@@ -60,8 +61,8 @@ public:
     Status addMesh(const mesh::SourceMesh& mesh);
 
     /// A mesh that is the next coarser level of detail of mesh `of`, in its object space, moved by the same joints. It is a
-    /// mesh of its own number.
-    Status addLod(uint32_t of, const mesh::SourceMesh& mesh);
+    /// mesh of its own number. `label` says what people know the level by.
+    Status addLod(uint32_t of, const mesh::SourceMesh& mesh, const tools::LodLabel& label);
 
     /// Next image (finest mip only); returns its index. `record` brings name, format and flags.
     Result<uint32_t> addImage(formats::ImageRecord record, const DecodedImage& image);

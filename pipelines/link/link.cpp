@@ -3,6 +3,7 @@
 
 #include "formats/container_writer.h"
 #include "formats/pack_check.h"
+#include "pipelines/link/asset_bounds.h"
 #include "pipelines/link/merged_meta.h"
 #include "pipelines/link/rebase.h"
 #include "pipelines/verify/verify_pack.h"
@@ -33,7 +34,9 @@ struct Source
     PackView textures_part;
     PackView skinning_part;
     Records<DeformedGroupRecord> deformed_groups; ///< of the skinning part
-    Offsets offsets;
+    std::string name;                             ///< of the asset
+    StringRef name_ref{};                         ///< in the merged strings
+    Offsets offsets{};
 };
 
 Result<PackView> openPart(const std::string& path)
@@ -85,8 +88,9 @@ Result<Source> openSource(const SourceParts& parts)
     HEARTH_ASSIGN_OR_RETURN(PackView skinning_part, openPart(parts.skinning_part));
     HEARTH_ASSIGN_OR_RETURN(Records<DeformedGroupRecord> deformed_groups,
                             skinning_part.container().records<DeformedGroupRecord>(kChunkDeformedGroups));
+    std::string name = assetNameOf(import_part.meta());
     Source source{std::move(import_part),   std::move(clusters_part),   std::move(textures_part),
-                  std::move(skinning_part), std::move(deformed_groups), {}};
+                  std::move(skinning_part), std::move(deformed_groups), std::move(name)};
     HEARTH_TRY(checkTogether(source));
     return source;
 }
@@ -128,9 +132,11 @@ bool advancePast(const Source& source, Offsets& next)
            advance(next.cluster_joints, deformed.clusterJoints().size());
 }
 
-/// Give every source its place in the merged tables.
+/// Give every source its place in the merged tables, and its name one behind all other strings.
 Status placeSources(std::vector<Source>& sources, const std::string& output)
 {
+    const Error too_large{Issue::input_too_large, output, "",
+                          "the sources together are too large for one pack"};
     Offsets next;
     for (Source& source : sources)
     {
@@ -138,8 +144,13 @@ Status placeSources(std::vector<Source>& sources, const std::string& output)
         source.offsets.mesh_strings = next.strings;
         if (!advance(source.offsets.mesh_strings, source.import_part.strings().size()) ||
             !advancePast(source, next))
-            return Error{Issue::input_too_large, output, "",
-                         "the sources together are too large for one pack"};
+            return too_large;
+    }
+    for (Source& source : sources)
+    {
+        source.name_ref = {next.strings, static_cast<uint32_t>(source.name.size())};
+        if (!advance(next.strings, source.name.size()))
+            return too_large;
     }
     return success();
 }
@@ -162,7 +173,31 @@ Status writeStrings(ContainerWriter& writer, std::span<const Source> sources)
         strings += source.import_part.strings();
         strings += source.clusters_part.strings();
     }
+    for (const Source& source : sources)
+        strings += source.name;
     return writer.addText(kChunkStrings, strings);
+}
+
+Status writeAssets(ContainerWriter& writer, std::span<const Source> sources)
+{
+    std::vector<AssetRecord> assets;
+    uint32_t first_instance = 0;
+    for (const Source& source : sources)
+    {
+        const auto count = [](auto table) { return static_cast<uint32_t>(table.size()); };
+        const PackView& scene = source.import_part;
+        HEARTH_ASSIGN_OR_RETURN(Box3 box, boundsAtRest(scene, source.clusters_part, source.skinning_part));
+        if (box.empty())
+            box = {{0, 0, 0}, {0, 0, 0}};
+        assets.push_back({.name = source.name_ref,
+                          .instances = {first_instance, count(scene.instances())},
+                          .meshes = {source.offsets.meshes, count(source.clusters_part.meshes())},
+                          .nodes = {source.offsets.nodes, count(scene.nodes())},
+                          .box_min = box.min,
+                          .box_max = box.max});
+        first_instance += count(scene.instances());
+    }
+    return writer.addRecords<AssetRecord>(kChunkAssets, assets);
 }
 
 /// One table of all sources.
@@ -240,6 +275,16 @@ Status writeMeshes(ContainerWriter& writer, std::span<const Source> sources)
     HEARTH_TRY(write(kChunkClusters, &PackView::clusters));
     HEARTH_TRY(write(kChunkPageTable, &PackView::pages));
     return write(kChunkPageParents, &PackView::pageParents);
+}
+
+/// Which levels were made by hand; no chunk where none was.
+Status writeAuthoredLevels(ContainerWriter& writer, std::span<const Source> sources)
+{
+    const auto hasSome = [](const Source& source) { return !source.clusters_part.authoredLevels().empty(); };
+    if (std::none_of(sources.begin(), sources.end(), hasSome))
+        return success();
+    return writeTable(writer, sources, kChunkAuthoredLevels, &Source::clusters_part,
+                      &PackView::authoredLevels);
 }
 
 /// Bounds of deformed meshes; no chunks where no source has any.
@@ -335,7 +380,9 @@ Status writePack(const std::string& path, std::span<const Source> sources,
     HEARTH_TRY(writeMeta(writer, sources, path));
     HEARTH_TRY(writeStrings(writer, sources));
     HEARTH_TRY(writeScene(writer, sources));
+    HEARTH_TRY(writeAssets(writer, sources));
     HEARTH_TRY(writeMeshes(writer, sources));
+    HEARTH_TRY(writeAuthoredLevels(writer, sources));
     HEARTH_TRY(writeDeformedMeshes(writer, sources));
     if (!specular.empty())
         HEARTH_TRY(writer.addRecords<SpecularTableRecord>(kChunkSpecular, specular));

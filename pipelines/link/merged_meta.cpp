@@ -107,4 +107,14 @@ Result<std::string> mergedMeta(std::span<const PartMetas> sources, const std::st
     return merged.dump(1, '\t');
 }
 
+std::string assetNameOf(std::string_view import_meta)
+{
+    const Json name = assetName(Json::parse(import_meta).value_or(Json()));
+    if (!name.is_string())
+        return "";
+    const std::string file = name.get<std::string>();
+    const size_t dot = file.rfind('.');
+    return dot == 0 ? file : file.substr(0, dot);
+}
+
 } // namespace hearth::link

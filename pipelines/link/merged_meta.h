@@ -24,4 +24,8 @@ struct PartMetas
 /// errors: meaning_value where a part's META is not an object of JSON; `name` stands in the message.
 Result<std::string> mergedMeta(std::span<const PartMetas> sources, const std::string& name);
 
+/// Returns what the asset of an import part is called: the file name of its source without the extension; empty where META
+/// does not say.
+std::string assetNameOf(std::string_view import_meta);
+
 } // namespace hearth::link

@@ -148,6 +148,12 @@ void rebase(PageRecord& page, const Offsets& offsets)
     shift(page.parents, offsets.page_parents);
 }
 
+void rebase(AuthoredLevelRecord& level, const Offsets& offsets)
+{
+    shift(level.mesh, offsets.meshes);
+    shift(level.name, offsets.mesh_strings);
+}
+
 void rebase(DeformedMeshRecord& mesh, const Offsets& offsets)
 {
     shift(mesh.mesh, offsets.meshes);

@@ -4,6 +4,7 @@
 
 #include "formats/deformation.h"
 #include "formats/mesh.h"
+#include "formats/provenance.h"
 #include "formats/scene.h"
 
 namespace hearth::link
@@ -51,6 +52,7 @@ void rebase(formats::LevelRecord& level, const Offsets& offsets);
 void rebase(formats::GroupRecord& group, const Offsets& offsets);
 void rebase(formats::ClusterRecord& cluster, const Offsets& offsets);
 void rebase(formats::PageRecord& page, const Offsets& offsets);
+void rebase(formats::AuthoredLevelRecord& level, const Offsets& offsets);
 void rebase(formats::DeformedMeshRecord& mesh, const Offsets& offsets);
 void rebase(formats::DeformedClusterRecord& cluster, const Offsets& offsets);
 void rebase(uint32_t& page_parent, const Offsets& offsets);

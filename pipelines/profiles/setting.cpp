@@ -22,6 +22,7 @@ constexpr double kMostWeight = double{clusters::kLargestErrorWeight};
 constexpr double kMostAnimationError = 1000;
 constexpr double kMostTexels = textures::kLargestSize;
 constexpr double kMostBounces = 64;
+constexpr double kLeastScale = 1e-9, kLargestScale = 1e9;
 
 Setting flagOf(std::string key, std::string_view what, Scope scope, std::string_view option)
 {
@@ -155,6 +156,16 @@ std::vector<Setting> makeProfileSettings()
                             "degrees: sharper edges of a mesh without normals stay hard; 180: none does",
                             "60", 0, 180),
                    "--crease-angle", "DEGREES"),
+        withOption(numberOf("import.scale", "metres of a unit of the source, as 0.01 of centimetres", "1",
+                            kLeastScale, kLargestScale),
+                   "--scale", "METRES"),
+        withOption(choiceOf("import.up", "the axis of the source that points up", "y", {"y", "z"}), "--up",
+                   "AXIS"),
+        {std::string(kImportLods), Kind::texts,
+         "files from the source's folder that are its levels of detail 1, 2, ..., made by hand; []: none, "
+         "and "
+         "no name makes the source a level",
+         "the files X_LOD1, X_LOD2, ... beside an X_LOD0"},
         cheaper("import", "0 takes the keys of clips as they are",
                 numberOf("animation.error",
                          "metres that a vertex may be off when a clip plays; 0: keys as in the source",

@@ -67,6 +67,9 @@ struct Setting
     Saving saving{};                ///< for reports of what was slow
 };
 
+/// Which files are levels of detail of a source. It says what is cooked, so that no cooker is told of it.
+inline constexpr std::string_view kImportLods = "import.lods";
+
 /// What a profile can set: of sources, then of the pack.
 std::span<const Setting> profileSettings();
 

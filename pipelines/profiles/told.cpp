@@ -68,6 +68,10 @@ Result<graph::SourceSettings> toldOfSource(const Values& values)
     graph::SourceSettings told;
     if (const Value* angle = find(values, "import.crease_angle"))
         told.import = {"--crease-angle", angle->text};
+    if (const Value* scale = find(values, "import.scale"))
+        told.import.insert(told.import.end(), {"--scale", scale->text});
+    if (const Value* up = find(values, "import.up"))
+        told.import.insert(told.import.end(), {"--up", textsOf(*up).front()});
     addGroup(values, "animation", told.import);
     if (const Value* size = find(values, "textures.max_size"))
         told.textures = {"--max-size", size->text};

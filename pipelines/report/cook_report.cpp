@@ -157,6 +157,8 @@ Json messagesOf(const CookReport& cook, const Asset& asset, const Json& import_r
         if (cook.graph->actions[action].cooker != "import" || import_report.is_null())
             for (const std::string& line : cook.outcomes[action].result.warnings)
                 messages.push_back(messageJson(line));
+    if (const auto warning = cook.source_warnings.find(asset.source); warning != cook.source_warnings.end())
+        messages.push_back(messageJson(warning->second));
     for (const size_t action : asset.actions)
         if (const auto error = cook.errors.find(action); error != cook.errors.end())
             messages.push_back(messageJson(error->second));
@@ -290,7 +292,8 @@ Json sizesJson(const std::map<std::string, uint64_t>& bytes_of_chunks)
         {"ACHN", "animation"}, {"AKBT", "animation"}, {"AKEY", "animation"}, {"ANIM", "animation"},
         {"SKIN", "animation"}, {"JOIN", "animation"}, {"MWGT", "animation"}, {"SPOC", "light"},
         {"INST", "scene"},     {"NODE", "scene"},     {"MATL", "scene"},     {"CAMR", "scene"},
-        {"LGHT", "scene"},     {"SHSP", "scene"},     {"STRS", "scene"},     {"META", "scene"}};
+        {"LGHT", "scene"},     {"SHSP", "scene"},     {"STRS", "scene"},     {"META", "scene"},
+        {"ASST", "scene"}};
     Json sizes{{"geometry", 0}, {"textures", 0}, {"animation", 0}, {"light", 0}, {"scene", 0}, {"other", 0}};
     for (const auto& [type, bytes] : bytes_of_chunks)
     {

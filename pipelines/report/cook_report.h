@@ -33,11 +33,12 @@ struct CookReport
 
     /// null: the cook ended before there was one, and all that is below is empty
     const graph::Graph* graph = nullptr;
-    std::vector<graph::ActionOutcome> outcomes; ///< of its actions
-    std::map<size_t, ActionTime> times;         ///< of actions that ran
-    std::map<size_t, std::string> errors;       ///< error lines of actions that failed
-    std::map<size_t, std::string> statistics;   ///< JSON that actions have written beside their parts
-    std::map<size_t, std::string> pictures;     ///< PNG, of visibilities
+    std::vector<graph::ActionOutcome> outcomes;    ///< of its actions
+    std::map<size_t, ActionTime> times;            ///< of actions that ran
+    std::map<size_t, std::string> errors;          ///< error lines of actions that failed
+    std::map<size_t, std::string> source_warnings; ///< by source: warning lines of the cook as a whole
+    std::map<size_t, std::string> statistics;      ///< JSON that actions have written beside their parts
+    std::map<size_t, std::string> pictures;        ///< PNG, of visibilities
     /// Bytes of the pack by the types of its chunks, as they lie in the file; empty where there is none.
     std::map<std::string, uint64_t> bytes_of_chunks;
 };

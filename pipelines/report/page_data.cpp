@@ -210,11 +210,8 @@ std::vector<MeshOfPack> importantMeshes(const std::string& report_text)
 
 std::string picturesData(const Pictures& pictures)
 {
-    Json data{{"views", pictures.views},
-              {"scene", Json::array()},
-              {"meshes", Json::object()},
-              {"left_out", pictures.left_out},
-              {"why", pictures.why_left_out}};
+    Json data{{"views", pictures.views},  {"is_sheet", pictures.is_sheet}, {"scene", Json::array()},
+              {"meshes", Json::object()}, {"left_out", pictures.left_out}, {"why", pictures.why_left_out}};
     for (const std::string& jpeg : pictures.scene)
         data["scene"].push_back(dataUri(jpeg));
     for (const auto& [mesh, jpegs] : pictures.meshes)

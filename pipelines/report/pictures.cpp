@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/report/pictures.h"
 
+#include "cook/json/json.h"
 #include "cook/tools/child_processes.h"
 #include "cook/tools/private_folder.h"
 #include "formats/pack_view.h"
@@ -31,6 +32,10 @@ constexpr size_t kMeshesOfRun = 12;
 // what the file of 84 million triangles has of it.
 constexpr uint64_t kLargePack = uint64_t{64} << 20;
 constexpr const char* kGeometryBudget = "512M";
+
+// The scene fills half the width of a page. The cells of a sheet are as small as its assets are many.
+constexpr const char* kSceneSize = "480x270";
+constexpr const char* kSheetSize = "960x540";
 
 /// Read and remove.
 std::optional<std::string> takeFile(const std::string& path)
@@ -86,10 +91,18 @@ public:
         std::error_code error;
         if (std::filesystem::file_size(pack_, error) > kLargePack)
             command.insert(command.end(), {"--budget", kGeometryBudget});
-        if (!meshes.empty())
+        const std::string statistics = folder_->path() + "/picture.json";
+        if (meshes.empty())
+            command.insert(command.end(), {"--stats", statistics});
+        else
             command.insert(command.end(), {"--meshes", fmt::format("{}", fmt::join(meshes, ","))});
         if (!run(command))
             return {};
+        if (meshes.empty())
+        {
+            const Json frame = Json::parse(takeFile(statistics).value_or("")).value_or(Json());
+            has_drawn_sheet_ = frame.is_object() && frame.contains("sheet");
+        }
         std::vector<std::vector<std::string>> pictures(std::max<size_t>(meshes.size(), 1));
         for (size_t i = 0; i < pictures.size(); ++i)
             for (const std::string& view : views)
@@ -106,6 +119,8 @@ public:
     }
 
     const std::string& why() const { return why_; }
+    /// Of the scene, as hearth-render chose.
+    bool hasDrawnSheet() const { return has_drawn_sheet_; }
 
 private:
     /// What lies in the folder counts as drawn.
@@ -147,6 +162,7 @@ private:
     size_t taken_ = 0; ///< out of the folder
     std::optional<tools::PrivateFolder> folder_;
     std::string why_;
+    bool has_drawn_sheet_ = false;
 };
 
 Result<formats::PackView> openPack(const std::string& path)
@@ -214,7 +230,9 @@ Pictures takePictures(const std::string& pack_path, const std::vector<MeshOfPack
     const std::vector<uint32_t> drawn = drawable(*reader, meshes);
     const size_t count = std::min(drawn.size(), limits.meshes);
     painter.expect((1 + count) * pictures.views.size());
-    const auto scene = painter.draw(pictures.views, "480x270", {});
+    auto scene = painter.draw(pictures.views, kSceneSize, {});
+    if (painter.hasDrawnSheet())
+        scene = painter.draw(pictures.views, kSheetSize, {});
     if (scene.empty())
     {
         // what cannot draw the scene cannot draw its meshes
@@ -222,6 +240,7 @@ Pictures takePictures(const std::string& pack_path, const std::vector<MeshOfPack
         return pictures;
     }
     pictures.scene = scene.front();
+    pictures.is_sheet = painter.hasDrawnSheet();
     for (size_t first = 0; first < count && !isLate() && bytesOf(pictures) < limits.bytes;
          first += kMeshesOfRun)
     {

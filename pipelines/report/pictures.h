@@ -29,6 +29,7 @@ struct Pictures
 {
     std::vector<std::string> views; ///< of each list below: "final", ...
     std::vector<std::string> scene; ///< JPEG of the whole scene; empty where it could not be drawn
+    bool is_sheet = false;          ///< these are contact sheets: the assets stand in one place
     std::map<uint32_t, std::vector<std::string>> meshes; ///< the same of meshes, each alone
     size_t left_out = 0;                                 ///< meshes that have none
     std::string why_left_out;

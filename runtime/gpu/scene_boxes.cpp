@@ -30,14 +30,16 @@ void addCarried(const Box3& box, const Affine3d& world_from_bind, std::vector<Pl
         boxes.push_back({box, *place});
 }
 
-/// Calls rigid(mesh, place) and deformed(mesh, record of DMSH, pose) for the instances that have clusters.
+/// Calls rigid(mesh, place) and deformed(mesh, record of DMSH, pose) for the instances of the range that have clusters.
 template <typename Rigid, typename Deformed>
-void visitInstances(const formats::PackView& pack, const pack::PosePlayer& player, const Rigid& rigid,
-                    const Deformed& deformed)
+void visitInstances(const formats::PackView& pack, const pack::PosePlayer& player, formats::Range instances,
+                    const Rigid& rigid, const Deformed& deformed)
 {
     const std::vector<Affine3> places = placesOf(pack, player);
-    auto posed = player.posed().begin();
-    for (uint32_t i = 0; i < places.size(); ++i)
+    // ascending by instance
+    auto posed = std::find_if(player.posed().begin(), player.posed().end(),
+                              [&](const pack::PosedInstance& p) { return p.instance >= instances.first; });
+    for (uint32_t i = instances.first; i < instances.first + instances.count; ++i)
     {
         const uint32_t number = pack.instances()[i].mesh;
         const formats::MeshRecord& mesh = pack.meshes()[number];
@@ -53,11 +55,13 @@ void visitInstances(const formats::PackView& pack, const pack::PosePlayer& playe
 // Posing takes about 0.1 ms a cluster: more are not worth waiting for.
 constexpr size_t kMostPosedClusters = 8192;
 
-size_t countDeformedClusters(const formats::PackView& pack, const pack::PosePlayer& player)
+size_t countDeformedClusters(const formats::PackView& pack, const pack::PosePlayer& player,
+                             formats::Range instances)
 {
     size_t count = 0;
     for (const pack::PosedInstance& posed : player.posed())
-        count += pack.meshes()[pack.instances()[posed.instance].mesh].clusters.count;
+        if (posed.instance >= instances.first && posed.instance - instances.first < instances.count)
+            count += pack.meshes()[pack.instances()[posed.instance].mesh].clusters.count;
     return count;
 }
 
@@ -112,11 +116,17 @@ void addPosed(const formats::PackView& pack, const pack::PosedInstance& pose, st
 
 } // namespace
 
-std::vector<PlacedBox> instanceBoxes(const formats::PackView& pack, const pack::PosePlayer& player)
+formats::Range allInstances(const formats::PackView& pack)
+{
+    return {0, static_cast<uint32_t>(pack.instances().size())};
+}
+
+std::vector<PlacedBox> instanceBoxes(const formats::PackView& pack, const pack::PosePlayer& player,
+                                     formats::Range instances)
 {
     std::vector<PlacedBox> boxes;
     visitInstances(
-        pack, player,
+        pack, player, instances,
         [&](const formats::MeshRecord& mesh, const Affine3& place) {
             boxes.push_back({{mesh.box_min, mesh.box_max}, place});
         },
@@ -127,12 +137,13 @@ std::vector<PlacedBox> instanceBoxes(const formats::PackView& pack, const pack::
     return boxes;
 }
 
-std::vector<PlacedBox> clusterBoxes(const formats::PackView& pack, const pack::PosePlayer& player)
+std::vector<PlacedBox> clusterBoxes(const formats::PackView& pack, const pack::PosePlayer& player,
+                                    formats::Range instances)
 {
     std::vector<PlacedBox> boxes;
-    const bool in_pose = countDeformedClusters(pack, player) <= kMostPosedClusters;
+    const bool in_pose = countDeformedClusters(pack, player, instances) <= kMostPosedClusters;
     visitInstances(
-        pack, player,
+        pack, player, instances,
         [&](const formats::MeshRecord& mesh, const Affine3& place)
         {
             for (const formats::ClusterRecord& cluster : recordsOf(pack.clusters(), mesh.clusters))
@@ -155,16 +166,21 @@ std::vector<PlacedBox> clusterBoxes(const formats::PackView& pack, const pack::P
     return boxes;
 }
 
-Box3 sceneBounds(const formats::PackView& pack, const pack::PosePlayer& player)
+Box3 instanceBounds(const formats::PackView& pack, const pack::PosePlayer& player, formats::Range instances)
 {
     Box3 bounds;
-    for (const PlacedBox& placed : instanceBoxes(pack, player))
+    for (const PlacedBox& placed : instanceBoxes(pack, player, instances))
         for (int corner = 0; corner < 8; ++corner)
             bounds.add(
                 transformPoint(placed.world_from_box, {(corner & 1) ? placed.box.max.x : placed.box.min.x,
                                                        (corner & 2) ? placed.box.max.y : placed.box.min.y,
                                                        (corner & 4) ? placed.box.max.z : placed.box.min.z}));
     return bounds;
+}
+
+Box3 sceneBounds(const formats::PackView& pack, const pack::PosePlayer& player)
+{
+    return instanceBounds(pack, player, allInstances(pack));
 }
 
 Box3 sceneBounds(const formats::PackView& pack)

@@ -17,10 +17,10 @@ constexpr Float3 kFrom{0.55f, 0.42f, 0.8f};
 // Where there are more, the boxes of whole instances must do.
 constexpr size_t kMostClusterBoxes = size_t{1} << 18;
 
-size_t countClusters(const formats::PackView& pack)
+size_t countClusters(const formats::PackView& pack, formats::Range instances)
 {
     size_t count = 0;
-    for (const formats::InstanceRecord& instance : pack.instances())
+    for (const formats::InstanceRecord& instance : formats::recordsOf(pack.instances(), instances))
         count += pack.meshes()[instance.mesh].clusters.count;
     return count;
 }
@@ -91,10 +91,17 @@ shared::Camera fitCamera(const formats::PackView& pack, float aspect)
 
 shared::Camera fitCamera(const formats::PackView& pack, const pack::PosePlayer& player, float aspect)
 {
+    return fitCamera(pack, player, gpu::allInstances(pack), aspect);
+}
+
+shared::Camera fitCamera(const formats::PackView& pack, const pack::PosePlayer& player,
+                         formats::Range instances, float aspect)
+{
     // the corners of the finest clusters' boxes lie closer to round things than those of whole instances
-    const bool by_clusters = countClusters(pack) <= kMostClusterBoxes;
-    return frameBoxes(by_clusters ? gpu::clusterBoxes(pack, player) : gpu::instanceBoxes(pack, player),
-                      gpu::sceneBounds(pack, player), aspect);
+    const bool by_clusters = countClusters(pack, instances) <= kMostClusterBoxes;
+    return frameBoxes(by_clusters ? gpu::clusterBoxes(pack, player, instances)
+                                  : gpu::instanceBoxes(pack, player, instances),
+                      gpu::instanceBounds(pack, player, instances), aspect);
 }
 
 shared::Camera fitCamera(std::span<const gpu::PlacedBox> boxes, float aspect)

@@ -14,6 +14,10 @@ namespace hearth::viewer
 /// small margin: deformed instances in the player's pose. A scene without triangles gets a view of the origin.
 shared::Camera fitCamera(const formats::PackView& pack, const pack::PosePlayer& player, float aspect);
 
+/// The same for some instances of the pack.
+shared::Camera fitCamera(const formats::PackView& pack, const pack::PosePlayer& player,
+                         formats::Range instances, float aspect);
+
 /// The same for what is in boxes.
 shared::Camera fitCamera(std::span<const gpu::PlacedBox> boxes, float aspect);
 

@@ -20,6 +20,14 @@ std::string number(double value)
     return text;
 }
 
+/// Six digits, whatever the magnitude.
+std::string shortNumber(double value)
+{
+    char text[32];
+    std::snprintf(text, sizeof(text), "%.6g", value);
+    return text;
+}
+
 std::string quotedJson(std::string_view text)
 {
     std::string result(1, '"');
@@ -53,6 +61,21 @@ std::string formatFrames(std::span<const FrameCounts> frames)
         text += (text.empty() ? "[\n  " : ",\n  ") + members + "}";
     }
     return text + "]";
+}
+
+/// A JSON object: where each asset is on the sheet.
+std::string formatSheet(const Sheet& sheet)
+{
+    const SheetLayout& layout = sheet.layout;
+    std::string assets;
+    for (size_t i = 0; i < sheet.assets.size(); ++i)
+        assets +=
+            (i == 0 ? "\n  {\"index\":" : ",\n  {\"index\":") + std::to_string(sheet.assets[i]) +
+            ",\"name\":" + quotedJson(sheet.names[i]) + ",\"size\":" + shortNumber(double{sheet.sides[i]}) +
+            ",\"x\":" + std::to_string(layout.cellX(i)) + ",\"y\":" + std::to_string(layout.cellY(i)) + "}";
+    return "{\"columns\":" + std::to_string(layout.columns) + ",\"rows\":" + std::to_string(layout.rows) +
+           ",\"cell_width\":" + std::to_string(layout.cell_width) +
+           ",\"cell_height\":" + std::to_string(layout.cell_height) + ",\"assets\":[" + assets + "]}";
 }
 
 } // namespace
@@ -156,6 +179,8 @@ std::string formatReport(const FrameReport& report, const formats::PackView& pac
     add("device", quotedJson(report.device));
     add("width", std::to_string(report.width));
     add("height", std::to_string(report.height));
+    if (report.sheet)
+        add("sheet", formatSheet(*report.sheet));
     add("error_pixels", number(double{report.error_pixels}));
     add("instances", std::to_string(pack.instances().size()));
     add("materials", std::to_string(pack.materials().size()));

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
+#include "runtime/viewer/contact_sheet.h"
 #include "runtime/viewer/cull_report.h"
 #include "runtime/viewer/shadow_report.h"
 #include "runtime/viewer/stream_report.h"
@@ -56,7 +57,8 @@ struct FrameCounts
 struct FrameReport
 {
     std::string device;
-    uint32_t width = 0, height = 0;
+    uint32_t width = 0, height = 0; ///< of a frame; of a sheet, of one in a cell
+    std::optional<Sheet> sheet;
     float error_pixels = 0;
     uint64_t scene_bytes = 0, target_bytes = 0;
     uint32_t dropped_lights = 0;

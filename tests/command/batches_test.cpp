@@ -103,19 +103,39 @@ protected:
         return programs.has("processes") ? countOf(programs.read("processes"), what + "\n") : 0;
     }
 
+    /// Returns the events of each action, "import a.gltf", of a cook with_events: "start end cooked".
+    std::map<std::string, std::string> eventsOfActions() const
+    {
+        std::map<std::string, std::string> of_action;
+        std::istringstream lines(programs.read("events"));
+        for (std::string line; std::getline(lines, line);)
+        {
+            const auto event = Json::parse(line).value();
+            if (event.contains("cooker"))
+                of_action[event["cooker"].get<std::string>() + " " + event["subject"].get<std::string>()] +=
+                    event["event"].get<std::string>() + " " + event.value("state", "");
+        }
+        return of_action;
+    }
+
     Sandbox programs;
     Sandbox folder;
+    const std::vector<std::string> with_events{"-j2", "--events", programs / "events"};
 };
 
 } // namespace
 
 TEST_F(Batches, aFewProcessesRunManyActions)
 {
-    const ProgramEnd end = cook(crowd());
+    const ProgramEnd end = cook(crowd(), with_events);
     EXPECT_EQ(end.exit_code, 0) << end.err;
     EXPECT_TRUE(command::verifyFile(folder / "a.hearth").ok());
     EXPECT_EQ(folder.list(), std::vector<std::string>{"a.hearth"});
     EXPECT_EQ(countOf(end.err, "    4 cookers  "), 12u) << end.err;
+    const std::map<std::string, std::string> of_action = eventsOfActions();
+    EXPECT_EQ(of_action.size(), 4 * 12u + 1) << "each source's, and the link";
+    for (const auto& [action, events] : of_action)
+        EXPECT_EQ(events, "start end cooked") << action;
     for (const char* cooker : {"import", "textures", "clusters", "skinning"})
     {
         EXPECT_GE(processes(cooker), 1u);
@@ -174,16 +194,8 @@ TEST_F(Batches, eventsAreThoseOfActionsAlone)
 {
     std::vector<std::string> sources = crowd();
     sources[2] = "crash.gltf"; // those behind it are begun anew
-    EXPECT_EQ(cook(sources, {"-j2", "--events", programs / "events"}).exit_code, 70);
-    std::map<std::string, std::string> of_action;
-    std::istringstream lines(programs.read("events"));
-    for (std::string line; std::getline(lines, line);)
-    {
-        const auto event = Json::parse(line).value();
-        if (event.contains("cooker"))
-            of_action[event["cooker"].get<std::string>() + " " + event["subject"].get<std::string>()] +=
-                event["event"].get<std::string>() + " " + event.value("state", "");
-    }
+    EXPECT_EQ(cook(sources, with_events).exit_code, 70);
+    const std::map<std::string, std::string> of_action = eventsOfActions();
     EXPECT_EQ(of_action.size(), 12u + 3 * 11u);
     for (const auto& [action, events] : of_action)
         EXPECT_EQ(events, action == "import crash.gltf" ? "start end failed" : "start end cooked") << action;

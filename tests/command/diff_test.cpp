@@ -106,7 +106,11 @@ TEST_F(Diff, eachChangeIsToldUnderItsName)
         {{"changed light light: intensity"}, [](PackModel& pack) { pack.lights[0].intensity *= 2; }},
         {{"changed camera camera: y_fov_rad"}, [](PackModel& pack) { pack.cameras[0].y_fov_rad *= 1.25F; }},
         {{"changed instance strip node: world_from_object"},
-         [](PackModel& pack) { pack.instances[0].world_from_object.m[0][3] += 1; }},
+         [](PackModel& pack)
+         {
+             pack.instances[0].world_from_object.m[0][3] += 1;
+             pack.assets[0].box_max.x += 1;
+         }},
         {{"changed mesh strip: source vertices"},
          [](PackModel& pack) { pack.meshes[0].source_vertices += 1; }},
         {{"changed mesh strip: level 1", "changed mesh strip: hierarchy"},

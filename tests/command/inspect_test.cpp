@@ -95,6 +95,28 @@ TEST_F(Inspect, countsWhatEachMeshHas)
     EXPECT_EQ(json["totals"]["bytes"]["bounds"], 48 + 48 + 2 * 4);
 }
 
+TEST_F(Inspect, listsTheAssetsWithTheirSizes)
+{
+    PackModel model = smallPack();
+    Json json = inspected(model);
+    ASSERT_EQ(json["assets"].size(), 1u);
+    EXPECT_EQ(json["assets"][0], (Json{{"index", 0},
+                                       {"name", "Lager\xC3\xB6"},
+                                       {"box", {{0.0, 0.0, 0.0}, {4.0, 0.5, 1.0}}},
+                                       {"size", {4.0, 0.5, 1.0}},
+                                       {"instances", {{"first", 0}, {"count", 2}}},
+                                       {"meshes", {{"first", 0}, {"count", 3}}},
+                                       {"nodes", {{"first", 0}, {"count", 4}}}}));
+    EXPECT_NE(text.find("asset      \"Lager\xC3\xB6\": 4 x 0.5 x 1 m, 3 meshes, 2 instances\n"),
+              std::string::npos)
+        << text;
+
+    model.assets.clear();
+    json = inspected(model);
+    EXPECT_TRUE(json["assets"].empty()) << "a pack that is older";
+    EXPECT_EQ(text.find("asset "), std::string::npos);
+}
+
 TEST_F(Inspect, describesTheBricks)
 {
     PackModel model = smallPack();

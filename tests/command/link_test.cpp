@@ -305,6 +305,68 @@ TEST_F(LinkPack, secondSourceStandsBehindTheFirst)
     EXPECT_TRUE(sameBytes(pack.imageData(3).value().bytes(), model.image_data[1]));
 }
 
+TEST_F(LinkPack, anAssetForEachSource)
+{
+    addParts(named("Old.Rock.gltf"), "a");
+    PackModel second = named("b.gltf");
+    second.instances[0].world_from_object.m[0][3] = -20; // the strip, from 0 to 4 along x
+    second.nodes[2].parent_from_node.m[1][3] = 10;       // one of the joints of the triangle
+    second.nodes[2].has_trs = 0;
+    second.deformed_clusters[0].morph_reach = 0.5f; // with a weight of 1; it has a half of that
+    addParts(second, "b");
+    PackModel third = named(".hidden");
+    third.instances.clear();
+    addParts(third, "c");
+    const PackView pack = linked();
+
+    ASSERT_EQ(pack.assets().size(), 3u);
+    const auto nodes = static_cast<uint32_t>(second.nodes.size());
+    const auto expectRange = [](Range range, uint32_t first, uint32_t count)
+    {
+        EXPECT_EQ(range.first, first);
+        EXPECT_EQ(range.count, count);
+    };
+    for (uint32_t i = 0; i < 3; ++i)
+    {
+        SCOPED_TRACE(i);
+        expectRange(pack.assets()[i].instances, 2 * i, i < 2 ? 2 : 0);
+        expectRange(pack.assets()[i].meshes, 3 * i, 3);
+        expectRange(pack.assets()[i].nodes, nodes * i, nodes);
+    }
+    EXPECT_EQ(pack.text(pack.assets()[0].name), "Old.Rock");
+    EXPECT_EQ(pack.text(pack.assets()[1].name), "b");
+    EXPECT_EQ(pack.text(pack.assets()[2].name), ".hidden");
+
+    const auto expectBox = [](const AssetRecord& asset, Float3 low, Float3 high)
+    {
+        for (int axis = 0; axis < 3; ++axis)
+        {
+            EXPECT_LE(asset.box_min[axis], low[axis]);
+            EXPECT_GE(asset.box_max[axis], high[axis]);
+            EXPECT_NEAR(asset.box_min[axis], low[axis], 1e-5f);
+            EXPECT_NEAR(asset.box_max[axis], high[axis], 1e-5f);
+        }
+    };
+    EXPECT_EQ(pack.assets()[0].box_min, (Float3{0, 0, 0})) << "what floats can say is not rounded";
+    expectBox(pack.assets()[0], {0, 0, 0}, {4, 96 / 1024.0f, 1});
+    expectBox(pack.assets()[1], {-20, -0.25f, -0.25f}, {1.25f, 10.25f, 1.25f});
+    EXPECT_EQ(pack.assets()[2].box_min, (Float3{}));
+    EXPECT_EQ(largestSide(pack.assets()[2]), 0) << "draws nothing";
+    EXPECT_NEAR(largestSide(pack.assets()[1]), 21.25f, 1e-4f);
+}
+
+TEST_F(LinkPack, refusesAPartWhoseJointsAreWrong)
+{
+    PackModel model = smallPack();
+    model.nodes[2].parent = 1; // and that one's is node 2
+    addParts(model, "a");
+    const Status wrong = link();
+    ASSERT_FALSE(wrong.ok());
+    EXPECT_EQ(wrong.error().issue, Issue::meaning_tree);
+    EXPECT_EQ(wrong.error().file, sandbox / "a.import.part");
+    EXPECT_FALSE(sandbox.has("out.hearth"));
+}
+
 TEST_F(LinkPack, sameBytesWhereverItIsDone)
 {
     addParts(named("a.gltf"), "a");

@@ -159,6 +159,29 @@ TEST_F(Watch, takesSourcesThatComeAndGo)
     EXPECT_EQ(end(SIGINT).exit_code, 130);
 }
 
+TEST_F(Watch, looksAtLevelsOfDetail)
+{
+    fs::create_directories(folder / "village");
+    const auto put = [&](const std::string& name, double height)
+    {
+        writeObj(folder, "made", height);
+        fs::rename(folder / "made.obj", folder / ("village/" + name));
+    };
+    put("house_LOD0.obj", 1);
+    put("house_LOD1.obj", 2);
+    start({"village"});
+    ASSERT_TRUE(waitsAfter(0)) << folder.errSoFar();
+    put("house_LOD1.obj", 3);
+    ASSERT_TRUE(waitsAfter(1)) << folder.errSoFar();
+    EXPECT_NE(folder.errSoFar().find("village/house_LOD1.obj has changed"), std::string::npos)
+        << folder.errSoFar();
+    put("house_LOD2.obj", 4);
+    ASSERT_TRUE(waitsAfter(2)) << folder.errSoFar();
+    EXPECT_NE(folder.errSoFar().find("village/house_LOD2.obj has changed"), std::string::npos)
+        << folder.errSoFar();
+    EXPECT_EQ(end(SIGINT).exit_code, 130);
+}
+
 TEST_F(Watch, aWrongCommandLineEnds)
 {
     start({"house.obj", "house.obj", "--lod", "1=house.obj"});

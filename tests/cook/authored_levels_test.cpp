@@ -7,6 +7,7 @@
 #include "tests/cook/shapes.h"
 #include "tests/cook/soundness.h"
 #include "tests/cook/surface_distance.h"
+#include "tests/support/sanitized.h"
 
 #include <gtest/gtest.h>
 
@@ -46,7 +47,7 @@ uint32_t eraOf(const Hierarchy& hierarchy, uint32_t level)
 /// A rock of 19200 triangles and three levels of it with materials of their own.
 struct Rock
 {
-    SourceMesh source = shapes::rock(40, 0.3f);
+    SourceMesh source = shapes::rock(test::kSanitized ? 28 : 40, 0.3f);
     std::vector<SourceMesh> levels{shapes::rock(20, 0.3f), shapes::rock(9, 0.28f), shapes::rock(3, 0.2f)};
 
     Rock()

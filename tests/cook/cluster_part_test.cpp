@@ -4,6 +4,7 @@
 #include "formats/pack_check.h"
 #include "tests/cook/shapes.h"
 #include "tests/formats/temporary_folder.h"
+#include "tests/support/sanitized.h"
 
 #include <gtest/gtest.h>
 
@@ -82,6 +83,7 @@ formats::ContainerReader partWithLods(const test::TemporaryFolder& folder,
     const uint32_t sizes[] = {40, 20, 3};
     for (uint32_t i = 0; i < 3; ++i)
         EXPECT_TRUE(mesh::writeSourceMesh(*writer, i, shapes::rock(sizes[i], 0.2f)).ok());
+    EXPECT_TRUE(writer->addText(formats::kChunkStrings, "mid").ok());
     EXPECT_TRUE(writer->addRecords<formats::AuthoredLodRecord>(formats::kChunkAuthoredLods, lods).ok());
     EXPECT_TRUE(writer->finish().ok());
     auto reader = formats::ContainerReader::open(path);
@@ -92,7 +94,7 @@ formats::ContainerReader partWithLods(const test::TemporaryFolder& folder,
 TEST(ClustersPart, hasAuthoredLevelsInTheMeshThatTheyBelongTo)
 {
     const test::TemporaryFolder folder;
-    const auto part = partWithLods(folder, {{0, 1}, {0, 2}});
+    const auto part = partWithLods(folder, {{0, 1, 7, {0, 3}}, {0, 2, formats::kNone, {}}});
     ASSERT_EQ(messageOf(clusters::writeClustersPart(part, folder.file("out.part"), {}, {})), "");
     auto reader = formats::ContainerReader::open(folder.file("out.part"));
     ASSERT_TRUE(reader.ok());
@@ -110,12 +112,21 @@ TEST(ClustersPart, hasAuthoredLevelsInTheMeshThatTheyBelongTo)
         std::any_of(view->groups().begin(), view->groups().end(),
                     [](const formats::GroupRecord& group) { return group.set_offset != 0; });
     EXPECT_TRUE(has_sets) << "the level below the first has several groups";
+    ASSERT_EQ(view->authoredLevels().size(), 2u);
+    const formats::AuthoredLevelRecord mid = view->authoredLevels()[0], low = view->authoredLevels()[1];
+    EXPECT_EQ(view->levels()[mid.level].triangle_count, 12u * 20 * 20);
+    EXPECT_EQ(view->levels()[low.level].triangle_count, 12u * 3 * 3);
+    EXPECT_EQ(mid.number, 7u);
+    EXPECT_EQ(view->text(mid.name), "mid");
+    EXPECT_EQ(low.number, formats::kNone);
+    EXPECT_EQ(view->text(low.name), "");
 }
 
 TEST(ClustersPart, refusesLevelsOfNoMesh)
 {
     const test::TemporaryFolder folder;
-    for (const formats::AuthoredLodRecord bad : {formats::AuthoredLodRecord{0, 3}, {3, 0}, {1, 1}})
+    for (const formats::AuthoredLodRecord bad :
+         {formats::AuthoredLodRecord{0, 3, 1, {}}, {3, 0, 1, {}}, {1, 1, 1, {}}})
     {
         const Status status =
             clusters::writeClustersPart(partWithLods(folder, {bad}), folder.file("out.part"), {}, {});
@@ -129,7 +140,7 @@ TEST(ClustersPart, isTheSameForAnyNumberOfThreads)
 {
     const test::TemporaryFolder folder;
     std::vector<mesh::SourceMesh> meshes;
-    for (uint32_t i = 0; i < 24; ++i)
+    for (uint32_t i = 0; i < (test::kSanitized ? 6 : 24); ++i)
         meshes.push_back(i % 5 == 4 ? shapes::soup(100 + i) : shapes::rock(6 + i, 0.3f));
     writeImportPart(folder.file("import.part"), meshes);
     const auto import_part = formats::ContainerReader::open(folder.file("import.part"));

@@ -37,6 +37,9 @@ const std::vector<MalformedPack>& malformedHierarchies();
 /// Wrong bounds of deformed meshes.
 const std::vector<MalformedPack>& malformedDeformations();
 
+/// Wrong records of where things come from.
+const std::vector<MalformedPack>& malformedProvenance();
+
 /// Wrong tables of specular occlusion.
 const std::vector<MalformedPack>& malformedSpecularTables();
 

@@ -250,6 +250,7 @@ constexpr auto kCaseName = [](const testing::TestParamInfo<MalformedPack>& info)
 INSTANTIATE_TEST_SUITE_P(Scene, MalformedPackTest, testing::ValuesIn(malformedScenes()), kCaseName);
 INSTANTIATE_TEST_SUITE_P(Deformation, MalformedPackTest, testing::ValuesIn(malformedDeformations()),
                          kCaseName);
+INSTANTIATE_TEST_SUITE_P(Provenance, MalformedPackTest, testing::ValuesIn(malformedProvenance()), kCaseName);
 INSTANTIATE_TEST_SUITE_P(Specular, MalformedPackTest, testing::ValuesIn(malformedSpecularTables()),
                          kCaseName);
 INSTANTIATE_TEST_SUITE_P(Bricks, MalformedPackTest, testing::ValuesIn(malformedBricks()), kCaseName);

@@ -281,6 +281,18 @@ void addBricks(PackModel& pack)
     pack.brick_grids = {pack.bricks.grid};
 }
 
+/// Everything comes from one source. The strip reaches from 0 to 4 along x, the triangle's joints to 1.5.
+void addAsset(PackModel& pack)
+{
+    AssetRecord asset{};
+    asset.name = intern(pack, "Lager\xC3\xB6");
+    asset.instances.count = static_cast<uint32_t>(pack.instances.size());
+    asset.meshes.count = static_cast<uint32_t>(pack.meshes.size());
+    asset.nodes.count = static_cast<uint32_t>(pack.nodes.size());
+    asset.box_max = {4, 0.5f, 1};
+    pack.assets.push_back(asset);
+}
+
 void addNodes(PackModel& pack)
 {
     NodeRecord node{};
@@ -487,12 +499,14 @@ std::vector<ChunkImage> PackModel::chunks(bool compressed) const
     table(kChunkKeys, keys);
     table(kChunkKeyBits, key_bits);
     table(kChunkMorphWeights, morph_weights);
+    table(kChunkAssets, assets);
     table(kChunkMeshes, meshes);
     table(kChunkLevels, levels);
     table(kChunkGroups, groups);
     table(kChunkClusters, clusters);
     table(kChunkPageTable, pages);
     table(kChunkPageParents, page_parents);
+    table(kChunkAuthoredLevels, authored_levels);
     table(kChunkDeformedMeshes, deformed_meshes);
     table(kChunkDeformedClusters, deformed_clusters);
     table(kChunkClusterJoints, cluster_joints);
@@ -522,9 +536,11 @@ PackModel smallPack()
     beginMesh(pack, "empty", 0);
     endMesh(pack, 0);
     addTriangle(pack);
+    pack.authored_levels.push_back({0, 1, 2, intern(pack, "strip_LOD2.obj")});
     addBounds(pack);
     addSpecularTable(pack);
     addBricks(pack);
+    addAsset(pack);
     pack.sealPages();
     return pack;
 }

@@ -4,6 +4,7 @@
 
 #include "formats/deformation.h"
 #include "formats/mesh.h"
+#include "formats/provenance.h"
 #include "formats/scene.h"
 #include "formats/specular.h"
 #include "tests/formats/brick_model.h"
@@ -20,6 +21,7 @@ struct PackModel
 {
     std::string meta;
     std::string strings;
+    std::vector<formats::AssetRecord> assets;
     std::vector<formats::NodeRecord> nodes;
     std::vector<formats::InstanceRecord> instances;
     std::vector<formats::CameraRecord> cameras;
@@ -43,6 +45,7 @@ struct PackModel
     std::vector<uint32_t> page_parents;
     std::vector<std::vector<std::byte>> decoded_pages;
     std::vector<std::byte> page_bytes; ///< chunk PAGE
+    std::vector<formats::AuthoredLevelRecord> authored_levels;
     std::vector<formats::DeformedMeshRecord> deformed_meshes;
     std::vector<formats::DeformedClusterRecord> deformed_clusters;
     std::vector<uint32_t> cluster_joints;
@@ -65,7 +68,7 @@ struct PackModel
 };
 
 /// Mesh 0: a folded strip of four quads. Level 0 has a cluster for each quad, two groups of two; each group was
-/// simplified to one flat quad; those two are the root group. Page 0 holds the root, pages 1 and 2 a group each.
+/// simplified to one flat quad; those two are the root group, and said to be made by hand. Page 0 holds the root, pages 1 and 2 a group each.
 /// Mesh 1: no triangles. Mesh 2: one triangle without attributes, skinned, with one morph target that moves its last vertex.
 PackModel smallPack();
 

@@ -89,6 +89,14 @@ void useScene(const PackView& view)
              view.morphWeights().subspan(node.morph_weights.first, node.morph_weights.count))
             use(std::bit_cast<uint32_t>(weight));
     }
+    for (const AssetRecord& asset : view.assets())
+    {
+        use(view.text(asset.name).size() + std::bit_cast<uint32_t>(largestSide(asset)));
+        for (const InstanceRecord& instance :
+             view.instances().subspan(asset.instances.first, asset.instances.count))
+            HEARTH_ASSERT(instance.mesh - asset.meshes.first < asset.meshes.count &&
+                          instance.node - asset.nodes.first < asset.nodes.count);
+    }
     for (const InstanceRecord& instance : view.instances())
         use(view.meshes()[instance.mesh].clusters.count + view.nodes()[instance.node].parent);
     for (const SkinRecord& skin : view.skins())

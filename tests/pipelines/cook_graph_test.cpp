@@ -21,7 +21,7 @@ CookSettings allSettings()
     CookSettings settings;
     settings.sources = {"props/a.obj"};
     settings.output = "out/a.hearth";
-    settings.lods = {"2=b.obj", "1=low/a=b.obj"};
+    settings.lods_of_source = {{"2=b.obj", "1=low/a=b.obj"}};
     settings.settings_of_source = {
         {{"--set", "animation.error=0.5"},
          {"--max-size", "64"},
@@ -116,7 +116,7 @@ TEST(CookGraph, refusesLevelsOfDetailThatAreNone)
 {
     CookSettings settings;
     settings.sources = {"a.obj"};
-    settings.lods = {"one=b.obj"};
+    settings.lods_of_source = {{"one=b.obj"}};
     EXPECT_EQ(makeCookGraph(settings).error().issue, Issue::usage);
 }
 

@@ -78,7 +78,7 @@ protected:
     {
         const Assignments settings{"clusters.influences=4", "visibility.enabled=true"};
         return {{folder / "a.obj", folder / "b.obj", folder / "c.obj"},
-                {},
+                {{}, {"1=" + folder / "b.obj"}, {}},
                 {settings, settings, settings},
                 {"bricks.bake=2"}};
     }
@@ -315,7 +315,7 @@ TEST_F(PlanFile, isRefusedWhereItIsNotWhatACookWouldBe)
         {"/cook", [](Json& p) { p["cook"]["settings"][0][0] = "visibility.poses=--debug-output"; }},
         {"/cook", [](Json& p) { p["cook"]["settings"][0][0] = "visibility.poses=['-o']"; }},
         {"/cook", [](Json& p) { p["cook"]["pack"][0] = "--launcher=sh"; }},
-        {"/cook", [](Json& p) { p["cook"]["lods"] = {"1=-o"}; }},
+        {"/cook", [](Json& p) { p["cook"]["lods"][0].push_back("1=-o"); }},
         {"/cookers", [](Json& p) { p["cookers"]["sh"] = p["cookers"]["import"]; }},
         {"/cookers", [](Json& p) { p["cookers"].erase("link"); }},
         {"/cookers", [](Json& p) { p["cookers"]["import"] = "whatever"; }},

@@ -1,8 +1,9 @@
 // Levels of detail in glTF files: MSFT_lod, names, and what is not usable of them.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/tools/lod_files.h"
 #include "pipelines/import/bake_transform.h"
-#include "pipelines/import/gltf_lods.h"
 #include "tests/pipelines/gltf_fixture.h"
+#include "tests/support/sanitized.h"
 
 #include <cmath>
 
@@ -111,6 +112,33 @@ TEST(GltfLods, areFoundByTheNamesOfNodes)
     EXPECT_EQ(result.mesh(5).name, "c");
     EXPECT_EQ(drawnNodes(result), (Nodes{0, 3, 4, 6}))
         << "a level without a finest one, other names, and nodes elsewhere are drawn as ever";
+}
+
+/// The number and name of each level, as "2 rock_lod2"; "-" for no number.
+std::vector<std::string> labelsOf(const Imported& result)
+{
+    const std::string strings = result.text(kChunkStrings);
+    std::vector<std::string> labels;
+    for (const AuthoredLodRecord& record : result.records<AuthoredLodRecord>(kChunkAuthoredLods))
+        labels.push_back((record.number == kNone ? "-" : std::to_string(record.number)) + " " +
+                         strings.substr(record.name.offset, record.name.length));
+    return labels;
+}
+
+TEST(GltfLods, keepTheirNamesAndTheNumbersInThem)
+{
+    using Labels = std::vector<std::string>;
+    EXPECT_EQ(labelsOf(import(R"("nodes":[
+        {"mesh":0,"name":"Rock_LOD0"},{"mesh":2,"name":"rock_lod4"},{"mesh":1,"name":"Rock_LOD2"}])")),
+              (Labels{"2 Rock_LOD2", "4 rock_lod4"}));
+    EXPECT_EQ(labelsOf(import(R"("extensionsUsed":["MSFT_lod"],"nodes":[
+        {"mesh":0,"extensions":{"MSFT_lod":{"ids":[1,2]}}},{"mesh":1},{"mesh":2,"name":"far"}])")),
+              (Labels{"- b", "- far"}))
+        << "a node without a name has that of its mesh";
+    const std::string named = replaced(replaced(kMeshes, R"("a")", R"("x_LOD0")"), R"("b")", R"("x_LOD7")");
+    EXPECT_EQ(labelsOf(lodData().import(named + R"("nodes":[{"mesh":0,"name":"n"},{"mesh":1,"name":"m"}])")),
+              (Labels{"7 x_LOD7"}))
+        << "the mesh's name has the number";
 }
 
 TEST(GltfLods, areFoundByTheNamesOfMeshes)
@@ -270,7 +298,7 @@ TEST(GltfLods, thatCannotBeMovedAreDropped)
 TEST(GltfLods, inADeepTreeDoNotCostItsDepth)
 {
     // each of many nodes on one long branch lists the last one, which holds none of them
-    constexpr int kDepth = 20000;
+    constexpr int kDepth = kSanitized ? 5000 : 20000;
     std::string nodes = R"("nodes":[)";
     for (int i = 0; i < kDepth; ++i)
         nodes += R"({"mesh":0,"children":[)" + std::to_string(i + 1) +
@@ -283,7 +311,7 @@ TEST(ParseLodName, findsTheLevel)
 {
     const auto parsed = [](std::string_view name)
     {
-        const auto lod = parseLodName(name);
+        const auto lod = tools::parseLodName(name);
         return lod ? lod->stem + ":" + std::to_string(lod->level) : std::string("-");
     };
     EXPECT_EQ(parsed("Rock_LOD0"), "rock:0");

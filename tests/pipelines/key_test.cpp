@@ -49,7 +49,7 @@ protected:
         CookSettings settings;
         settings.sources = {sandbox / "a.obj"};
         settings.output = sandbox / "a.hearth";
-        settings.lods = {"1=" + sandbox / "low.obj"};
+        settings.lods_of_source = {{"1=" + sandbox / "low.obj"}};
         settings.settings_of_source = {{{"--set", "animation.error=1"},
                                         {"--max-size", "64"},
                                         {"--set", "clusters.influences=4"},
@@ -136,11 +136,12 @@ TEST_F(Keys, everyParameterChangesThem)
          {
              s.sources.push_back(low);
              s.settings_of_source.push_back(s.settings_of_source[0]);
+             s.lods_of_source.emplace_back();
          },
          kOfSource},
-        {"no lod", [](CookSettings& s) { s.lods.clear(); }, kOfSource},
-        {"another level", [&](CookSettings& s) { s.lods = {"2=" + low}; }, kOfSource},
-        {"another lod", [&](CookSettings& s) { s.lods = {"1=" + s.sources[0]}; }, kOfSource},
+        {"no lod", [](CookSettings& s) { s.lods_of_source.clear(); }, kOfSource},
+        {"another level", [&](CookSettings& s) { s.lods_of_source = {{"2=" + low}}; }, kOfSource},
+        {"another lod", [&](CookSettings& s) { s.lods_of_source = {{"1=" + s.sources[0]}}; }, kOfSource},
         {"nothing told", [](CookSettings& s) { s.settings_of_source[0].import.clear(); }, kOfSource},
         {"error of clips",
          [](CookSettings& s) {
@@ -267,7 +268,7 @@ TEST_F(Keys, hideNoPaths)
 TEST_F(Keys, whatCannotBeReadHasNone)
 {
     CookSettings settings = settingsIn(folder);
-    settings.lods = {"1=" + folder / "missing.obj"};
+    settings.lods_of_source = {{"1=" + folder / "missing.obj"}};
     EXPECT_EQ(keys(settings)["import"], "none");
     settings = settingsIn(folder);
     fs::remove(folder / "hearth-link");

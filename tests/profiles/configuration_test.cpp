@@ -191,7 +191,8 @@ TEST_F(Configurations, rulesMatchPathsInTheProject)
 
 TEST(ToldOfSource, givesEachCookerItsOwnByValue)
 {
-    const auto profile = parseProfileFile("import.crease_angle = 30\nanimation.error = 0.25\n"
+    const auto profile = parseProfileFile("import.crease_angle = 30\nimport.scale = 0.01\nimport.up = 'z'\n"
+                                          "animation.error = 0.25\n"
                                           "clusters.influences = 4\nclusters.levels = [{ keep = 0.6 }]\n"
                                           "textures.max_size = 64\nvisibility.enabled = true\n"
                                           "visibility.quality = 'draft'\nvisibility.distance = 2\n"
@@ -203,7 +204,8 @@ TEST(ToldOfSource, givesEachCookerItsOwnByValue)
     ASSERT_TRUE(profile.ok()) << formatMessage(profile.error());
     using Words = std::vector<std::string>;
     const graph::SourceSettings told = toldOfSource(profile->values).value();
-    EXPECT_EQ(told.import, (Words{"--crease-angle", "30", "--set", "animation.error=0.25"}));
+    EXPECT_EQ(told.import, (Words{"--crease-angle", "30", "--scale", "0.01", "--up", "z", "--set",
+                                  "animation.error=0.25"}));
     EXPECT_EQ(told.textures, (Words{"--max-size", "64"}));
     EXPECT_EQ(told.clusters,
               (Words{"--set", "clusters.influences=4", "--set", "clusters.levels=[{keep=0.6}]"}));

@@ -89,6 +89,7 @@ TEST_F(PicturesOfMeshes, areInThePage)
     const std::string page = folder.read("page.html");
     if (page.find("no usable graphics device") != std::string::npos)
         GTEST_SKIP() << "no device";
+    EXPECT_NE(page.find("\"is_sheet\":true"), std::string::npos) << "both stand at the origin";
     // three views, of the scene and of both meshes
     EXPECT_EQ(countOf(page, "data:image/jpeg;base64,/9j/"), 9u);
     const std::vector<std::string> files{"report", "report.json", "--html", "later.html"};

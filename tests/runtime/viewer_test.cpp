@@ -198,6 +198,10 @@ TEST(RenderOptions, mistakesAreNamed)
     for (const char* views : {"", "final,", "final,nothing", "overdraw"})
         expectUsage({"a.hearth", "-o", "a.png", "--views", views}, "--views");
     expectUsage({"a.hearth", "-o", "a.png", "--views", "lod", "--frames", "2"}, "--views");
+    expectUsage({"a.hearth", "-o", "a.png", "--sheet", "yes"}, "--sheet");
+    for (const char* other : {"--frames=2", "--meshes=0", "--camera-path=p.txt", "--animation=Walk",
+                              "--scene-camera=0", "--dump-visibility=v", "--view=bricks", "--views=final,gi"})
+        expectUsage({"a.hearth", "-o", "a.png", "--sheet", "on", other}, "--sheet on excludes");
     for (const char* start : {"", "noise", "noise:", "noise:x", "noise:-1", "last"})
         expectUsage({"a.hearth", "-o", "a.png", "--hzb", start}, "--hzb");
 }

@@ -54,8 +54,9 @@ function picturesOf(views, uris, name) {
 
 function sceneOf(pictures) {
   if (!pictures.scene.length) return null;
-  const part = section('scene', 'Scene', 'all of the pack, framed', picturesOf(pictures.views, pictures.scene, 'the scene'));
+  const part = section('scene', 'Scene', pictures.is_sheet ? 'contact sheet: the assets stand in one place' : 'all of the pack, framed', picturesOf(pictures.views, pictures.scene, 'the scene'));
   part.classList.add('scene');
+  if (pictures.is_sheet) part.classList.add('sheet');
   return part;
 }
 

@@ -5,12 +5,13 @@
 #include "runtime/pack/pack.h"
 #include "runtime/viewer/animation.h"
 #include "runtime/viewer/camera_path.h"
+#include "runtime/viewer/contact_sheet.h"
 #include "runtime/viewer/file_output.h"
 #include "runtime/viewer/frame_report.h"
-#include "runtime/viewer/mesh_stage.h"
 #include "runtime/viewer/page_reading.h"
 #include "runtime/viewer/pyramid_start.h"
 #include "runtime/viewer/render/options.h"
+#include "runtime/viewer/stage.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -49,12 +50,33 @@ Result<std::vector<shared::Camera>> chooseCameras(const RenderOptions& options, 
     return std::vector<shared::Camera>(options.frames, camera);
 }
 
-/// The error is meant in pixels of the picture, not of its samples.
-FrameSettings settingsOfSamples(const RenderOptions& options, VkExtent2D extent)
+/// Samples of a pixel along one side.
+uint32_t sampleScale(const RenderOptions& options)
+{
+    return options.samples == 4 ? 2 : 1;
+}
+
+/// The error is meant in pixels of the picture, not of its samples. On a sheet the light of bricks is left out: they are those
+/// of all assets at once.
+FrameSettings frameSettings(const RenderOptions& options, bool on_sheet)
 {
     FrameSettings settings = options.settings;
-    settings.error_pixels *= static_cast<float>(extent.width) / static_cast<float>(options.width);
+    settings.error_pixels *= static_cast<float>(sampleScale(options));
+    settings.bricks_light = settings.bricks_light && !on_sheet;
     return settings;
+}
+
+/// The sheet that is to be drawn; none where the scene is.
+Result<std::optional<Sheet>> chooseSheet(const RenderOptions& options, const formats::PackView& pack)
+{
+    const bool automatic = options.sheet == SheetChoice::automatic;
+    if (options.sheet == SheetChoice::off ||
+        (automatic && !(fitsWholeScene(options) && standInOnePlace(pack))))
+        return std::optional<Sheet>();
+    Result<Sheet> sheet = makeSheet(pack, options.width, options.height);
+    if (sheet.ok())
+        return std::optional<Sheet>(std::move(sheet).value());
+    return automatic ? Result<std::optional<Sheet>>(std::optional<Sheet>()) : sheet.error();
 }
 
 void warnAboutLimits(const gpu::Scene& scene, const VisibleList& list, const std::string& name)
@@ -86,9 +108,9 @@ class Run
 {
 public:
     /// stage  null: the whole scene is shown
-    Run(const RenderOptions& options, const formats::PackView& pack, Animation& animation, MeshStage* stage,
-        VulkanHost& host, const gpu::Renderer& renderer, const gpu::Scene& scene, gpu::FrameTargets& targets,
-        VkQueryPool timestamps)
+    Run(const RenderOptions& options, const FrameSettings& settings, const formats::PackView& pack,
+        Animation& animation, Stage* stage, VulkanHost& host, const gpu::Renderer& renderer,
+        const gpu::Scene& scene, gpu::FrameTargets& targets, VkQueryPool timestamps)
         : options_(options),
           pack_(pack),
           animation_(animation),
@@ -98,29 +120,30 @@ public:
           scene_(scene),
           targets_(targets),
           timestamps_(timestamps),
-          settings_(settingsOfSamples(options, targets.extent()))
+          settings_(settings)
     {
     }
 
     /// Of the frames to come.
     void setView(uint32_t view) { settings_.view = view; }
 
-    /// Streams until a frame of this camera has all that it wants.
-    Status prefetch(const shared::Camera& camera)
+    /// Streams until a frame of this camera has all that it wants, of what is not resident.
+    Status prefetch(const shared::Camera& camera, size_t number)
     {
+        if (scene_.stream == nullptr)
+            return success();
         // 256 frames fill the largest pool, 60 raise the error scale to its most: what takes longer does not rest
         constexpr uint64_t kMostFrames = 1000;
         const shared::FrameView view = frameOf(camera).view;
         const uint64_t first = serial_ + 1;
-        HEARTH_TRY(animation_.update(scene_));
+        HEARTH_TRY(goTo(number));
         while (scene_.stream->settledSerial() < first && serial_ < first + kMostFrames)
         {
             beginFrame();
             HEARTH_TRY(host_.run(
                 [&](VkCommandBuffer commands)
                 {
-                    renderer_.recordPrefetch(commands, scene_, targets_, view, animation_.moves(),
-                                             animation_.poses());
+                    renderer_.recordPrefetch(commands, scene_, targets_, view, moves_, poses_);
                     return success();
                 }));
         }
@@ -142,17 +165,9 @@ public:
     {
         gpu::FrameInput frame = frameOf(camera);
         frame.timestamps = timestamps_;
-        animation_.goTo(number);
-        HEARTH_TRY(animation_.update(scene_));
-        frame.moves = animation_.moves();
-        frame.poses = animation_.poses();
-        std::vector<gpu::InstanceMove> alone;
-        if (stage_ != nullptr)
-        {
-            HEARTH_ASSIGN_OR_RETURN(alone, stage_->show(scene_, number));
-            frame.moves = alone;
-            frame.poses = stage_->poses(animation_.player(), number);
-        }
+        HEARTH_TRY(goTo(number));
+        frame.moves = moves_;
+        frame.poses = poses_;
         beginFrame();
         if (options_.pyramid == PyramidStart::none)
             targets_.setPyramidView({});
@@ -171,15 +186,17 @@ public:
         return success();
     }
 
-    /// The last frame that was drawn, into `picture` and `visibility` where they are named.
-    Status write(const std::string& picture_file, const std::string& visibility_file)
+    /// The last frame that was drawn, at the size that was asked for.
+    Result<std::vector<std::byte>> picture()
+    {
+        return readPicture(host_, renderer_, targets_, options_.samples);
+    }
+
+    /// Warn of what the last frame left out, and count it for the statistics.
+    Status note()
     {
         HEARTH_ASSIGN_OR_RETURN(const VisibleList list, readVisibleList(host_, renderer_, scene_));
         warnAboutLimits(scene_, list, pack_.name());
-        HEARTH_ASSIGN_OR_RETURN(const std::vector<std::byte> picture,
-                                readPicture(host_, renderer_, targets_, options_.samples));
-        HEARTH_ASSIGN_OR_RETURN(const std::vector<std::byte> encoded, encodePicture(options_, picture));
-        HEARTH_TRY(writeFile(picture_file, encoded));
         if (!options_.stats.empty())
             HEARTH_TRY(count(list));
         if (scene_.stream != nullptr)
@@ -198,15 +215,20 @@ public:
             warnAboutShadows(counts, pack_.name());
             shadows_.push_back(counts);
         }
-        if (visibility_file.empty())
-            return success();
+        return success();
+    }
+
+    /// What each pixel of the last frame shows.
+    Status writeVisibility(const std::string& file)
+    {
+        HEARTH_ASSIGN_OR_RETURN(const VisibleList list, readVisibleList(host_, renderer_, scene_));
         HEARTH_ASSIGN_OR_RETURN(const std::vector<std::byte> pixels,
                                 host_.read(renderer_.device(), targets_.visibility(), 4));
-        return writeFile(visibility_file,
+        return writeFile(file,
                          formatVisibility(list, pixels, targets_.extent().width, targets_.extent().height));
     }
 
-    Status writeStats() const
+    Status writeStats(const std::optional<Sheet>& sheet) const
     {
         if (options_.stats.empty())
             return success();
@@ -214,6 +236,7 @@ public:
             .device = host_.deviceName(),
             .width = targets_.extent().width,
             .height = targets_.extent().height,
+            .sheet = sheet,
             .error_pixels = options_.settings.error_pixels,
             .scene_bytes = scene_.arena.allocatedBytes() +
                            (scene_.stream == nullptr ? 0 : scene_.stream->allocatedBytes()),
@@ -230,6 +253,20 @@ public:
     }
 
 private:
+    /// The next frame shows that picture of the clip or the stage.
+    Status goTo(size_t number)
+    {
+        animation_.goTo(number);
+        HEARTH_TRY(animation_.update(scene_));
+        moves_.assign(animation_.moves().begin(), animation_.moves().end());
+        poses_ = animation_.poses();
+        if (stage_ == nullptr)
+            return success();
+        HEARTH_ASSIGN_OR_RETURN(moves_, stage_->show(scene_, number));
+        poses_ = stage_->poses(animation_.player(), number);
+        return success();
+    }
+
     gpu::FrameInput frameOf(const shared::Camera& camera) const
     {
         gpu::FrameInput frame = makeFrame(settings_, camera, scene_.instance_count, targets_.extent());
@@ -279,13 +316,15 @@ private:
     const RenderOptions& options_;
     const formats::PackView& pack_;
     Animation& animation_;
-    MeshStage* stage_;
+    Stage* stage_;
     VulkanHost& host_;
     const gpu::Renderer& renderer_;
     const gpu::Scene& scene_;
     gpu::FrameTargets& targets_;
     VkQueryPool timestamps_;
     FrameSettings settings_;
+    std::vector<gpu::InstanceMove> moves_;       ///< of the next frame
+    std::span<const gpu::InstancePose> poses_{}; ///< the same
     std::vector<std::vector<double>> times_;
     std::vector<FrameCounts> frames_; ///< of those that were written
     std::vector<StreamCounts> streaming_;
@@ -320,24 +359,116 @@ gpu::SceneOptions sceneOptions(const RenderOptions& options, const formats::Pack
     return scene;
 }
 
+/// Cameras of the pictures; a stage where each of these shows a part of the scene alone.
+struct Pictures
+{
+    std::optional<Stage> stage;
+    std::vector<shared::Camera> cameras;
+};
+
+float aspectOf(uint32_t width, uint32_t height)
+{
+    return static_cast<float>(width) / static_cast<float>(height);
+}
+
+Result<Pictures> choosePictures(const RenderOptions& options, const formats::PackView& pack,
+                                const pack::PosePlayer& player, const std::optional<Sheet>& sheet)
+{
+    Pictures pictures;
+    if (sheet)
+    {
+        std::vector<formats::Range> parts;
+        for (const uint32_t asset : sheet->assets)
+            parts.push_back(pack.assets()[asset].instances);
+        pictures.stage = Stage::ofInstances(pack, player, parts,
+                                            aspectOf(sheet->layout.cell_width, sheet->layout.cell_height));
+    }
+    else if (!options.meshes.empty())
+    {
+        HEARTH_ASSIGN_OR_RETURN(pictures.stage, Stage::ofMeshes(pack, player, options.meshes,
+                                                                aspectOf(options.width, options.height)));
+    }
+    if (pictures.stage)
+        pictures.cameras = pictures.stage->cameras();
+    else
+    {
+        HEARTH_ASSIGN_OR_RETURN(pictures.cameras, chooseCameras(options, pack, player));
+    }
+    return pictures;
+}
+
+std::vector<Named<uint32_t>> viewsOf(const RenderOptions& options)
+{
+    return options.views.empty() ? std::vector<Named<uint32_t>>{{"", options.settings.view}} : options.views;
+}
+
+Status writePicture(const RenderOptions& options, const std::string& file, std::span<const std::byte> pixels)
+{
+    HEARTH_ASSIGN_OR_RETURN(const std::vector<std::byte> encoded, encodePicture(options, pixels));
+    return writeFile(file, encoded);
+}
+
+/// A file for each picture and view; of --frames the last one alone.
+Status drawPictures(const RenderOptions& options, const Pictures& pictures, Run& run)
+{
+    const std::vector<shared::Camera>& cameras = pictures.cameras;
+    const bool is_sequence = !options.camera_path.empty() || pictures.stage;
+    if (!is_sequence)
+        HEARTH_TRY(run.prefetch(cameras.front(), 0));
+    HEARTH_TRY(run.settle(cameras.front()));
+    for (size_t i = 0; i < cameras.size(); ++i)
+        for (const Named<uint32_t>& view : viewsOf(options))
+        {
+            run.setView(view.value);
+            HEARTH_TRY(run.draw(cameras[i], i));
+            if (!is_sequence && i + 1 < cameras.size())
+                continue;
+            const auto file = [&](const std::string& name)
+            {
+                const std::string of_view = viewFile(name, view.name);
+                return is_sequence ? numberedFile(of_view, i) : of_view;
+            };
+            HEARTH_ASSIGN_OR_RETURN(const std::vector<std::byte> picture, run.picture());
+            HEARTH_TRY(writePicture(options, file(options.output), picture));
+            HEARTH_TRY(run.note());
+            if (!options.visibility.empty())
+                HEARTH_TRY(run.writeVisibility(file(options.visibility)));
+        }
+    return success();
+}
+
+/// A file for each view, once all cells are drawn.
+Status drawSheet(const RenderOptions& options, const Pictures& pictures, const Sheet& sheet, Run& run)
+{
+    const std::vector<Named<uint32_t>> views = viewsOf(options);
+    std::vector<SheetPicture> sheets(views.size(), SheetPicture(sheet));
+    for (size_t cell = 0; cell < pictures.cameras.size(); ++cell)
+    {
+        HEARTH_TRY(run.prefetch(pictures.cameras[cell], cell));
+        for (size_t view = 0; view < views.size(); ++view)
+        {
+            run.setView(views[view].value);
+            HEARTH_TRY(run.draw(pictures.cameras[cell], cell));
+            HEARTH_ASSIGN_OR_RETURN(const std::vector<std::byte> picture, run.picture());
+            sheets[view].place(cell, picture);
+            HEARTH_TRY(run.note());
+        }
+    }
+    for (size_t view = 0; view < views.size(); ++view)
+        HEARTH_TRY(writePicture(options, viewFile(options.output, views[view].name), sheets[view].pixels()));
+    std::printf(
+        "contact sheet of %zu assets%s\n", sheet.assets.size(),
+        options.sheet == SheetChoice::on ? "" : ", which stand in one place (--sheet off draws the scene)");
+    return success();
+}
+
 Status drawPack(const RenderOptions& options, const formats::PackView& pack, VulkanHost& host)
 {
     HEARTH_TRY(checkPack(options, pack));
     HEARTH_ASSIGN_OR_RETURN(Animation animation, Animation::create(options.animation, pack));
     animation.goTo(0);
-    std::optional<MeshStage> stage;
-    std::vector<shared::Camera> cameras;
-    if (options.meshes.empty())
-    {
-        HEARTH_ASSIGN_OR_RETURN(cameras, chooseCameras(options, pack, animation.player()));
-    }
-    else
-    {
-        HEARTH_ASSIGN_OR_RETURN(
-            stage, MeshStage::create(pack, animation.player(), options.meshes,
-                                     static_cast<float>(options.width) / static_cast<float>(options.height)));
-        cameras = stage->cameras();
-    }
+    HEARTH_ASSIGN_OR_RETURN(const std::optional<Sheet> sheet, chooseSheet(options, pack));
+    HEARTH_ASSIGN_OR_RETURN(Pictures pictures, choosePictures(options, pack, animation.player(), sheet));
     HEARTH_ASSIGN_OR_RETURN(const std::unique_ptr<gpu::Renderer> renderer,
                             gpu::Renderer::create(host.description()));
     if (options.settings.view == shared::kViewOverdraw)
@@ -346,38 +477,22 @@ Status drawPack(const RenderOptions& options, const formats::PackView& pack, Vul
     HEARTH_TRY(host.run(
         [&](VkCommandBuffer commands) -> Status
         {
-            HEARTH_ASSIGN_OR_RETURN(scene,
-                                    renderer->upload(pack, commands, sceneOptions(options, pack, cameras)));
+            HEARTH_ASSIGN_OR_RETURN(
+                scene, renderer->upload(pack, commands, sceneOptions(options, pack, pictures.cameras)));
             return success();
         }));
     scene->staging.reset();
 
-    const uint32_t scale = options.samples == 4 ? 2 : 1;
-    HEARTH_ASSIGN_OR_RETURN(gpu::FrameTargets targets,
-                            renderer->createTargets({options.width * scale, options.height * scale}));
+    const uint32_t scale = sampleScale(options);
+    HEARTH_ASSIGN_OR_RETURN(
+        gpu::FrameTargets targets,
+        renderer->createTargets({(sheet ? sheet->layout.cell_width : options.width) * scale,
+                                 (sheet ? sheet->layout.cell_height : options.height) * scale}));
     HEARTH_ASSIGN_OR_RETURN(const VkQueryPool timestamps, host.createTimestamps(gpu::kTimestampCount));
-    Run run(options, pack, animation, stage ? &*stage : nullptr, host, *renderer, *scene, targets,
-            timestamps);
-    const bool is_sequence = !options.camera_path.empty() || stage.has_value();
-    if (scene->stream != nullptr && !is_sequence)
-        HEARTH_TRY(run.prefetch(cameras.front()));
-    HEARTH_TRY(run.settle(cameras.front()));
-    const std::vector<Named<uint32_t>> views =
-        options.views.empty() ? std::vector<Named<uint32_t>>{{"", options.settings.view}} : options.views;
-    for (size_t i = 0; i < cameras.size(); ++i)
-        for (const Named<uint32_t>& view : views)
-        {
-            run.setView(view.value);
-            HEARTH_TRY(run.draw(cameras[i], i));
-            const auto file = [&](const std::string& name)
-            {
-                const std::string of_view = name.empty() ? name : viewFile(name, view.name);
-                return !is_sequence || name.empty() ? of_view : numberedFile(of_view, i);
-            };
-            if (is_sequence || i + 1 == cameras.size())
-                HEARTH_TRY(run.write(file(options.output), file(options.visibility)));
-        }
-    return run.writeStats();
+    Run run(options, frameSettings(options, sheet.has_value()), pack, animation,
+            pictures.stage ? &*pictures.stage : nullptr, host, *renderer, *scene, targets, timestamps);
+    HEARTH_TRY(sheet ? drawSheet(options, pictures, *sheet, run) : drawPictures(options, pictures, run));
+    return run.writeStats(sheet);
 }
 
 Status nameDevice(const RenderOptions& options)

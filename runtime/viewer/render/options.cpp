@@ -73,6 +73,14 @@ Status parseGiFrames(std::string_view text, RenderOptions& options)
     return success();
 }
 
+Status parseSheet(std::string_view text, RenderOptions& options)
+{
+    if (text != "on" && text != "off")
+        return usageError("--sheet: " + quoted(text) + " is neither on nor off");
+    options.sheet = text == "on" ? SheetChoice::on : SheetChoice::off;
+    return success();
+}
+
 Status parseSamples(std::string_view text, RenderOptions& options)
 {
     if (text != "1" && text != "4")
@@ -82,6 +90,15 @@ Status parseSamples(std::string_view text, RenderOptions& options)
 }
 
 } // namespace
+
+bool fitsWholeScene(const RenderOptions& options)
+{
+    const auto showsBricks = [](const Named<uint32_t>& view) { return gpu::showsBricks(view.value); };
+    return !options.camera && !options.scene_camera && options.camera_path.empty() &&
+           options.meshes.empty() && options.frames == 1 && !options.animation.clip &&
+           options.visibility.empty() && !gpu::showsBricks(options.settings.view) &&
+           std::none_of(options.views.begin(), options.views.end(), showsBricks);
+}
 
 std::string renderHelp()
 {
@@ -97,6 +114,11 @@ std::string renderHelp()
            "stands: "
            "IMAGE-0000.png,\n"
            "                          ... in the order of the list\n"
+           "      --sheet on|off      a contact sheet: each asset of the pack alone in a cell, with its name "
+           "and size; "
+           "without\n"
+           "                          the option where they stand in one place and nothing else says what to "
+           "draw\n"
            "      --views VIEW,...    each picture in each of these views: IMAGE-VIEW.png, or "
            "IMAGE-VIEW-0000.png; "
            "not overdraw\n"
@@ -138,6 +160,7 @@ Result<RenderOptions> parseRenderOptions(std::span<const char* const> arguments)
     command_line.addText("--camera-path", options.camera_path);
     command_line.addValue("--meshes", [&](std::string_view text) { return parseMeshes(text, options); });
     command_line.addValue("--views", [&](std::string_view text) { return parseViews(text, options); });
+    command_line.addValue("--sheet", [&](std::string_view text) { return parseSheet(text, options); });
     addAnimationOptions(command_line, options.animation);
     command_line.addValue("--samples", [&](std::string_view text) { return parseSamples(text, options); });
     command_line.addText("--stats", options.stats);
@@ -164,6 +187,10 @@ Result<RenderOptions> parseRenderOptions(std::span<const char* const> arguments)
     if (!options.meshes.empty() && (!options.camera_path.empty() || options.frames != 1 || options.camera ||
                                     options.scene_camera || options.animation.clip))
         return usageError("--meshes excludes cameras, --frames and --animation");
+    if (options.sheet == SheetChoice::on && !fitsWholeScene(options))
+        return usageError(
+            "--sheet on excludes cameras, --meshes, --frames, --animation, --dump-visibility and views of "
+            "bricks");
     return options;
 }
 

@@ -16,6 +16,14 @@ enum class PyramidStart
     noise,    ///< random depths in every frame
 };
 
+/// Whether the assets of a pack are drawn side by side.
+enum class SheetChoice
+{
+    automatic, ///< where they stand in one place, and nothing says what else to draw
+    on,
+    off,
+};
+
 struct RenderOptions : DrawOptions
 {
     std::string output;
@@ -23,6 +31,7 @@ struct RenderOptions : DrawOptions
     std::vector<uint32_t> meshes; ///< a picture of each alone; none: of the scene
     std::vector<Named<uint32_t>>
         views; ///< each picture is drawn in each of these; none: in that of the settings
+    SheetChoice sheet = SheetChoice::automatic;
     AnimationSettings animation;
     uint32_t samples = 1;
     uint32_t frames = 1;
@@ -33,6 +42,9 @@ struct RenderOptions : DrawOptions
     std::string visibility;
     bool names_device = false; ///< and does nothing else
 };
+
+/// Whether the whole scene is drawn once at rest, from where it fits: what a sheet can stand for.
+bool fitsWholeScene(const RenderOptions& options);
 
 /// The text of --help.
 std::string renderHelp();

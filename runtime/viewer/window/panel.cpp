@@ -68,6 +68,27 @@ void chooseCamera(ViewSettings& settings, const PanelFacts& facts)
     ImGui::EndCombo();
 }
 
+void chooseAsset(ViewSettings& settings, std::span<const AssetView> assets)
+{
+    if (assets.empty() || !ImGui::CollapsingHeader("Assets", ImGuiTreeNodeFlags_DefaultOpen))
+        return;
+    constexpr size_t kRows = 8;
+    const float height =
+        static_cast<float>(std::min(assets.size() + 1, kRows)) * ImGui::GetTextLineHeightWithSpacing();
+    if (!ImGui::BeginListBox("##assets", {-1, height}))
+        return;
+    if (ImGui::Selectable("whole scene", !settings.asset))
+        settings.asset.reset();
+    for (size_t i = 0; i < assets.size(); ++i)
+    {
+        ImGui::PushID(static_cast<int>(i)); // several may have one name
+        if (ImGui::Selectable(assets[i].name.c_str(), settings.asset == i))
+            settings.asset = i;
+        ImGui::PopID();
+    }
+    ImGui::EndListBox();
+}
+
 void chooseClip(PlaybackSettings& settings, std::span<const std::string> clips)
 {
     constexpr const char* kRest = "none: at rest";
@@ -140,6 +161,7 @@ void Panel::build(ViewSettings& settings, const PanelFacts& facts)
         if (const uint32_t dropped = facts.scene.scene().dropped_lights; dropped > 0)
             showProblem(std::to_string(dropped) + " lights are more than can be drawn");
         chooseCamera(settings, facts);
+        chooseAsset(settings, facts.assets);
         buildPicture(settings.frame, facts.scene.scene());
         buildAnimation(settings.playback, facts);
         buildCurve(settings.frame);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "runtime/viewer/frame_settings.h"
+#include "runtime/viewer/window/asset_views.h"
 #include "runtime/viewer/window/fly_camera.h"
 #include "runtime/viewer/window/frame_meter.h"
 #include "runtime/viewer/window/playback.h"
@@ -19,6 +20,7 @@ struct ViewSettings
     bool count_culling = false;
     bool panel = true;
     std::optional<size_t> camera{}; ///< go to this one of PanelFacts::cameras
+    std::optional<size_t> asset{};  ///< look at this one of PanelFacts::assets; none: at the whole scene
 };
 
 struct NamedCamera
@@ -38,6 +40,7 @@ struct PanelFacts
     VkDeviceSize target_bytes;
     const FlyCamera& camera;
     std::span<const NamedCamera> cameras;
+    std::span<const AssetView> assets;
     const Playback& playback;
     std::span<const std::string> clips; ///< what people call the animations of the pack
     const std::string& problem;         ///< why the last budget was not taken; or empty

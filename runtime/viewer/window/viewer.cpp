@@ -100,6 +100,8 @@ Viewer::Viewer(const ViewOptions& options, const formats::PackView& pack, Playba
       player_(pack),
       cameras_(camerasOf(pack, player, start,
                          static_cast<float>(options.width) / static_cast<float>(options.height))),
+      assets_(makeAssetViews(pack, player,
+                             static_cast<float>(options.width) / static_cast<float>(options.height))),
       shadows_(shadowsOf(options.shadows, pack, cameras_)),
       shadow_spheres_(options.shadows.spheres)
 {
@@ -227,6 +229,7 @@ Status Viewer::followSettings()
     if (settings_.camera)
         camera_ = FlyCamera(cameras_[*settings_.camera].camera, camera_.speed());
     settings_.camera.reset();
+    lookAtAsset();
     if (settings_.geometry_budget == scene_->geometryBudget())
         return success();
     // the scene that is there stays until the new one is
@@ -240,6 +243,35 @@ Status Viewer::followSettings()
     }
     HEARTH_TRY(frames_->waitForAll());
     scene_ = std::move(scene).value();
+    if (assets_.stage)
+        assets_.stage->reset();
+    return success();
+}
+
+/// Go to another asset, or to the whole scene, where that was chosen; fly as fast as suits its size.
+void Viewer::lookAtAsset()
+{
+    if (asset_ == settings_.asset)
+        return;
+    asset_ = settings_.asset;
+    const shared::Camera& camera = asset_ ? assets_.list[*asset_].camera : cameras_[1].camera;
+    const float speed =
+        asset_ ? length(camera.position - camera.target) / 4 : flySpeed(pack_, camera.position);
+    camera_ = FlyCamera(camera, speed);
+}
+
+/// What moves and poses the next frame has: those of the clip, of what is shown.
+Status Viewer::poseScene()
+{
+    playback_.pose(player_);
+    HEARTH_TRY(pose_.take(player_, scene_->scene()));
+    moves_.assign(pose_.moves().begin(), pose_.moves().end());
+    poses_ = pose_.poses();
+    if (!assets_.stage)
+        return success();
+    const size_t part = AssetViews::partOf(asset_);
+    HEARTH_ASSIGN_OR_RETURN(moves_, assets_.stage->show(scene_->scene(), part, pose_.moves()));
+    poses_ = assets_.stage->poses(player_, part);
     return success();
 }
 
@@ -267,6 +299,7 @@ void Viewer::buildPanel()
                              .target_bytes = targets_->allocatedBytes(),
                              .camera = camera_,
                              .cameras = cameras_,
+                             .assets = assets_.list,
                              .playback = playback_,
                              .clips = clips_,
                              .problem = problem_});
@@ -287,8 +320,7 @@ Result<bool> Viewer::drawFrame(bool panel, const gpu::Buffer* screenshot)
     }
     if (panel)
         buildPanel();
-    playback_.pose(player_);
-    HEARTH_TRY(pose_.take(player_, scene_->scene()));
+    HEARTH_TRY(poseScene());
     HEARTH_ASSIGN_OR_RETURN(const VkCommandBuffer commands, frames_->begin());
     recordFrame(commands, *image, panel, screenshot);
     HEARTH_TRY(frames_->submit(swapchain_->drawn(*image)));
@@ -305,8 +337,8 @@ void Viewer::recordFrame(VkCommandBuffer commands, uint32_t image, bool panel, c
     gpu::FrameInput frame =
         makeFrame(settings_.frame, camera_.camera(), scene.instance_count, targets_->extent());
     frame.shadow_spheres = shadow_spheres_;
-    frame.moves = pose_.moves();
-    frame.poses = pose_.poses();
+    frame.moves = moves_;
+    frame.poses = poses_;
     frame.timestamps = meter_->timestamps(frames_->slot());
     renderer_->record(commands, scene, *targets_, frame);
     meter_->record(commands, *scene_, frames_->slot(), settings_.count_culling);

@@ -51,9 +51,11 @@ private:
     void handle(const SDL_Event& event);
     void pressed(int32_t key);
     Status followSettings();
+    void lookAtAsset();
     Status resize();
     Result<bool> drawFrame(bool panel, const gpu::Buffer* screenshot);
     void buildPanel();
+    Status poseScene();
     void recordFrame(VkCommandBuffer commands, uint32_t image, bool panel, const gpu::Buffer* screenshot);
 
     const formats::PackView& pack_;
@@ -65,7 +67,12 @@ private:
     Playback playback_;
     pack::PosePlayer player_;
     FramePose pose_;
-    std::vector<NamedCamera> cameras_; ///< where it can go; the first is where it started
+    std::vector<NamedCamera>
+        cameras_; ///< where it can go; the first is where it started, the second has all in view
+    AssetViews assets_;
+    std::optional<size_t> asset_;                ///< of assets_ that is looked at
+    std::vector<gpu::InstanceMove> moves_;       ///< of the next frame
+    std::span<const gpu::InstancePose> poses_{}; ///< the same
     gpu::ShadowOptions shadows_;
     std::vector<gpu::ShadowSphere> shadow_spheres_;
     std::string problem_; ///< with the budget

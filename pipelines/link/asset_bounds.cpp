@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "pipelines/link/asset_bounds.h"
+
+#include "formats/animation.h"
+#include "formats/cluster_bounds.h"
+#include "formats/pack_check.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hearth::link
+{
+
+using namespace formats;
+
+namespace
+{
+
+/// Where the nodes of a source stand at rest.
+class RestPose
+{
+public:
+    /// import_part  has passed checkMotion
+    explicit RestPose(const PackView& import_part)
+        : tables_(motionTables(import_part)), world_from_node_(tables_.nodes.size())
+    {
+        poseNodes(tables_, restPose(tables_), parentsFirst(tables_.nodes), world_from_node_);
+    }
+
+    /// Returns where the joints of a skin carry what is bound to them; none where there is no such skin.
+    std::vector<Affine3d> palette(uint32_t skin) const
+    {
+        if (skin >= tables_.skins.size())
+            return {};
+        std::vector<Affine3d> world_from_bind(tables_.skins[skin].joints.count);
+        skinPalette(tables_, tables_.skins[skin], world_from_node_, world_from_bind);
+        return world_from_bind;
+    }
+
+private:
+    MotionTables tables_;
+    std::vector<Affine3d> world_from_node_;
+};
+
+const DeformedMeshRecord* findDeformed(const PackView& skinning_part, uint32_t mesh)
+{
+    const auto records = skinning_part.deformedMeshes();
+    const auto found = std::find_if(records.begin(), records.end(),
+                                    [&](const DeformedMeshRecord& record) { return record.mesh == mesh; });
+    return found == records.end() ? nullptr : &*found;
+}
+
+/// Returns the largest morph weight of an instance at rest: its share of what weights from -1 to 1 reach.
+float morphShare(const PackView& import_part, const InstanceRecord& instance)
+{
+    float share = 0;
+    if (instance.node < import_part.nodes().size())
+        for (const float weight :
+             recordsOf(import_part.morphWeights(), import_part.nodes()[instance.node].morph_weights))
+            share = std::max(share, std::abs(weight));
+    return share;
+}
+
+/// The finest clusters of a deformed mesh, each where all joints that move it carry its box: vertices blend these.
+Box3 deformedBounds(const PackView& clusters_part, const PackView& skinning_part, const MeshRecord& mesh,
+                    const DeformedMeshRecord& deformed, std::span<const Affine3d> world_from_bind,
+                    float morph_share)
+{
+    const auto clusters = recordsOf(clusters_part.clusters(), mesh.clusters);
+    const auto deformed_clusters = recordsOf(skinning_part.deformedClusters(), deformed.clusters);
+    Box3 bounds;
+    for (size_t i = 0; i < std::min(clusters.size(), deformed_clusters.size()); ++i)
+    {
+        if (clusters[i].level != 0)
+            continue;
+        const float reach = deformed_clusters[i].morph_reach * morph_share;
+        Box3 box = boxOf(clusters[i], mesh.grid_step);
+        box.min -= {reach, reach, reach};
+        box.max += {reach, reach, reach};
+        const auto add = [&](uint32_t joint)
+        {
+            // of a joint whose place does not fit into floats, nothing is drawn
+            if (joint < world_from_bind.size() && narrowed(world_from_bind[joint]))
+                bounds.add(transformBox(world_from_bind[joint], box));
+        };
+        if (deformed.skin == kNone)
+            add(0);
+        for (const uint32_t joint : recordsOf(skinning_part.clusterJoints(), deformed_clusters[i].joints))
+            add(joint);
+    }
+    return bounds;
+}
+
+} // namespace
+
+Result<Box3> boundsAtRest(const PackView& import_part, const PackView& clusters_part,
+                          const PackView& skinning_part)
+{
+    std::optional<RestPose> rest;
+    if (!skinning_part.deformedMeshes().empty())
+    {
+        HEARTH_TRY(checkMotion(import_part));
+        rest.emplace(import_part);
+    }
+    Box3 bounds;
+    for (const InstanceRecord& instance : import_part.instances())
+    {
+        if (instance.mesh >= clusters_part.meshes().size())
+            continue;
+        const MeshRecord& mesh = clusters_part.meshes()[instance.mesh];
+        const Affine3d place = widened(instance.world_from_object);
+        const DeformedMeshRecord* deformed = findDeformed(skinning_part, instance.mesh);
+        if (deformed != nullptr)
+            bounds.add(
+                deformedBounds(clusters_part, skinning_part, mesh, *deformed,
+                               deformed->skin == kNone ? std::vector{place} : rest->palette(deformed->skin),
+                               morphShare(import_part, instance)));
+        else if (mesh.clusters.count > 0)
+            bounds.add(transformBox(place, {mesh.box_min, mesh.box_max}));
+    }
+    return bounds;
+}
+
+} // namespace hearth::link

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "tests/formats/malformed_packs.h"
+
+#include <limits>
+
+namespace hearth::test
+{
+
+using namespace formats;
+
+const std::vector<MalformedPack>& malformedProvenance()
+{
+    static const std::vector<MalformedPack> list = {
+        {"assetNameOutside", Issue::meaning_range, "asset 0",
+         [](PackModel& p) { p.assets[0].name.offset = 0xFFFFFFF0u; }},
+        {"assetNameCutsCharacter", Issue::meaning_text, "asset 0",
+         [](PackModel& p) { --p.assets[0].name.length; }},
+        {"assetInstancesOutside", Issue::meaning_range, "asset 0",
+         [](PackModel& p) { ++p.assets[0].instances.count; }},
+        {"assetMeshesOutside", Issue::meaning_range, "asset 0",
+         [](PackModel& p) { p.assets[0].meshes.count = 0xFFFFFFFFu; }},
+        {"assetNodesOutside", Issue::meaning_range, "asset 0",
+         [](PackModel& p) { ++p.assets[0].nodes.count; }},
+        {"assetsShareInstances", Issue::meaning_order, "asset 1",
+         [](PackModel& p) { p.assets.push_back(p.assets[0]); }},
+        {"assetNodesBegin", Issue::meaning_order, "asset 0",
+         [](PackModel& p) {
+             p.assets[0].nodes = {1, 3};
+         }},
+        {"instanceOfNoAsset", Issue::meaning_range, "instance 1",
+         [](PackModel& p) { --p.assets[0].instances.count; }},
+        {"meshOfNoAsset", Issue::meaning_reference, "asset 0",
+         [](PackModel& p) { --p.assets[0].meshes.count; }},
+        {"instanceOfAnotherAsset", Issue::meaning_reference, "asset 0",
+         [](PackModel& p)
+         {
+             AssetRecord second = p.assets[0];
+             p.assets[0].nodes.count = 1;
+             second.instances = {2, 0};
+             second.meshes = {3, 0};
+             second.nodes = {1, 3};
+             p.assets.push_back(second);
+         }},
+        {"nodeOfNoAsset", Issue::meaning_range, "node 4",
+         [](PackModel& p) { p.nodes.push_back(p.nodes[0]); }},
+        {"assetBoxNaN", Issue::meaning_value, "asset 0",
+         [](PackModel& p) { p.assets[0].box_min.y = std::numeric_limits<float>::quiet_NaN(); }},
+        {"assetBoxInfinite", Issue::meaning_value, "asset 0",
+         [](PackModel& p) { p.assets[0].box_max.z = std::numeric_limits<float>::infinity(); }},
+        {"assetBoxTurned", Issue::meaning_value, "asset 0",
+         [](PackModel& p) { p.assets[0].box_min.x = 1000; }},
+        {"assetBoxTooSmall", Issue::meaning_bounds, "asset 0",
+         [](PackModel& p) { p.assets[0].box_max.x = 3.99f; }},
+        {"assetBoxOfNothing", Issue::meaning_bounds, "asset 0",
+         [](PackModel& p) {
+             p.assets[0].box_min = p.assets[0].box_max = {0, 0, 0};
+         }},
+        {"authoredLevelOfNoMesh", Issue::meaning_reference, "authored level 0",
+         [](PackModel& p) { p.authored_levels[0].mesh = 3; }},
+        {"authoredLevelIsTheSource", Issue::meaning_reference, "authored level 0",
+         [](PackModel& p) { p.authored_levels[0].level = 0; }},
+        {"authoredLevelIsNotThere", Issue::meaning_reference, "authored level 0",
+         [](PackModel& p) { p.authored_levels[0].level = 2; }},
+        {"authoredLevelOfAMeshWithoutLevels", Issue::meaning_reference, "authored level 0",
+         [](PackModel& p) { p.authored_levels[0].mesh = 1; }},
+        {"authoredLevelTwice", Issue::meaning_order, "authored level 1",
+         [](PackModel& p) { p.authored_levels.push_back(p.authored_levels[0]); }},
+        {"authoredLevelName", Issue::meaning_range, "authored level 0",
+         [](PackModel& p) {
+             p.authored_levels[0].name = {static_cast<uint32_t>(p.strings.size()), 1};
+         }},
+    };
+    return list;
+}
+
+} // namespace hearth::test

@@ -1,0 +1,35 @@
+// The small pack as two assets that stand in one place, without lights and bricks.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "formats/pack_view.h"
+#include "tests/formats/small_pack.h"
+
+namespace hearth::test
+{
+
+/// The strip and the triangle, opaque.
+inline PackModel heapModel()
+{
+    PackModel model = smallPack();
+    model.materials[0].alpha_mode = static_cast<uint32_t>(formats::AlphaMode::opaque);
+    model.lights.clear();
+    model.shadow_spheres.clear();
+    model.brick_grids.clear();
+    model.bricks = {};
+    formats::AssetRecord strip = model.assets[0], triangle = model.assets[0];
+    strip.instances = {0, 1};
+    triangle.instances = {1, 1};
+    triangle.name.length = 3;
+    triangle.box_max = {1, 0.5f, 1};
+    model.assets = {strip, triangle};
+    return model;
+}
+
+/// bytes  outlive the view, which is not checked
+inline formats::PackView viewOf(const AlignedBytes& bytes)
+{
+    return formats::PackView::read(formats::ContainerReader::fromBytes(bytes.span(), "heap").value()).value();
+}
+
+} // namespace hearth::test
