@@ -164,7 +164,7 @@ TEST(GenerateNormals, isLinearInTheTrianglesOfAFan)
 {
     // a cone of 200 000 triangles: each compared with each would be 4e10 steps
     mesh::SourceMesh mesh;
-    constexpr uint32_t kCount = kSanitized ? 20000 : 200000;
+    constexpr uint32_t kCount = test::kSanitized ? 20000 : 200000;
     mesh.positions.push_back({0, 0.1f, 0});
     for (uint32_t i = 0; i < kCount; ++i)
     {

@@ -298,7 +298,7 @@ TEST(GltfLods, thatCannotBeMovedAreDropped)
 TEST(GltfLods, inADeepTreeDoNotCostItsDepth)
 {
     // each of many nodes on one long branch lists the last one, which holds none of them
-    constexpr int kDepth = kSanitized ? 5000 : 20000;
+    constexpr int kDepth = hearth::test::kSanitized ? 5000 : 20000;
     std::string nodes = R"("nodes":[)";
     for (int i = 0; i < kDepth; ++i)
         nodes += R"({"mesh":0,"children":[)" + std::to_string(i + 1) +

@@ -109,7 +109,7 @@ TEST(GltfScene, keepsMillimetresFarFromTheOrigin)
 TEST(GltfScene, survivesAChainOfAHundredThousandNodes)
 {
     std::string nodes = R"("nodes":[{"mesh":0,"translation":[1,0,0]})";
-    constexpr int kCount = kSanitized ? 20000 : 100000;
+    constexpr int kCount = hearth::test::kSanitized ? 20000 : 100000;
     for (int i = 1; i < kCount; ++i)
         nodes += R"(,{"translation":[1,0,0],"children":[)" + std::to_string(i - 1) + "]}";
     const Imported result = squareData().import(kSquareMesh + nodes + "]");
