@@ -11,13 +11,13 @@ function(hearth_shader_library name)
   set(words_files)
   foreach(shader ${ARG_SHADERS})
     set(words ${CMAKE_CURRENT_BINARY_DIR}/${shader}.inc)
-    set(glslc ${Vulkan_GLSLC_EXECUTABLE} -Werror -O --target-env=vulkan1.1 -I ${PROJECT_SOURCE_DIR})
     add_custom_command(
       OUTPUT ${words}
-      COMMAND ${glslc} -MD -MF ${words}.d -MT ${words} ${CMAKE_CURRENT_SOURCE_DIR}/${shader} -o ${words}.spv
+      COMMAND ${Vulkan_GLSLC_EXECUTABLE} -Werror -O --target-env=vulkan1.1 -I ${PROJECT_SOURCE_DIR} -MD -MF ${words}.d
+        -MT ${words} ${CMAKE_CURRENT_SOURCE_DIR}/${shader} -o ${words}.spv
       COMMAND ${HEARTH_SPIRV_VAL} --target-env vulkan1.1 ${words}.spv
-      COMMAND ${glslc} -mfmt=num ${CMAKE_CURRENT_SOURCE_DIR}/${shader} -o ${words}
-      DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${shader}
+      COMMAND ${CMAKE_COMMAND} -D INPUT=${words}.spv -D OUTPUT=${words} -P ${PROJECT_SOURCE_DIR}/cmake/embed_words.cmake
+      DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${shader} ${PROJECT_SOURCE_DIR}/cmake/embed_words.cmake
       DEPFILE ${words}.d
       COMMENT "Compiling ${shader}"
       VERBATIM)

@@ -239,7 +239,7 @@ TEST(ResidentGroups, areThoseOfTheWholeRuleAfterEachChange)
 TEST(PageStream, bringsEveryResidentPageToItsSlotWhateverThreadsReadIt)
 {
     TestScene scene;
-    scene.addMesh(plain(shapes::rock(kSanitized ? 60 : 96, 0.3f)));
+    scene.addMesh(plain(shapes::rock(96, 0.3f)));
     const PackView view = scene.build();
     const pack::PageGraph graph = pack::PageGraph::of(view);
     ASSERT_GT(graph.pageCount(), 20u);
