@@ -141,7 +141,7 @@ TEST(Hierarchy, respectsSeams)
 
 TEST(Hierarchy, ofAnySizeEndsInOneCluster)
 {
-    for (uint32_t n = 5; n <= 40; n += test::kSanitized ? 7 : 1)
+    for (uint32_t n = 5; n <= 40; n += test::kSanitized ? 11 : 1)
     {
         const Hierarchy of_blocks = buildHierarchy(shapes::blocks(n));
         EXPECT_EQ(of_blocks.levels.back().clusters.count, 1u) << "blocks " << n;

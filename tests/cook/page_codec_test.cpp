@@ -4,6 +4,7 @@
 #include "formats/page_codec.h"
 #include "formats/page_decode.h"
 #include "tests/cook/random_pages.h"
+#include "tests/support/sanitized.h"
 
 #include <gtest/gtest.h>
 #include <zstd.h>
@@ -119,7 +120,7 @@ TEST_P(PageCodecOfLayout, isLegal)
 
 TEST_P(PageCodecOfLayout, bringsRandomPagesBack)
 {
-    for (uint32_t seed = 0; seed < 20; ++seed)
+    for (uint32_t seed = 0; seed < (test::kSanitized ? 3 : 20); ++seed)
     {
         SCOPED_TRACE(seed);
         expectRoundTrip(randomPage(GetParam(), seed));
@@ -128,7 +129,7 @@ TEST_P(PageCodecOfLayout, bringsRandomPagesBack)
 
 TEST_P(PageCodecOfLayout, encodesADecodedPageToTheSameBytes)
 {
-    for (uint32_t seed = 0; seed < 10; ++seed)
+    for (uint32_t seed = 0; seed < (test::kSanitized ? 2 : 10); ++seed)
     {
         SCOPED_TRACE(seed);
         RandomPage page = randomPage(GetParam(), seed);

@@ -285,8 +285,10 @@ TEST(AnchoredBounds, spheresHoldThoseOfRefinedGroups)
     for (ClusterRecord& cluster : clusters)
         cluster.refined_group = kNone;
     clusters[1].refined_group = 21;
-    const AnchoredBounds bounds = anchoredBounds(
-        {groups, clusters, 20, 5}, std::span(character.mesh.clusters).first(7), deformation, reach);
+    std::vector<DeformedCluster> deformed;
+    for (size_t i = 0; i < clusters.size(); ++i)
+        deformed.push_back(character.mesh.clusters[i % character.mesh.clusters.size()]);
+    const AnchoredBounds bounds = anchoredBounds({groups, clusters, 20, 5}, deformed, deformation, reach);
     ASSERT_EQ(bounds.spheres.size(), 3u);
     EXPECT_EQ(bounds.spheres[1].center, bounds.spheres[2].center);
     EXPECT_EQ(bounds.spheres[1].radius, bounds.spheres[2].radius);
