@@ -164,7 +164,8 @@ TEST(DeformedBounds, holdFreePosesWithAnyMorphWeights)
         }
     }
     EXPECT_GT(vertices, test::kSanitized ? 4000u : 100000u);
-    EXPECT_GT(beyond_unmorphed, test::kSanitized ? 20u : 100u) << "without the targets' reach the bound would not hold";
+    EXPECT_GT(beyond_unmorphed, test::kSanitized ? 20u : 100u)
+        << "without the targets' reach the bound would not hold";
     EXPECT_LT(nearest, 0.3) << "nothing uses the reach";
 }
 
