@@ -2,7 +2,7 @@
 #include "cook/clusters/attribute_error.h"
 
 #include "cook/clusters/bounds.h"
-#include "cook/clusters/reduce.h"
+#include "cook/clusters/cluster.h"
 #include "cook/clusters/surface.h"
 
 #include <algorithm>

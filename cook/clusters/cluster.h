@@ -40,6 +40,9 @@ struct PreparedMesh
     bool deforms() const { return !vertices.joint_sets.empty() || !vertices.morph_targets.empty(); }
 };
 
+/// First id of the vertices that a simplification makes, while its level is not finished: kMadeVertex + k is the k-th of them.
+inline constexpr uint32_t kMadeVertex = 0x80000000u;
+
 /// Most vertices of a cluster: fewer than the format's limit where the morph targets of two would not fit into a page.
 uint32_t clusterVertexLimit(const PreparedMesh& mesh);
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/clusters/deformed_deviation.h"
 
+#include "cook/clusters/cluster.h"
 #include "cook/clusters/facet_index.h"
 #include "cook/clusters/islands.h"
 #include "cook/clusters/nearest_bound.h"
-#include "cook/clusters/reduce.h"
 #include "cook/clusters/surface_tree.h"
 
 #include <algorithm>

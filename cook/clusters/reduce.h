@@ -13,12 +13,10 @@
 namespace hearth::clusters
 {
 
-inline constexpr uint32_t kMadeVertex = 0x80000000u;
-
 struct Reduced
 {
     bool progressed = false;              ///< false: the group is stuck and the rest says nothing
-    ClusterStore clusters;                ///< vertices from kMadeVertex on are those that were made
+    ClusterStore clusters;                ///< vertices from kMadeVertex on are new ones
     mesh::SourceMesh made;                ///< attributes of made vertices
     std::vector<uint32_t> made_positions; ///< position of each, numbered from 0
     uint32_t made_position_count = 0;

@@ -249,8 +249,4 @@ HEARTH_CONSTANT uint kNoGroup = 0xFFFFFFFFu;
 
 HEARTH_SHARED_END
 
-#ifdef __cplusplus
-#include "formats/shared/records_check.h"
-#endif
-
 #endif

@@ -3,7 +3,8 @@
 #pragma once
 
 #include "cook/tools/lod_files.h"
-#include "pipelines/import/readers.h"
+#include "pipelines/import/import_options.h"
+#include "pipelines/import/part_builder.h"
 
 #include <span>
 #include <string>

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "pipelines/import/generate_normals.h"
+
 #include "formats/double3.h"
 #include "pipelines/import/mesh_pieces.h"
-#include "pipelines/import/readers.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,9 @@
 // Tangents in the manner of MikkTSpace: M. S. Mikkelsen, "Simulation of Wrinkled Surfaces Revisited", 2008: each
 // corner's tangent counts by its angle, in the plane of the vertex normal, and mirrored UVs are kept apart.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "pipelines/import/generate_tangents.h"
+
 #include "pipelines/import/mesh_pieces.h"
-#include "pipelines/import/readers.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,9 +3,11 @@
 #pragma once
 
 #include "pipelines/import/asset_folder.h"
+#include "pipelines/import/file_bytes.h"
 #include "pipelines/import/gltf_container.h"
 #include "pipelines/import/gltf_model.h"
-#include "pipelines/import/readers.h"
+#include "pipelines/import/import_options.h"
+#include "pipelines/import/part_builder.h"
 
 namespace hearth::import
 {

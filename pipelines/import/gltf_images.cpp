@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/import/gltf_images.h"
 
+#include "pipelines/import/file_bytes.h"
+#include "pipelines/import/image_decode.h"
+#include "pipelines/import/part_builder.h"
+
 #include "pipelines/import/gltf_uri.h"
 #include "pipelines/import/image_placeholder.h"
 

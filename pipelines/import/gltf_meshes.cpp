@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/import/gltf_meshes.h"
 
+#include "pipelines/import/generate_normals.h"
+#include "pipelines/import/generate_tangents.h"
+
 #include "pipelines/import/gltf_triangles.h"
 #include "pipelines/import/mesh_pieces.h"
 

@@ -1,10 +1,14 @@
 // The reader of glTF 2.0 files: container, document, data, then the part, section by section.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "pipelines/import/gltf_reader.h"
+
+#include "pipelines/import/file_bytes.h"
 #include "pipelines/import/gltf_animations.h"
 #include "pipelines/import/gltf_lods.h"
 #include "pipelines/import/gltf_materials.h"
 #include "pipelines/import/gltf_mesh_writer.h"
-#include "pipelines/import/readers.h"
+#include "pipelines/import/import_options.h"
+#include "pipelines/import/part_builder.h"
 
 #include <set>
 

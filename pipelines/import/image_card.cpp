@@ -1,6 +1,11 @@
 // A lone image as a scene: an unlit card, one metre high, that faces +Z.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "pipelines/import/image_card.h"
+
+#include "pipelines/import/image_decode.h"
+#include "pipelines/import/import_options.h"
 #include "pipelines/import/obj_materials.h"
+#include "pipelines/import/part_builder.h"
 #include "pipelines/import/scan_file.h"
 
 namespace hearth::import

@@ -1,6 +1,10 @@
 // Which decoder an image goes to: its first bytes decide, never its name, except for TGA, which has no signature.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "pipelines/import/image_decode.h"
+
 #include "pipelines/import/image_codecs.h"
+#include "pipelines/import/import_options.h"
+#include "pipelines/import/part_builder.h"
 
 #include <algorithm>
 #include <array>

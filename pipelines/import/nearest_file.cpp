@@ -2,7 +2,7 @@
 #include "pipelines/import/nearest_file.h"
 
 #include "cook/tools/suggest.h"
-#include "pipelines/import/readers.h"
+#include "pipelines/import/image_decode.h"
 
 #include <algorithm>
 #include <array>

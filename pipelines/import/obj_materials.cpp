@@ -2,6 +2,11 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/import/obj_materials.h"
 
+#include "pipelines/import/file_bytes.h"
+#include "pipelines/import/image_decode.h"
+#include "pipelines/import/import_options.h"
+#include "pipelines/import/part_builder.h"
+
 #include "pipelines/import/asset_folder.h"
 #include "pipelines/import/image_placeholder.h"
 

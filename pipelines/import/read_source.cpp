@@ -1,6 +1,14 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/import/read_source.h"
 
+#include "pipelines/import/file_bytes.h"
+#include "pipelines/import/gltf_reader.h"
+#include "pipelines/import/image_card.h"
+#include "pipelines/import/image_decode.h"
+#include "pipelines/import/import_options.h"
+#include "pipelines/import/part_builder.h"
+#include "pipelines/import/scan_import.h"
+
 #include "pipelines/import/asset_folder.h"
 
 #include <algorithm>

@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include "pipelines/import/readers.h"
+#include "pipelines/import/import_options.h"
+#include "pipelines/import/part_builder.h"
 
 #include <string>
 #include <vector>

@@ -1,6 +1,12 @@
 // Scans: one mesh, one node, one instance.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "pipelines/import/scan_import.h"
+
+#include "pipelines/import/generate_normals.h"
+#include "pipelines/import/generate_tangents.h"
+#include "pipelines/import/import_options.h"
 #include "pipelines/import/obj_materials.h"
+#include "pipelines/import/part_builder.h"
 #include "pipelines/import/scan_file.h"
 #include "pipelines/import/scan_text.h"
 

@@ -2,7 +2,6 @@
 #include "runtime/gpu/scene_shadows.h"
 
 #include "runtime/gpu/scene_shading.h"
-#include "runtime/gpu/shadow_pass.h"
 
 #include <string>
 

@@ -9,6 +9,9 @@
 namespace hearth::gpu
 {
 
+/// Format of the maps.
+inline constexpr VkFormat kShadowFormat = VK_FORMAT_D32_SFLOAT;
+
 /// Of the last frame.
 struct ShadowStatistics
 {

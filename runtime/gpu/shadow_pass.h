@@ -9,8 +9,6 @@
 namespace hearth::gpu
 {
 
-inline constexpr VkFormat kShadowFormat = VK_FORMAT_D32_SFLOAT;
-
 class ShadowPass
 {
 public:

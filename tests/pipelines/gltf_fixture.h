@@ -5,7 +5,7 @@
 #include "cook/mesh/source_mesh.h"
 #include "formats/container_reader.h"
 #include "formats/scene.h"
-#include "pipelines/import/readers.h"
+#include "pipelines/import/import_options.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,10 @@
 // Whole scans and lone images, up to the part.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "formats/pack_view.h"
-#include "pipelines/import/readers.h"
+#include "pipelines/import/image_card.h"
+#include "pipelines/import/import_options.h"
+#include "pipelines/import/part_builder.h"
+#include "pipelines/import/scan_import.h"
 #include "tests/formats/temporary_folder.h"
 #include "tests/pipelines_scans/frozen_images.h"
 

@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include "pipelines/import/readers.h"
+#include "pipelines/import/image_decode.h"
+#include "pipelines/import/part_builder.h"
 
 #include <array>
 #include <cstring>

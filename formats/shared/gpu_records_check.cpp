@@ -1,10 +1,10 @@
 // Holds the records of formats/shared/records.h against those of the file format: same offsets, same sizes.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#pragma once
-
 #include "formats/mesh.h"
 #include "formats/scene.h"
 #include "formats/shared/records.h"
+
+#include <cstddef>
 
 #define HEARTH_SAME_OFFSET(shared_type, shared_member, record_type, record_member)                           \
     static_assert(offsetof(hearth::shared::shared_type, shared_member) ==                                    \
