@@ -58,7 +58,7 @@ add_library(hearth_settings INTERFACE)
 target_compile_options(hearth_settings INTERFACE -ffp-contract=off -fvisibility=hidden -fPIC -pthread
   $<$<COMPILE_LANGUAGE:CXX>:-fvisibility-inlines-hidden>)
 # GCC's vectoriser of straight-line code drops the rounding of double{float(x)} (seen with 12.2), so a bound that is
-# stored as float would be checked against a value that it does not have. tests/cook/bounds_test.cpp shows it.
+# stored as float would be checked against a value that it does not have. tests/cook/clusters/bounds_test.cpp shows it.
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   target_compile_options(hearth_settings INTERFACE -fno-tree-slp-vectorize)
 endif()

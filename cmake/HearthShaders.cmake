@@ -1,8 +1,8 @@
 # GLSL -> SPIR-V 1.3 (Vulkan 1.1) at build time, checked by spirv-val, embedded as words. Nothing of the machine, no
 # path and no debug information, goes in.
 
-# hearth_shader_library(NAME HEADER ... SHADERS ...): a static library with the words of the shaders, which stand in the
-# current folder; HEADER declares a span for each, in namespace hearth::shaders.
+# hearth_shader_library(NAME HEADER ... SHADERS ...): a static library with the words of the shaders, whose paths are relative
+# to the current folder; HEADER declares a span for each, by its file name, in namespace hearth::shaders.
 function(hearth_shader_library name)
   cmake_parse_arguments(ARG "" "HEADER" "SHADERS" ${ARGN})
   find_package(Vulkan REQUIRED COMPONENTS glslc)
@@ -10,7 +10,8 @@ function(hearth_shader_library name)
   set(embedded "// Generated.\n#include \"${ARG_HEADER}\"\n\nnamespace hearth::shaders\n{\n")
   set(words_files)
   foreach(shader ${ARG_SHADERS})
-    set(words ${CMAKE_CURRENT_BINARY_DIR}/${shader}.inc)
+    cmake_path(GET shader FILENAME file)
+    set(words ${CMAKE_CURRENT_BINARY_DIR}/${file}.inc)
     add_custom_command(
       OUTPUT ${words}
       COMMAND ${Vulkan_GLSLC_EXECUTABLE} -Werror -O --target-env=vulkan1.1 -I ${PROJECT_SOURCE_DIR} -MD -MF ${words}.d
@@ -22,8 +23,8 @@ function(hearth_shader_library name)
       COMMENT "Compiling ${shader}"
       VERBATIM)
     list(APPEND words_files ${words})
-    string(REPLACE "." "_" variable ${shader})
-    string(APPEND embedded "static constexpr uint32_t ${variable}_words[] = {\n#include \"${shader}.inc\"\n};\n"
+    string(REPLACE "." "_" variable ${file})
+    string(APPEND embedded "static constexpr uint32_t ${variable}_words[] = {\n#include \"${file}.inc\"\n};\n"
                            "const std::span<const uint32_t> ${variable}(${variable}_words);\n\n")
   endforeach()
   string(APPEND embedded "} // namespace hearth::shaders\n")

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "formats/format_tables.h"
 
-#include "formats/chunk_list.h"
-#include "formats/issues.h"
-#include "formats/pack_check.h"
-#include "formats/page_codec.h"
+#include "formats/base/issues.h"
+#include "formats/codecs/page_codec.h"
+#include "formats/pack/pack_check.h"
+#include "formats/records/chunk_list.h"
 
 #include <array>
 #include <cstdio>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "sample_assets/character.h"
 
-#include "sample_assets/sample_math.h"
-#include "sample_assets/surface_nets.h"
+#include "sample_assets/shapes/sample_math.h"
+#include "sample_assets/shapes/surface_nets.h"
 
 namespace hearth::samples
 {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "sample_assets/field.h"
 
-#include "formats/assert.h"
+#include "formats/base/assert.h"
 #include "sample_assets/grass.h"
-#include "sample_assets/noise.h"
 #include "sample_assets/rock.h"
-#include "sample_assets/sample_math.h"
-#include "sample_assets/shapes.h"
+#include "sample_assets/shapes/noise.h"
+#include "sample_assets/shapes/sample_math.h"
+#include "sample_assets/shapes/shapes.h"
 #include "sample_assets/sky.h"
 #include "sample_assets/terrain.h"
 

@@ -5,9 +5,9 @@
 #include "sample_assets/dusk.h"
 #include "sample_assets/fire.h"
 #include "sample_assets/grass.h"
-#include "sample_assets/noise.h"
 #include "sample_assets/rock.h"
-#include "sample_assets/sample_math.h"
+#include "sample_assets/shapes/noise.h"
+#include "sample_assets/shapes/sample_math.h"
 #include "sample_assets/terrain.h"
 
 namespace hearth::samples

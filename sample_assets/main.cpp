@@ -1,9 +1,9 @@
 // hearth-samples: writes small glTF sources made by code alone.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/command_line/command_line.h"
-#include "formats/program.h"
-#include "sample_assets/glb_writer.h"
+#include "formats/base/program.h"
 #include "sample_assets/samples.h"
+#include "sample_assets/shapes/glb_writer.h"
 
 #include <cstdio>
 

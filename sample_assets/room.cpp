@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "sample_assets/room.h"
 
-#include "sample_assets/noise.h"
-#include "sample_assets/sample_math.h"
-#include "sample_assets/shapes.h"
-#include "sample_assets/textures.h"
+#include "sample_assets/shapes/noise.h"
+#include "sample_assets/shapes/sample_math.h"
+#include "sample_assets/shapes/shapes.h"
+#include "sample_assets/shapes/textures.h"
 
 namespace hearth::samples
 {

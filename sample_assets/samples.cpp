@@ -6,10 +6,10 @@
 #include "sample_assets/grass.h"
 #include "sample_assets/hearth_scene.h"
 #include "sample_assets/land.h"
-#include "sample_assets/noise.h"
 #include "sample_assets/rock.h"
 #include "sample_assets/room.h"
-#include "sample_assets/sample_math.h"
+#include "sample_assets/shapes/noise.h"
+#include "sample_assets/shapes/sample_math.h"
 #include "sample_assets/terrain.h"
 
 #include <array>

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include "formats/result.h"
-#include "sample_assets/document.h"
+#include "formats/base/result.h"
+#include "sample_assets/shapes/document.h"
 
 #include <span>
 #include <string_view>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "sample_assets/sky.h"
 
-#include "sample_assets/sample_math.h"
-#include "sample_assets/shapes.h"
+#include "sample_assets/shapes/sample_math.h"
+#include "sample_assets/shapes/shapes.h"
 
 namespace hearth::samples
 {

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include "sample_assets/textures.h"
+#include "sample_assets/shapes/textures.h"
 
 #include <string>
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include "sample_assets/document.h"
+#include "sample_assets/shapes/document.h"
 
 namespace hearth::samples
 {

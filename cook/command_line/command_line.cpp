@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/command_line/command_line.h"
 
+#include "formats/base/text.h"
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <sstream>
 
 namespace hearth::cli
 {
@@ -13,15 +14,6 @@ namespace
 
 /// Exit code of a program whose command line is wrong, whatever is wrong about it.
 constexpr int kUsage = 2;
-
-std::vector<std::string> split(const std::string& text, char separator)
-{
-    std::vector<std::string> parts;
-    std::istringstream stream(text);
-    for (std::string part; std::getline(stream, part, separator);)
-        parts.push_back(part);
-    return parts;
-}
 
 /// Add a check. Help shows `type_name` in place of its description, unless that is empty.
 void addCheck(CLI::Option& option, CLI::Validator check, const std::string& type_name)
@@ -50,8 +42,8 @@ std::vector<std::string> namesOf(const CLI::Option& option)
 std::vector<std::string> choicesOf(const std::string& type)
 {
     if (const size_t open = type.find('{'); open != std::string::npos)
-        return split(type.substr(open + 1, type.find('}') - open - 1), ',');
-    return type.find('|') != std::string::npos ? split(type, '|') : std::vector<std::string>();
+        return splitText(type.substr(open + 1, type.find('}') - open - 1), ',');
+    return type.find('|') != std::string::npos ? splitText(type, '|') : std::vector<std::string>();
 }
 
 OptionInfo infoOf(const CLI::Option& option)

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/mesh/deformation.h"
 
-#include "formats/assert.h"
-#include "formats/vertex_codec.h"
+#include "formats/base/assert.h"
+#include "formats/codecs/vertex_codec.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // What deforms a mesh, brought to what geometry pages can hold: a few influences of each vertex in codes, and morph deltas
-// in steps (formats/vertex_codec.h).
+// in steps (formats/codecs/vertex_codec.h).
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/mesh/source_mesh.h"
 
-#include "formats/byte_reader.h"
+#include "formats/base/byte_reader.h"
 
 #include <algorithm>
 #include <cstring>

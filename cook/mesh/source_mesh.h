@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include "formats/container_reader.h"
-#include "formats/container_writer.h"
-#include "formats/math.h"
-#include "formats/mesh.h"
+#include "formats/base/math.h"
+#include "formats/container/container_reader.h"
+#include "formats/container/container_writer.h"
+#include "formats/records/mesh.h"
 
 #include <array>
 #include <string>

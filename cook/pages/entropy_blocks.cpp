@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/pages/entropy_blocks.h"
 
-#include "formats/assert.h"
+#include "formats/base/assert.h"
 
 // for the literal compression mode: else zstd does not code literals where it does not look for matches
 #define ZSTD_STATIC_LINKING_ONLY

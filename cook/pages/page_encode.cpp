@@ -4,8 +4,8 @@
 #include "cook/pages/entropy_blocks.h"
 #include "cook/pages/page_planes.h"
 #include "cook/pages/triangle_walk.h"
-#include "formats/assert.h"
-#include "formats/cluster_bounds.h"
+#include "formats/base/assert.h"
+#include "formats/codecs/cluster_bounds.h"
 
 #include <algorithm>
 #include <bit>

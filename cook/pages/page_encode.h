@@ -1,8 +1,8 @@
-// Writes geometry pages in their stored form (formats/page_codec.h).
+// Writes geometry pages in their stored form (formats/codecs/page_codec.h).
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include "formats/mesh.h"
+#include "formats/records/mesh.h"
 
 #include <cstddef>
 #include <memory>
@@ -12,7 +12,7 @@
 namespace hearth::pages
 {
 
-/// Geometry of a cluster, decoded: what formats/mesh.h says of a page, one cluster at its page_word.
+/// Geometry of a cluster, decoded: what formats/records/mesh.h says of a page, one cluster at its page_word.
 struct CodedCluster
 {
     std::vector<uint32_t> words;  ///< UV bases, then vertices
@@ -41,7 +41,7 @@ public:
     /// they are. Where nothing has changed, the stored bytes are those that encode() made.
     ///
     /// clusters  their vertices stand in the order of their first use
-    /// codes     stream codes of the stored page (formats/page_codec.h)
+    /// codes     stream codes of the stored page (formats/codecs/page_codec.h)
     std::vector<std::byte> encodeAgain(std::span<const formats::ClusterRecord> records, uint32_t mesh_layout,
                                        std::span<CodedCluster> clusters, std::span<const uint8_t> codes);
 

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include "formats/page_codec.h"
-#include "formats/vector16.h"
+#include "formats/codecs/page_codec.h"
+#include "formats/codecs/vector16.h"
 
 #include <array>
 #include <cstdint>

@@ -2,11 +2,11 @@
 #include "cook/pages/rewrite.h"
 
 #include "cook/pages/page_encode.h"
-#include "formats/assert.h"
-#include "formats/cluster_bounds.h"
-#include "formats/container_writer.h"
-#include "formats/pack_check.h"
-#include "formats/page_codec.h"
+#include "formats/base/assert.h"
+#include "formats/codecs/cluster_bounds.h"
+#include "formats/codecs/page_codec.h"
+#include "formats/container/container_writer.h"
+#include "formats/pack/pack_check.h"
 
 #include <zstd.h>
 

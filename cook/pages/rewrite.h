@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include "formats/pack_view.h"
+#include "formats/pack/pack_view.h"
 
 #include <functional>
 #include <span>
@@ -20,7 +20,7 @@ struct PageVertices
     std::span<const formats::ClusterGeometry> geometry; ///< of each of them
 };
 
-/// Says what the vertices of a page see: codes of formats/visibility_code.h, one for each vertex of geometry[0], then of
+/// Says what the vertices of a page see: codes of formats/codecs/visibility_code.h, one for each vertex of geometry[0], then of
 /// geometry[1], and so on. They hold those that the page has. Called for each page once, in any order, by many threads at
 /// once; what it says may only depend on the page.
 using VisibilityEdit = std::function<void(const PageVertices& page, std::span<uint32_t> codes)>;

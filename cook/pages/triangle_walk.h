@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include "formats/page_codec.h"
+#include "formats/codecs/page_codec.h"
 
 #include <array>
 #include <cstdint>

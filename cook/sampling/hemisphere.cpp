@@ -2,7 +2,7 @@
 #include "cook/sampling/hemisphere.h"
 
 #include "cook/sampling/owen_sobol.h"
-#include "formats/assert.h"
+#include "formats/base/assert.h"
 
 namespace hearth::sampling
 {

@@ -3,7 +3,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include "formats/math.h"
+#include "formats/base/math.h"
 
 namespace hearth::sampling
 {

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include "formats/math.h"
+#include "formats/base/math.h"
 
 #include <cstdint>
 

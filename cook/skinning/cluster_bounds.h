@@ -3,7 +3,7 @@
 #pragma once
 
 #include "cook/skinning/deformed_cluster.h"
-#include "formats/deformation.h"
+#include "formats/records/deformation.h"
 
 #include <optional>
 #include <vector>

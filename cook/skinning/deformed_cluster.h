@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include "cook/motion/pose_regions.h"
-#include "cook/motion/skin_motion.h"
-#include "formats/math.h"
+#include "cook/animation_bounds/pose_regions.h"
+#include "cook/animation_bounds/skin_motion.h"
+#include "formats/base/math.h"
 
 #include <cstdint>
 #include <span>

@@ -3,7 +3,7 @@
 
 #include "cook/skinning/middle_pose.h"
 #include "cook/skinning/rounding.h"
-#include "formats/vertex_codec.h"
+#include "formats/codecs/vertex_codec.h"
 
 #include <algorithm>
 #include <array>

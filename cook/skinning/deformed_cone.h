@@ -3,7 +3,7 @@
 #pragma once
 
 #include "cook/skinning/deformed_cluster.h"
-#include "formats/mesh.h"
+#include "formats/records/mesh.h"
 
 namespace hearth::skinning
 {

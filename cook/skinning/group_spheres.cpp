@@ -4,7 +4,7 @@
 #include "cook/skinning/cluster_bounds.h"
 #include "cook/skinning/middle_pose.h"
 #include "cook/skinning/rounding.h"
-#include "formats/assert.h"
+#include "formats/base/assert.h"
 
 #include <algorithm>
 #include <cmath>

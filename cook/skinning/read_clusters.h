@@ -3,7 +3,7 @@
 #pragma once
 
 #include "cook/skinning/deformed_cluster.h"
-#include "formats/pack_view.h"
+#include "formats/pack/pack_view.h"
 
 namespace hearth::skinning
 {

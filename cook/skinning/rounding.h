@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include "cook/motion/box.h"
-#include "formats/math.h"
+#include "cook/animation_bounds/box.h"
+#include "formats/base/math.h"
 
 namespace hearth::skinning
 {

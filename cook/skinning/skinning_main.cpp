@@ -4,8 +4,8 @@
 #include "cook/skinning/skinning_part.h"
 #include "cook/tools/batch.h"
 #include "cook/tools/open_part.h"
-#include "cook/tools/whole_file.h"
-#include "formats/program.h"
+#include "formats/base/atomic_file.h"
+#include "formats/base/program.h"
 
 #include <cstdio>
 #include <memory>
@@ -30,7 +30,7 @@ Status writeStatistics(const Arguments& arguments, const std::vector<skinning::M
 {
     const std::string source =
         arguments.import_part.substr(arguments.import_part.rfind('/') + 1); // npos + 1 is 0
-    return tools::writeText(arguments.statistics, skinning::statisticsJson(source, meshes));
+    return writeText(arguments.statistics, skinning::statisticsJson(source, meshes));
 }
 
 Status cook(const Arguments& arguments)

@@ -5,8 +5,8 @@
 #include "cook/skinning/cluster_bounds.h"
 #include "cook/skinning/group_spheres.h"
 #include "cook/skinning/read_clusters.h"
-#include "formats/container_writer.h"
-#include "formats/pack_check.h"
+#include "formats/container/container_writer.h"
+#include "formats/pack/pack_check.h"
 
 #include <algorithm>
 

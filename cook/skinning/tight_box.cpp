@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/skinning/tight_box.h"
 
-#include "cook/motion/region_chain.h"
-#include "cook/motion/symmetric.h"
+#include "cook/animation_bounds/region_chain.h"
+#include "cook/animation_bounds/symmetric.h"
 
 #include <algorithm>
 #include <numeric>

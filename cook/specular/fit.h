@@ -1,4 +1,4 @@
-// Finds the constants of the fit in formats/shared/specular_occlusion.h.
+// Finds the constants of the fit in formats/gpu_shared/specular_occlusion.h.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 

@@ -6,7 +6,7 @@
 #include "cook/specular/lobe.h"
 
 #include "cook/specular/gauss_legendre.h"
-#include "formats/assert.h"
+#include "formats/base/assert.h"
 
 #include <algorithm>
 #include <array>

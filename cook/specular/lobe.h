@@ -3,8 +3,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include "formats/double3.h"
-#include "formats/specular.h"
+#include "formats/base/double3.h"
+#include "formats/records/specular.h"
 
 #include <span>
 

@@ -3,8 +3,8 @@
 
 #include "cook/json/json.h"
 #include "cook/specular/astc.h"
-#include "cook/specular/older_ways.h"
-#include "formats/assert.h"
+#include "cook/specular/prior_art.h"
+#include "formats/base/assert.h"
 
 #include <algorithm>
 #include <cmath>

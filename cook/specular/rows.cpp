@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/specular/rows.h"
 
-#include "cook/tools/number_rows.h"
+#include "formats/base/csv_table.h"
 
 #include <cmath>
 #include <numbers>
@@ -21,7 +21,7 @@ constexpr double kSlack_rad = 1e-5;
 /// row  six numbers; errors: table_rows
 Result<Configuration> configurationOf(std::span<const double> row, const std::string& name, size_t line)
 {
-    const auto fault = [&](std::string detail) { return tools::faultOfRow(name, line, std::move(detail)); };
+    const auto fault = [&](std::string detail) { return csvRowError(name, line, std::move(detail)); };
     const double half_angle = row[0], roughness = row[1], theta_o = row[2];
     constexpr double kMaxAngle = std::numbers::pi / 2;
     if (!(half_angle >= 0 && half_angle <= kMaxAngle + kSlack_rad))
@@ -42,7 +42,7 @@ Result<Configuration> configurationOf(std::span<const double> row, const std::st
 
 Result<std::vector<Configuration>> readRows(std::string_view text, const std::string& name)
 {
-    HEARTH_ASSIGN_OR_RETURN(const tools::NumberRows rows, tools::readNumberRows(text, kHeader, name));
+    HEARTH_ASSIGN_OR_RETURN(const CsvTable rows, readCsvTable(text, kHeader, name));
     std::vector<Configuration> configurations;
     for (size_t i = 0; i < rows.size(); ++i)
     {

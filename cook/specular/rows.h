@@ -3,7 +3,7 @@
 #pragma once
 
 #include "cook/specular/configurations.h"
-#include "formats/result.h"
+#include "formats/base/result.h"
 
 #include <string>
 #include <string_view>

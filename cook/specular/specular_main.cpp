@@ -5,9 +5,9 @@
 #include "cook/specular/fit.h"
 #include "cook/specular/report.h"
 #include "cook/specular/rows.h"
-#include "cook/tools/whole_file.h"
-#include "formats/container_writer.h"
-#include "formats/program.h"
+#include "formats/base/atomic_file.h"
+#include "formats/base/program.h"
+#include "formats/container/container_writer.h"
 
 #include <chrono>
 #include <cstdio>
@@ -52,8 +52,7 @@ Status evaluate(const Arguments& arguments)
     HEARTH_ASSIGN_OR_RETURN(const std::vector<Configuration> configurations, readRows(text, arguments.rows));
     // as a pack has it: rounded
     const TableValues values = unpackTable(packTable(cookTable(arguments.settings), arguments.settings));
-    return tools::writeText(arguments.output,
-                            evaluateRows(configurations, values, arguments.settings.spacing));
+    return writeText(arguments.output, evaluateRows(configurations, values, arguments.settings.spacing));
 }
 
 Status printFit(const Arguments& arguments)
@@ -76,7 +75,7 @@ Status writePart(const Arguments& arguments, const TableValues& values)
 
 Status writeAstc(const Arguments& arguments, const TableValues& values)
 {
-    HEARTH_ASSIGN_OR_RETURN(tools::WholeFile file, tools::WholeFile::create(arguments.astc));
+    HEARTH_ASSIGN_OR_RETURN(AtomicFile file, AtomicFile::create(arguments.astc));
     file.write(astcFile(encodeAstc(values, arguments.astc_block)));
     return file.finish();
 }
@@ -94,9 +93,9 @@ Status cook(const Arguments& arguments)
         return success();
     const Comparison comparison = compare(arguments.settings, arguments.configurations, arguments.seed);
     if (arguments.report != "-")
-        HEARTH_TRY(tools::writeText("-", comparisonText(comparison) + "table cooked in " +
-                                             std::to_string(seconds) + " s\n"));
-    return tools::writeText(arguments.report, comparisonJson(comparison, seconds));
+        HEARTH_TRY(writeText("-", comparisonText(comparison) + "table cooked in " + std::to_string(seconds) +
+                                      " s\n"));
+    return writeText(arguments.report, comparisonJson(comparison, seconds));
 }
 
 int run(const Arguments& arguments)

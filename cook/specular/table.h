@@ -3,7 +3,7 @@
 #pragma once
 
 #include "cook/specular/lobe.h"
-#include "formats/specular.h"
+#include "formats/records/specular.h"
 
 #include <array>
 

@@ -4,7 +4,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include "formats/math.h"
+#include "formats/base/math.h"
 
 #include <cstdint>
 #include <functional>

@@ -4,8 +4,8 @@
 #include "cook/textures/alpha_coverage.h"
 #include "cook/textures/halve.h"
 #include "cook/textures/texel_codec.h"
-#include "formats/assert.h"
-#include "formats/pack_view.h"
+#include "formats/base/assert.h"
+#include "formats/pack/pack_view.h"
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>

@@ -2,7 +2,7 @@
 #include "cook/textures/texel_codec.h"
 
 #include "cook/textures/srgb.h"
-#include "formats/half.h"
+#include "formats/base/half.h"
 
 #include <array>
 #include <cstring>

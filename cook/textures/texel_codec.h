@@ -3,8 +3,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include "formats/math.h"
-#include "formats/scene.h"
+#include "formats/base/math.h"
+#include "formats/records/scene.h"
 
 #include <cstddef>
 #include <cstdint>

@@ -2,11 +2,11 @@
 #include "cook/textures/texture_part.h"
 
 #include "cook/textures/mip_chain.h"
-#include "formats/container_reader.h"
-#include "formats/container_writer.h"
-#include "formats/image_uses.h"
-#include "formats/pack_view.h"
-#include "formats/scene.h"
+#include "formats/container/container_reader.h"
+#include "formats/container/container_writer.h"
+#include "formats/pack/image_uses.h"
+#include "formats/pack/pack_view.h"
+#include "formats/records/scene.h"
 
 #include <algorithm>
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "cook/textures/texture_statistics.h"
-#include "formats/result.h"
+#include "formats/base/result.h"
 
 #include <cstdint>
 #include <string>

@@ -3,9 +3,9 @@
 
 #include "cook/json/json.h"
 #include "cook/textures/texel_codec.h"
-#include "formats/assert.h"
-#include "formats/pack_view.h"
-#include "formats/texel_format_name.h"
+#include "formats/base/assert.h"
+#include "formats/pack/pack_view.h"
+#include "formats/records/texel_format_name.h"
 
 #include <algorithm>
 #include <cmath>

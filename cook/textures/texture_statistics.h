@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include "formats/scene.h"
+#include "formats/records/scene.h"
 
 #include <cstddef>
 #include <cstdint>

@@ -3,8 +3,8 @@
 #include "cook/command_line/command_line.h"
 #include "cook/textures/texture_part.h"
 #include "cook/tools/batch.h"
-#include "cook/tools/whole_file.h"
-#include "formats/program.h"
+#include "formats/base/atomic_file.h"
+#include "formats/base/program.h"
 
 #include <cstdio>
 #include <memory>
@@ -32,7 +32,7 @@ Status cook(const Arguments& arguments)
     std::vector<textures::ImageStatistics> images;
     HEARTH_TRY(textures::cookTextures(arguments.input, arguments.output, arguments.max_size, &images));
     const std::string source = arguments.input.substr(arguments.input.rfind('/') + 1); // npos + 1 is 0
-    return tools::writeText(arguments.statistics, textures::statisticsJson(source, images));
+    return writeText(arguments.statistics, textures::statisticsJson(source, images));
 }
 
 int run(const Arguments& arguments)

@@ -2,7 +2,7 @@
 #include "cook/tools/batch.h"
 
 #include "cook/json/json.h"
-#include "formats/program.h"
+#include "formats/base/program.h"
 
 #include <chrono>
 #include <cstdlib>

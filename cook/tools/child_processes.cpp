@@ -3,7 +3,7 @@
 
 #include "cook/json/json.h"
 #include "cook/tools/batch.h"
-#include "formats/flush.h"
+#include "formats/base/flush.h"
 
 #include <algorithm>
 #include <cerrno>
@@ -140,7 +140,7 @@ Result<size_t> ChildProcesses::start(const std::vector<std::string>& command, bo
         arguments.push_back(const_cast<char*>(argument.c_str()));
     arguments.push_back(nullptr);
 
-    std::string no_flush = std::string(formats::kFlushVariable) + "=off";
+    std::string no_flush = std::string(kFlushVariable) + "=off";
     std::vector<char*> environment{no_flush.data()};
     for (char** variable = environ; *variable != nullptr; ++variable)
         environment.push_back(*variable);

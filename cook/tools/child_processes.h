@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include "formats/result.h"
+#include "formats/base/result.h"
 
 #include <chrono>
 #include <csignal>
@@ -43,7 +43,7 @@ public:
     ChildProcesses& operator=(const ChildProcesses&) = delete;
 
     /// Start program command[0] with its arguments: no shell, stdin and stdout nowhere. What it writes it does not flush to the
-    /// disk (formats/flush.h): most of it goes before this process does. Ids count from 0.
+    /// disk (formats/base/flush.h): most of it goes before this process does. Ids count from 0.
     /// errors: child_failed.
     Result<size_t> start(const std::vector<std::string>& command);
 

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include "formats/result.h"
-#include "pipelines/cache/patience.h"
+#include "formats/base/result.h"
+#include "pipelines/cache/stall_timer.h"
 
 #include <cstdint>
 #include <memory>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/cache/open_cache.h"
 
-#include "cook/tools/lines.h"
+#include "formats/base/text.h"
 
 #include <charconv>
 #include <cstdlib>
@@ -33,7 +33,7 @@ Result<LevelSpec> specOf(const std::string& text, const std::string& option)
         return wrong("must be a folder or a server, as in dir:/var/cache/hearth, dir:/mnt/team,ro or "
                      "http://cache:8080/hearth");
     const std::vector<std::string> parts =
-        tools::split(is_server ? text : text.substr(kFolderScheme.size()), ',');
+        splitText(is_server ? text : text.substr(kFolderScheme.size()), ',');
     LevelSpec spec;
     spec.place = parts[0];
     spec.is_server = is_server;
@@ -111,7 +111,7 @@ Result<std::vector<LevelSpec>> cacheSpecs(std::span<const std::string> options)
         if (value == "off")
             return specs;
         option = "HEARTH_CACHE";
-        texts = tools::split(value, ';');
+        texts = splitText(value, ';');
     }
     for (const std::string& text : texts)
     {

@@ -2,9 +2,9 @@
 #include "pipelines/cache/upkeep.h"
 
 #include "cook/tools/sha256.h"
-#include "cook/tools/whole_file.h"
+#include "formats/base/atomic_file.h"
+#include "pipelines/cache/directory_store.h"
 #include "pipelines/cache/entry_text.h"
-#include "pipelines/cache/folder_level.h"
 
 #include <algorithm>
 #include <charconv>
@@ -183,7 +183,7 @@ void noteAdded(const std::string& folder, uint64_t bytes, uint64_t limit_bytes)
     if (size > limit_bytes)
         size = collectGarbage(folder, limit_bytes / 10 * 9).bytes;
     // without it the next cook counts
-    static_cast<void>(tools::writeText(path, std::to_string(size) + "\n").ok());
+    static_cast<void>(writeText(path, std::to_string(size) + "\n").ok());
 }
 
 } // namespace hearth::cache

@@ -1,11 +1,11 @@
 // hearth: the command that users type. Reads the command line; each verb is a file of its own.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "formats/program.h"
-#include "pipelines/command/common_options.h"
-#include "pipelines/command/explain.h"
-#include "pipelines/command/typing_errors.h"
-#include "pipelines/command/verb_tools.h"
-#include "pipelines/command/verbs.h"
+#include "formats/base/program.h"
+#include "pipelines/command/cook/common_options.h"
+#include "pipelines/command/shell/explain.h"
+#include "pipelines/command/shell/typing_errors.h"
+#include "pipelines/command/shell/verb_tools.h"
+#include "pipelines/command/shell/verbs.h"
 
 namespace
 {

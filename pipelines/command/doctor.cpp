@@ -3,11 +3,11 @@
 
 #include "cook/json/json.h"
 #include "cook/tools/child_processes.h"
-#include "cook/tools/private_folder.h"
-#include "pipelines/cache/folder_level.h"
+#include "formats/base/temp_directory.h"
+#include "pipelines/cache/directory_store.h"
 #include "pipelines/cache/http_level.h"
 #include "pipelines/cache/upkeep.h"
-#include "pipelines/command/terminal.h"
+#include "pipelines/command/shell/terminal.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -218,7 +218,7 @@ std::vector<Check> examine(const Result<std::vector<cache::LevelSpec>>& caches)
     std::vector<Check> checks{checkPrograms(folder)};
     for (Check& check : checkCaches(caches))
         checks.push_back(std::move(check));
-    checks.push_back(checkSpace("temporary files", tools::temporaryOr(fs::temp_directory_path().string())));
+    checks.push_back(checkSpace("temporary files", temporaryOr(fs::temp_directory_path().string())));
     checks.push_back(checkDevice(folder));
     checks.push_back(checkThreads());
     checks.push_back(checkMemory());

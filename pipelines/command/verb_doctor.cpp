@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "pipelines/command/common_options.h"
+#include "pipelines/command/cook/common_options.h"
+#include "pipelines/command/cook/setting_options.h"
 #include "pipelines/command/doctor.h"
-#include "pipelines/command/setting_options.h"
-#include "pipelines/command/verb_tools.h"
-#include "pipelines/command/verbs.h"
+#include "pipelines/command/shell/verb_tools.h"
+#include "pipelines/command/shell/verbs.h"
 
 namespace hearth::command
 {

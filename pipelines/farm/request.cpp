@@ -2,8 +2,8 @@
 #include "pipelines/farm/request.h"
 
 #include "pipelines/profiles/config_file.h"
+#include "pipelines/profiles/cooker_arguments.h"
 #include "pipelines/profiles/setting.h"
-#include "pipelines/profiles/told.h"
 
 namespace hearth::farm
 {

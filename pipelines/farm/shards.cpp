@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/farm/shards.h"
 
-#include "formats/assert.h"
+#include "formats/base/assert.h"
 
 #include <algorithm>
 #include <cmath>

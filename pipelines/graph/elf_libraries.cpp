@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/graph/elf_libraries.h"
 
-#include "cook/tools/private_folder.h"
+#include "formats/base/temp_directory.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -128,7 +128,7 @@ void addLibraries(const std::string& path, std::set<std::string>& found)
     std::vector<std::string> folders;
     const char* variable = std::getenv("LD_LIBRARY_PATH");
     addFolders(folders, variable == nullptr ? "" : variable, "");
-    addFolders(folders, dynamic.run_path, tools::folderOf(path));
+    addFolders(folders, dynamic.run_path, parentFolder(path));
     folders.insert(folders.end(), {"/usr/local/lib", "/lib/x86_64-linux-gnu", "/usr/lib/x86_64-linux-gnu",
                                    "/lib64", "/usr/lib64", "/lib", "/usr/lib"});
     for (const std::string& name : dynamic.needed)

@@ -3,7 +3,7 @@
 
 #include "cook/tools/read_list.h"
 #include "cook/tools/sha256.h"
-#include "pipelines/cache/folder_level.h"
+#include "pipelines/cache/directory_store.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -60,14 +60,13 @@ std::optional<Failure> Executor::makeFolders()
         return std::nullopt;
     if (options_.makes_pack)
     {
-        Result<tools::PrivateFolder> beside =
-            tools::PrivateFolder::create(tools::folderOf(options_.output), options_.output);
+        Result<TempDirectory> beside = TempDirectory::create(parentFolder(options_.output), options_.output);
         if (!beside.ok())
             return failureOf(beside.error(), graph_.source_count);
         beside_.emplace(std::move(beside).value());
     }
-    Result<tools::PrivateFolder> parts =
-        tools::PrivateFolder::create(tools::temporaryOr(beside_ ? beside_->path() : "/tmp"), options_.output);
+    Result<TempDirectory> parts =
+        TempDirectory::create(temporaryOr(beside_ ? beside_->path() : "/tmp"), options_.output);
     if (!parts.ok())
         return failureOf(parts.error(), graph_.source_count);
     parts_.emplace(std::move(parts).value());

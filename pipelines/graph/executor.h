@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include "cook/tools/private_folder.h"
-#include "pipelines/graph/cooker_end.h"
-#include "pipelines/graph/crew.h"
+#include "formats/base/temp_directory.h"
+#include "pipelines/graph/cooker_outcome.h"
+#include "pipelines/graph/process_pool.h"
 #include "pipelines/graph/resolver.h"
 
 #include <functional>
@@ -119,8 +119,8 @@ private:
 
     // before the folders, so that it goes after them: signals wait until they are gone
     Crew crew_;
-    std::optional<tools::PrivateFolder> beside_; ///< the pack, where a rename can put it in place
-    std::optional<tools::PrivateFolder> parts_;
+    std::optional<TempDirectory> beside_; ///< the pack, where a rename can put it in place
+    std::optional<TempDirectory> parts_;
 
     std::vector<State> states_;
     std::vector<ActionOutcome> outcomes_;

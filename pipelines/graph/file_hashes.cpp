@@ -2,9 +2,9 @@
 #include "pipelines/graph/file_hashes.h"
 
 #include "cook/tools/sha256.h"
-#include "cook/tools/whole_file.h"
+#include "formats/base/atomic_file.h"
+#include "pipelines/cache/directory_store.h"
 #include "pipelines/cache/entry_text.h"
-#include "pipelines/cache/folder_level.h"
 
 #include <ctime>
 #include <fmt/format.h>
@@ -49,7 +49,7 @@ void FileHashes::save(const std::string& path) const
             fields.emplace_back(file, known.hash + " " + known.looks);
     // what it says is true or does no harm: an error is no matter
     if (const std::string text = cache::entryText(fields); text != loaded_text_)
-        static_cast<void>(tools::writeText(path, text).ok());
+        static_cast<void>(writeText(path, text).ok());
 }
 
 std::optional<std::string> FileHashes::hashOf(const std::string& path)

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/import/authored_files.h"
 
-#include "formats/pack_view.h"
-#include "pipelines/import/bake_transform.h"
+#include "formats/pack/pack_view.h"
+#include "pipelines/import/part/bake_transform.h"
 #include "pipelines/import/read_source.h"
 
 #include <algorithm>

@@ -3,8 +3,8 @@
 #pragma once
 
 #include "cook/tools/lod_files.h"
-#include "pipelines/import/import_options.h"
-#include "pipelines/import/part_builder.h"
+#include "pipelines/import/part/import_options.h"
+#include "pipelines/import/part/part_builder.h"
 
 #include <span>
 #include <string>

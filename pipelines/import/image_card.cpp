@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/import/image_card.h"
 
-#include "pipelines/import/image_decode.h"
-#include "pipelines/import/import_options.h"
-#include "pipelines/import/obj_materials.h"
-#include "pipelines/import/part_builder.h"
-#include "pipelines/import/scan_file.h"
+#include "pipelines/import/images/decode.h"
+#include "pipelines/import/part/import_options.h"
+#include "pipelines/import/part/part_builder.h"
+#include "pipelines/import/scans/file.h"
+#include "pipelines/import/scans/obj_materials.h"
 
 namespace hearth::import
 {

@@ -1,18 +1,18 @@
 // hearth-import: reads a source asset and writes the import part.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "cook/clips/clip_settings.h"
+#include "cook/animation_compression/clip_settings.h"
 #include "cook/command_line/command_line.h"
 #include "cook/tools/batch.h"
-#include "cook/tools/lines.h"
 #include "cook/tools/lod_files.h"
-#include "cook/tools/private_folder.h"
 #include "cook/tools/read_list.h"
-#include "cook/tools/whole_file.h"
-#include "formats/program.h"
+#include "formats/base/atomic_file.h"
+#include "formats/base/program.h"
+#include "formats/base/temp_directory.h"
+#include "formats/base/text.h"
 #include "pipelines/import/authored_files.h"
-#include "pipelines/import/part_clips.h"
+#include "pipelines/import/part/part_clips.h"
+#include "pipelines/import/part/source_space.h"
 #include "pipelines/import/read_source.h"
-#include "pipelines/import/source_space.h"
 
 #include <cstdio>
 
@@ -56,9 +56,9 @@ Status readAll(const Arguments& arguments, std::span<const tools::LodFile> lods,
     HEARTH_TRY(import::readSource(arguments.source, options, part));
     if (lods.empty())
         return success();
-    HEARTH_ASSIGN_OR_RETURN(const tools::PrivateFolder folder,
-                            tools::PrivateFolder::create(
-                                tools::temporaryOr(tools::folderOf(arguments.output)), arguments.output));
+    HEARTH_ASSIGN_OR_RETURN(
+        const TempDirectory folder,
+        TempDirectory::create(temporaryOr(parentFolder(arguments.output)), arguments.output));
     return import::addAuthoredFiles(lods, folder.path(), options, part);
 }
 
@@ -66,7 +66,7 @@ Result<clips::StatedError> statedError(const Arguments& arguments)
 {
     if (!arguments.profile.empty())
         return clips::readStatedError(arguments.profile);
-    return clips::parseStatedError(tools::joinedLines(arguments.settings), "--set");
+    return clips::parseStatedError(joinLines(arguments.settings), "--set");
 }
 
 Status finish(const Arguments& arguments, const clips::StatedError& stated_error, import::PartBuilder& part)
@@ -75,8 +75,7 @@ Status finish(const Arguments& arguments, const clips::StatedError& stated_error
         {arguments.scale, arguments.up == "z" ? import::UpAxis::z : import::UpAxis::y}, part));
     import::compressClips(part, stated_error);
     HEARTH_TRY(part.finish());
-    return arguments.statistics.empty() ? success()
-                                        : tools::writeText(arguments.statistics, part.report() + "\n");
+    return arguments.statistics.empty() ? success() : writeText(arguments.statistics, part.report() + "\n");
 }
 
 Status run(const Arguments& arguments)
@@ -92,8 +91,7 @@ Status run(const Arguments& arguments)
     printWarnings(part);
     const Status finished = read.ok() ? finish(arguments, stated_error, part) : read;
     // of a failure too: who mends it changes one of these
-    const Status listed =
-        arguments.depfile.empty() ? success() : tools::writeText(arguments.depfile, reads.text());
+    const Status listed = arguments.depfile.empty() ? success() : writeText(arguments.depfile, reads.text());
     return finished.ok() ? listed : finished;
 }
 

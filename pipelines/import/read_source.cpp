@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/import/read_source.h"
 
-#include "pipelines/import/file_bytes.h"
-#include "pipelines/import/gltf_reader.h"
+#include "pipelines/import/gltf/reader.h"
 #include "pipelines/import/image_card.h"
-#include "pipelines/import/image_decode.h"
-#include "pipelines/import/import_options.h"
-#include "pipelines/import/part_builder.h"
-#include "pipelines/import/scan_import.h"
+#include "pipelines/import/images/decode.h"
+#include "pipelines/import/part/import_options.h"
+#include "pipelines/import/part/part_builder.h"
+#include "pipelines/import/scans/import.h"
+#include "pipelines/import/source/file_bytes.h"
 
-#include "pipelines/import/asset_folder.h"
+#include "pipelines/import/source/asset_folder.h"
 
 #include <algorithm>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/link/asset_bounds.h"
 
-#include "formats/animation.h"
-#include "formats/cluster_bounds.h"
-#include "formats/pack_check.h"
+#include "formats/codecs/cluster_bounds.h"
+#include "formats/pack/pack_check.h"
+#include "formats/scene/animation.h"
 
 #include <algorithm>
 #include <cmath>

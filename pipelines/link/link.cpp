@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/link/link.h"
 
-#include "formats/container_writer.h"
-#include "formats/pack_check.h"
+#include "formats/container/container_writer.h"
+#include "formats/pack/pack_check.h"
 #include "pipelines/link/asset_bounds.h"
 #include "pipelines/link/merged_meta.h"
 #include "pipelines/link/rebase.h"

@@ -1,7 +1,7 @@
 // hearth-link: merges import, clusters, textures and skinning parts into a pack, with a table of specular occlusion and a grid of bricks.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/command_line/command_line.h"
-#include "formats/program.h"
+#include "formats/base/program.h"
 #include "pipelines/link/link.h"
 
 #include <cstdio>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/link/rebase.h"
 
-#include "formats/channel_keys.h"
+#include "formats/codecs/channel_keys.h"
 
 namespace hearth::link
 {

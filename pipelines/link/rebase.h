@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include "formats/deformation.h"
-#include "formats/mesh.h"
-#include "formats/provenance.h"
-#include "formats/scene.h"
+#include "formats/records/deformation.h"
+#include "formats/records/mesh.h"
+#include "formats/records/provenance.h"
+#include "formats/records/scene.h"
 
 namespace hearth::link
 {

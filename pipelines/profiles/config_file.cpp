@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/profiles/config_file.h"
 
-#include "cook/clusters/profile.h"
+#include "cook/clusters/program/profile.h"
 #include "pipelines/profiles/toml_value.h"
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include "formats/result.h"
+#include "formats/base/result.h"
 #include "pipelines/profiles/value.h"
 
 #include <string>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/profiles/configuration.h"
 
-#include "cook/tools/lines.h"
-#include "cook/tools/suggest.h"
-#include "pipelines/cache/folder_level.h"
+#include "formats/base/suggest.h"
+#include "formats/base/text.h"
+#include "pipelines/cache/directory_store.h"
 #include "pipelines/profiles/built_in.h"
 #include "pipelines/profiles/glob.h"
 
@@ -135,7 +135,7 @@ Status Configuration::readEnvironment(const Environment& environment)
         if (!text)
             continue;
         const std::vector<std::string> words =
-            setting.kind == Kind::texts ? tools::split(*text, ';') : std::vector<std::string>{*text};
+            setting.kind == Kind::texts ? splitText(*text, ';') : std::vector<std::string>{*text};
         HEARTH_ASSIGN_OR_RETURN(environment_[setting.key], valueOf(setting, words, name));
     }
     return success();
@@ -189,7 +189,7 @@ Status Configuration::addProfile(const Profile& profile, size_t level, const std
         for (size_t i = 0; i <= files_.size(); ++i)
             for (const Profile& other : fileAt(i).profiles)
                 known.push_back(other.name);
-        const std::string nearest = tools::nearestMatch(profile.inherits, known);
+        const std::string nearest = nearestMatch(profile.inherits, known);
         return Error{Issue::profile_unknown, file, profile.place,
                      fmt::format("there is no profile '{}'{}", profile.inherits,
                                  nearest.empty() ? "" : ": did you mean '" + nearest + "'?")};

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/profiles/nearest_path.h"
 
-#include "cook/tools/suggest.h"
+#include "formats/base/suggest.h"
 #include "pipelines/profiles/glob.h"
 
 #include <algorithm>

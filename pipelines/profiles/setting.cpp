@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/profiles/setting.h"
 
-#include "cook/clusters/reduction.h"
+#include "cook/clusters/core/reduction.h"
 #include "cook/textures/texture_part.h"
 
 #include <algorithm>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/profiles/toml_value.h"
 
-#include "cook/clusters/profile.h"
-#include "cook/tools/suggest.h"
+#include "cook/clusters/program/profile.h"
+#include "formats/base/suggest.h"
 #include "pipelines/cache/open_cache.h"
 
 #include <algorithm>
@@ -79,7 +79,7 @@ Result<std::string> wordText(const TomlNode& node, const Setting& setting, const
     if (!node.isText() || setting.kind != Kind::choice)
         return outOfRange(node, setting, place);
     const Keys choices(setting.choices.begin(), setting.choices.end());
-    const std::string nearest = tools::nearestMatch(node.text, choices);
+    const std::string nearest = nearestMatch(node.text, choices);
     return place.wrong(Issue::profile_value, node,
                        fmt::format("'{}' must be {}{}", node.text, rangeText(setting),
                                    nearest.empty() ? "" : ": did you mean '" + nearest + "'?"));
@@ -202,7 +202,7 @@ Error Place::wrong(Issue issue, const TomlNode& node, std::string detail) const
 
 Error unknownKey(const Place& place, const TomlNode& node, std::string_view key, const Keys& known)
 {
-    const std::string nearest = tools::nearestMatch(key, known);
+    const std::string nearest = nearestMatch(key, known);
     return place.at(key).wrong(
         Issue::profile_key, node,
         nearest.empty() ? fmt::format("this key is not known; known are {}", fmt::join(known, ", "))

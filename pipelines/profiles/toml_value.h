@@ -3,7 +3,7 @@
 #pragma once
 
 #include "cook/tools/toml.h"
-#include "formats/result.h"
+#include "formats/base/result.h"
 #include "pipelines/profiles/setting.h"
 
 #include <string>

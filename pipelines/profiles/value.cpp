@@ -2,7 +2,7 @@
 #include "pipelines/profiles/value.h"
 
 #include "cook/json/json.h"
-#include "cook/tools/suggest.h"
+#include "formats/base/suggest.h"
 #include "pipelines/profiles/toml_value.h"
 
 #include <fmt/format.h>
@@ -112,7 +112,7 @@ Result<std::pair<std::string, Value>> parseAssignment(const std::string& text)
         Keys known;
         for (const Setting& one : profileSettings())
             known.push_back(one.key);
-        const std::string nearest = tools::nearestMatch(key, known);
+        const std::string nearest = nearestMatch(key, known);
         return Error{Issue::profile_key, "--set " + text, "",
                      nearest.empty() ? "this key is not known"
                                      : fmt::format("this key is not known: did you mean '{}'?", nearest)};

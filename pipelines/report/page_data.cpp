@@ -2,7 +2,7 @@
 #include "pipelines/report/page_data.h"
 
 #include "cook/json/json.h"
-#include "formats/issues.h"
+#include "formats/base/issues.h"
 #include "pipelines/profiles/setting.h"
 #include "pipelines/report/base64.h"
 

@@ -3,8 +3,8 @@
 
 #include "cook/json/json.h"
 #include "cook/tools/child_processes.h"
-#include "cook/tools/private_folder.h"
-#include "formats/pack_view.h"
+#include "formats/base/temp_directory.h"
+#include "formats/pack/pack_view.h"
 
 #include <algorithm>
 #include <chrono>
@@ -57,7 +57,7 @@ public:
 
     bool prepare()
     {
-        auto folder = tools::PrivateFolder::create(tools::temporaryOr(tools::folderOf(pack_)), pack_);
+        auto folder = TempDirectory::create(temporaryOr(parentFolder(pack_)), pack_);
         if (!folder.ok())
             return false;
         folder_.emplace(std::move(folder).value());
@@ -160,7 +160,7 @@ private:
     PicturesDrawn told_;
     size_t count_ = 0;
     size_t taken_ = 0; ///< out of the folder
-    std::optional<tools::PrivateFolder> folder_;
+    std::optional<TempDirectory> folder_;
     std::string why_;
     bool has_drawn_sheet_ = false;
 };

@@ -2,7 +2,7 @@
 #include "pipelines/report/write_report.h"
 
 #include "cook/json/json.h"
-#include "cook/tools/whole_file.h"
+#include "formats/base/atomic_file.h"
 #include "pipelines/report/page.h"
 #include "pipelines/report/page_data.h"
 #include "pipelines/report/tables.h"
@@ -23,12 +23,12 @@ Status writeReport(const std::string& json, const std::string& path, const std::
             const std::string data = pageData(json);
             const Pictures pictures =
                 pack.empty() ? Pictures{} : takePictures(pack, importantMeshes(json), told);
-            return tools::writeText(path, reportPage(data, picturesData(pictures)));
+            return writeText(path, reportPage(data, picturesData(pictures)));
         }
         if (path.ends_with(".xml"))
-            return tools::writeText(path, junitXml(json));
+            return writeText(path, junitXml(json));
         if (path.ends_with(".csv"))
-            return tools::writeText(path, assetTable(json));
+            return writeText(path, assetTable(json));
     }
     catch (const JsonError& error)
     {
@@ -36,7 +36,7 @@ Status writeReport(const std::string& json, const std::string& path, const std::
         return Error{Issue::json_syntax, name, "",
                      std::string("is no report of hearth cook: ") + error.what()};
     }
-    return tools::writeText(path, json);
+    return writeText(path, json);
 }
 
 } // namespace hearth::report

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/verify/verify_pack.h"
 
-#include "formats/pack_check.h"
+#include "formats/pack/pack_check.h"
 
 #include <tbb/parallel_for.h>
 

@@ -2,8 +2,8 @@
 #include "runtime/c/lights.h"
 #include "runtime/c/shadows.h"
 
-#include "formats/shared/lod_curve.h"
-#include "runtime/gpu/pipelines.h"
+#include "runtime/frame/lod_curve.h"
+#include "runtime/gpu/vulkan/pipelines.h"
 
 #include <algorithm>
 #include <array>

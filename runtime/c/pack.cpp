@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/c/handles.h"
 
-#include "formats/container.h"
+#include "formats/records/container.h"
 
 using namespace hearth;
 using namespace hearth::c;

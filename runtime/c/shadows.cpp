@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/c/shadows.h"
 
-#include "runtime/gpu/scene_shadows.h"
+#include "runtime/gpu/scene/scene_shadows.h"
 
 #include <bit>
 #include <cmath>

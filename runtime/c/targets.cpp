@@ -7,7 +7,7 @@ using namespace hearth::c;
 namespace
 {
 
-/// note: what the dependencies of runtime/gpu/frame_passes.cpp do.
+/// note: what the dependencies of runtime/gpu/passes/frame_passes.cpp do.
 hearth_image imageOf(const gpu::Image& image)
 {
     return {

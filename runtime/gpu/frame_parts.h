@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include "runtime/gpu/device_table.h"
+#include "runtime/gpu/vulkan/device_table.h"
 
 namespace hearth::gpu
 {

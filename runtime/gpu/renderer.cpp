@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/gpu/renderer.h"
 
-#include "runtime/gpu/debug_label.h"
+#include "runtime/gpu/vulkan/debug_label.h"
 
 namespace hearth::gpu
 {

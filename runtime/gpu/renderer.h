@@ -3,19 +3,19 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include "runtime/gpu/bin_pass.h"
-#include "runtime/gpu/brick_light_pass.h"
-#include "runtime/gpu/cull_pass.h"
 #include "runtime/gpu/frame_parts.h"
-#include "runtime/gpu/gather_pass.h"
-#include "runtime/gpu/light_change.h"
-#include "runtime/gpu/material_depth_pass.h"
-#include "runtime/gpu/material_tiles_pass.h"
-#include "runtime/gpu/page_request_pass.h"
-#include "runtime/gpu/pyramid_pass.h"
-#include "runtime/gpu/shading_pass.h"
-#include "runtime/gpu/shadow_pass.h"
-#include "runtime/gpu/skinning_pass.h"
+#include "runtime/gpu/passes/bin_pass.h"
+#include "runtime/gpu/passes/brick_light_pass.h"
+#include "runtime/gpu/passes/cull_pass.h"
+#include "runtime/gpu/passes/gather_pass.h"
+#include "runtime/gpu/passes/material_depth_pass.h"
+#include "runtime/gpu/passes/material_tiles_pass.h"
+#include "runtime/gpu/passes/page_request_pass.h"
+#include "runtime/gpu/passes/pyramid_pass.h"
+#include "runtime/gpu/passes/shading_pass.h"
+#include "runtime/gpu/passes/shadow_pass.h"
+#include "runtime/gpu/passes/skinning_pass.h"
+#include "runtime/gpu/scene/light_change.h"
 
 #include <memory>
 #include <optional>

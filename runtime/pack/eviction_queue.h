@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include "formats/assert.h"
+#include "formats/base/assert.h"
 
 #include <cstdint>
 #include <limits>

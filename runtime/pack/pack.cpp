@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/pack/pack.h"
 
-#include "formats/pack_check.h"
+#include "formats/pack/pack_check.h"
 
 namespace hearth::pack
 {

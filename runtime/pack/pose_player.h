@@ -1,10 +1,10 @@
 // Plays the clips of a pack: where its rigid instances go, and the palettes of its deformed ones. Thin: one clip or a
-// blend of two, for the whole scene; formats/animation.h says what a pose is. No Vulkan.
+// blend of two, for the whole scene; formats/scene/animation.h says what a pose is. No Vulkan.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include "formats/animation.h"
-#include "formats/pack_view.h"
+#include "formats/pack/pack_view.h"
+#include "formats/scene/animation.h"
 
 #include <optional>
 #include <span>

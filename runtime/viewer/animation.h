@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include "runtime/gpu/instance_motion.h"
+#include "runtime/gpu/scene/instance_motion.h"
 #include "runtime/pack/pose_player.h"
 #include "runtime/viewer/command_line.h"
 

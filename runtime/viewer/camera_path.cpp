@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/viewer/camera_path.h"
 
+#include "formats/base/text.h"
 #include "runtime/viewer/camera_fit.h"
 #include "runtime/viewer/text.h"
 
@@ -20,7 +21,7 @@ constexpr float kRadiansPerDegree = 3.14159265f / 180.0f;
 
 std::optional<shared::Camera> parseCamera(std::string_view text)
 {
-    const auto parts = split(text, ',');
+    const auto parts = splitText(text, ',');
     std::array<float, 7> v{};
     if (parts.size() != v.size())
         return std::nullopt;

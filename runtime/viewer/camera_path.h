@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include "formats/result.h"
-#include "formats/shared/frame.h"
+#include "formats/base/result.h"
+#include "runtime/frame/frame.h"
 
 #include <optional>
 #include <string>

@@ -3,7 +3,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include "formats/pack_view.h"
+#include "formats/pack/pack_view.h"
 
 #include <cstdint>
 #include <span>

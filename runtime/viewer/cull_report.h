@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include "formats/shared/cull_statistics.h"
-#include "formats/shared/records.h"
+#include "formats/gpu_shared/cull_statistics.h"
+#include "formats/gpu_shared/records.h"
 
 #include <string>
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/viewer/draw_options.h"
 
+#include "formats/base/text.h"
 #include "runtime/viewer/camera_fit.h"
 #include "runtime/viewer/camera_path.h"
 #include "runtime/viewer/text.h"
@@ -99,7 +100,7 @@ Status parseChoice(const std::string& option, std::span<const Named<T>> choices,
 Status parseSize(std::string_view text, DrawOptions& options)
 {
     constexpr uint32_t kLargest = 16384;
-    const auto parts = split(text, 'x');
+    const auto parts = splitText(text, 'x');
     if (parts.size() == 2)
     {
         const auto width = parseNumber<uint32_t>(parts[0]);
@@ -136,7 +137,7 @@ Status parseCull(std::string_view text, FrameSettings& settings)
     settings.cull_flags = text == "all" ? shared::kCullEverything : 0;
     if (text == "all" || text == "none")
         return success();
-    for (const std::string_view part : split(text, ','))
+    for (const std::string_view part : splitText(text, ','))
     {
         const uint32_t* test = find(cullTestNames(), part);
         if (test == nullptr)
@@ -167,9 +168,9 @@ Status parseErrorPixels(std::string_view text, FrameSettings& settings)
 Status parseLodCurve(std::string_view text, FrameSettings& settings)
 {
     settings.lod_curve.clear();
-    for (const std::string_view part : split(text, ','))
+    for (const std::string_view part : splitText(text, ','))
     {
-        const auto knot = split(part, ':');
+        const auto knot = splitText(part, ':');
         const auto distance = parseNumber<float>(knot.front());
         const auto factor = parseNumber<float>(knot.back());
         if (knot.size() != 2 || !distance || !factor)

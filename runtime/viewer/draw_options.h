@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include "formats/pack_view.h"
+#include "formats/pack/pack_view.h"
 #include "runtime/pack/pose_player.h"
 #include "runtime/viewer/command_line.h"
 #include "runtime/viewer/frame_settings.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/viewer/frame_report.h"
 
-#include "formats/shared/material_tiles.h"
+#include "formats/gpu_shared/material_tiles.h"
 
 #include <algorithm>
 #include <cstdio>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/viewer/frame_settings.h"
 
-#include "formats/shared/shading.h"
+#include "formats/gpu_shared/shading.h"
 
 namespace hearth::viewer
 {

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include "formats/shared/frame.h"
-#include "formats/shared/lod_curve.h"
+#include "runtime/frame/frame.h"
+#include "runtime/frame/lod_curve.h"
 #include "runtime/gpu/renderer.h"
 
 #include <span>

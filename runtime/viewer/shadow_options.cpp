@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/viewer/shadow_options.h"
 
-#include "runtime/gpu/scene_boxes.h"
+#include "formats/base/text.h"
+#include "runtime/gpu/scene/scene_boxes.h"
 #include "runtime/viewer/text.h"
 
 #include <algorithm>
@@ -97,7 +98,7 @@ Status parseShadows(std::string_view text, ShadowSettings& settings)
     settings.options.max_maps = text == "off" ? 0 : kDefaultMaps;
     if (text == "off" || text == "on")
         return success();
-    for (const std::string_view setting : split(text, ','))
+    for (const std::string_view setting : splitText(text, ','))
         if (!setOne(setting, settings))
             return usage("--shadows", setting,
                          "is neither off nor on nor one of maps=1 to 64, texels=16 to 8192 by powers of two, "
@@ -110,7 +111,7 @@ Status parseShadows(std::string_view text, ShadowSettings& settings)
 
 Status parseShadowSphere(std::string_view text, ShadowSettings& settings)
 {
-    const auto parts = split(text, ',');
+    const auto parts = splitText(text, ',');
     std::vector<float> numbers;
     for (size_t i = 0; i < std::min<size_t>(parts.size(), 4); ++i)
         if (const auto number = parseNumber<float>(parts[i]))

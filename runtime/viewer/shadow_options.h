@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include "formats/pack_view.h"
-#include "formats/result.h"
-#include "runtime/gpu/shadow_plan.h"
+#include "formats/base/result.h"
+#include "formats/pack/pack_view.h"
+#include "runtime/gpu/scene/shadow_plan.h"
 
 #include <string_view>
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include "runtime/gpu/scene_shadows.h"
+#include "runtime/gpu/scene/scene_shadows.h"
 #include "runtime/viewer/vulkan_host.h"
 
 #include <span>

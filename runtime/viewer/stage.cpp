@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/viewer/stage.h"
 
-#include "runtime/gpu/scene_boxes.h"
+#include "runtime/gpu/scene/scene_boxes.h"
 #include "runtime/viewer/camera_fit.h"
 
 namespace hearth::viewer

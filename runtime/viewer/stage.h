@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include "formats/pack_view.h"
-#include "formats/shared/frame.h"
-#include "runtime/gpu/instance_motion.h"
+#include "formats/pack/pack_view.h"
+#include "runtime/frame/frame.h"
+#include "runtime/gpu/scene/instance_motion.h"
 #include "runtime/pack/pose_player.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Numbers and lists in the text of options and small files.
+// Numbers in the text of options and small files.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -7,7 +7,6 @@
 #include <optional>
 #include <string_view>
 #include <type_traits>
-#include <vector>
 
 namespace hearth::viewer
 {
@@ -24,20 +23,6 @@ std::optional<T> parseNumber(std::string_view text)
         if (!std::isfinite(value))
             return std::nullopt;
     return value;
-}
-
-/// The parts between separators; one, empty, of an empty text.
-inline std::vector<std::string_view> split(std::string_view text, char separator)
-{
-    std::vector<std::string_view> parts;
-    for (;;)
-    {
-        const size_t at = text.find(separator);
-        parts.push_back(text.substr(0, at));
-        if (at == std::string_view::npos)
-            return parts;
-        text.remove_prefix(at + 1);
-    }
 }
 
 } // namespace hearth::viewer

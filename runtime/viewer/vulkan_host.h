@@ -3,9 +3,9 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include "formats/result.h"
-#include "runtime/gpu/memory.h"
+#include "formats/base/result.h"
 #include "runtime/gpu/renderer.h"
+#include "runtime/gpu/vulkan/memory.h"
 
 #include <functional>
 #include <memory>

@@ -1,8 +1,8 @@
 // How fast hierarchies are built, and what they look like. Report user CPU time on one thread:
 //   hearth_bench_clusters --benchmark_filter=rock2m
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "cook/clusters/hierarchy.h"
-#include "tests/cook/shapes.h"
+#include "cook/clusters/core/hierarchy.h"
+#include "tests/support/shapes.h"
 
 #include <benchmark/benchmark.h>
 

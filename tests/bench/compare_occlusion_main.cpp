@@ -3,9 +3,9 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/command_line/command_line.h"
 #include "cook/tools/open_part.h"
-#include "cook/visibility/level_meshes.h"
-#include "formats/issues.h"
-#include "formats/program.h"
+#include "cook/visibility/scene/level_meshes.h"
+#include "formats/base/issues.h"
+#include "formats/base/program.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "tests/bench/cut_quality.h"
 
-#include "formats/pack_view.h"
-#include "tests/cook/cuts.h"
+#include "formats/pack/pack_view.h"
+#include "tests/support/cuts.h"
 
 #include <algorithm>
 #include <cmath>

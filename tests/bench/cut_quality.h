@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include "cook/clusters/validate.h"
-#include "tests/cook/surface_distance.h"
+#include "cook/clusters/levels/validate.h"
+#include "tests/support/surface_distance.h"
 
 namespace hearth::bench
 {

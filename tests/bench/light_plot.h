@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include "tests/reference/light_error.h"
+#include "tests/reference/tracer/light_error.h"
 
 #include <string>
 

@@ -1,7 +1,7 @@
 // The march through bricks on one core: rays of hemispheres from the ground of a terrain, one by one and side by side.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "cook/bricks/march_lanes.h"
-#include "tests/formats/brick_model.h"
+#include "cook/bricks/light/march_lanes.h"
+#include "tests/support/brick_model.h"
 
 #include <benchmark/benchmark.h>
 

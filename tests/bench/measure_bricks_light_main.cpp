@@ -1,11 +1,11 @@
 // hearth_measure_bricks_light: holds the light that is gathered from bricks against paths through the real geometry.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "cook/bricks/grid_part.h"
+#include "cook/bricks/voxels/grid_part.h"
 #include "cook/command_line/command_line.h"
 #include "cook/tools/open_part.h"
-#include "cook/tools/whole_file.h"
-#include "formats/program.h"
-#include "formats/shared/frame.h"
+#include "formats/base/atomic_file.h"
+#include "formats/base/program.h"
+#include "runtime/frame/frame.h"
 #include "tests/bench/light_plot.h"
 #include "tests/reference/png_image.h"
 
@@ -200,7 +200,7 @@ Status run(const Arguments& arguments)
         HEARTH_ASSIGN_OR_RETURN(LightCurve curve, measureScene(prefix, arguments));
         curves.push_back(std::move(curve));
     }
-    return arguments.plot.empty() ? success() : tools::writeText(arguments.plot, lightPlot(curves));
+    return arguments.plot.empty() ? success() : writeText(arguments.plot, lightPlot(curves));
 }
 
 int program(int argc, char** argv)

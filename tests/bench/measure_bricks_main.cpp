@@ -1,10 +1,10 @@
 // hearth_measure_bricks: voxelises a land from coarse clusters and from its finest triangles: seconds, what differs, memory
 // beside the talk's, and the finest voxels that fit what the talk takes.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "cook/bricks/grid_part.h"
+#include "cook/bricks/voxels/grid_part.h"
 #include "cook/command_line/command_line.h"
 #include "cook/tools/open_part.h"
-#include "formats/program.h"
+#include "formats/base/program.h"
 
 #include <cstdio>
 #include <ctime>

@@ -1,12 +1,12 @@
 // Measures the hierarchies of whole meshes: speed, shape, bytes, quality and honesty, with the peers' figures beside
 // them. `./dev bench clusters` makes the meshes and runs it.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "cook/clusters/authored_levels.h"
-#include "cook/clusters/levels.h"
-#include "cook/clusters/manual_lods.h"
+#include "cook/clusters/levels/authored_levels.h"
+#include "cook/clusters/levels/levels.h"
+#include "cook/clusters/program/manual_lods.h"
 #include "cook/command_line/command_line.h"
-#include "formats/pack_view.h"
-#include "formats/program.h"
+#include "formats/base/program.h"
+#include "formats/pack/pack_view.h"
 #include "tests/bench/cut_quality.h"
 #include "tests/bench/error_plot.h"
 #include "tests/bench/page_figures.h"

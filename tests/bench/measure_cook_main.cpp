@@ -3,7 +3,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/json/json.h"
 #include "cook/tools/child_processes.h"
-#include "formats/program.h"
+#include "formats/base/program.h"
 
 #include <algorithm>
 #include <chrono>

@@ -2,7 +2,7 @@
 // and what the check of a page adds to its decoding. `./dev bench runtime` runs this.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/command_line/command_line.h"
-#include "formats/program.h"
+#include "formats/base/program.h"
 #include "runtime/pack/pack.h"
 
 #include <algorithm>

@@ -3,8 +3,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/command_line/command_line.h"
 #include "cook/json/json.h"
-#include "formats/program.h"
-#include "formats/shared/records.h"
+#include "formats/base/program.h"
+#include "formats/gpu_shared/records.h"
 #include "tests/bench/visible_figures.h"
 #include "tests/reference/flip.h"
 

@@ -4,8 +4,8 @@
 #include "cook/command_line/command_line.h"
 #include "cook/sampling/hemisphere.h"
 #include "cook/sampling/owen_sobol.h"
-#include "cook/visibility/rays.h"
-#include "tests/cook/shapes.h"
+#include "cook/visibility/rays/rays.h"
+#include "tests/support/shapes.h"
 
 #include <algorithm>
 #include <chrono>

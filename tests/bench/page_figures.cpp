@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "tests/bench/page_figures.h"
 
-#include "formats/assert.h"
-#include "formats/cluster_bounds.h"
-#include "formats/page_codec.h"
-#include "formats/page_decode.h"
+#include "formats/base/assert.h"
+#include "formats/codecs/cluster_bounds.h"
+#include "formats/codecs/page_codec.h"
+#include "formats/codecs/page_decode.h"
 
 #include <zstd.h>
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include "cook/clusters/hierarchy.h"
+#include "cook/clusters/core/hierarchy.h"
 
 #include <string>
 #include <vector>

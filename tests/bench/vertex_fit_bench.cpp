@@ -1,9 +1,9 @@
 // The fit of visibility to 100,000 vertices on one core, stage by stage.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "cook/visibility/level_fit.h"
-#include "cook/visibility/normal_equations.h"
-#include "tests/cook/shapes.h"
-#include "tests/cook/surface_samples_of.h"
+#include "cook/visibility/fit/level_fit.h"
+#include "cook/visibility/fit/normal_equations.h"
+#include "tests/cook/visibility/surface_samples_of.h"
+#include "tests/support/shapes.h"
 
 #include <benchmark/benchmark.h>
 

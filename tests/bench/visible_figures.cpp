@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "tests/bench/visible_figures.h"
 
-#include "formats/container.h"
-#include "formats/shared/records.h"
+#include "formats/gpu_shared/records.h"
+#include "formats/records/container.h"
 
 #include <cstring>
 #include <fstream>

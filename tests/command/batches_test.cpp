@@ -1,10 +1,10 @@
 // Many small sources: their cookers share processes, and nobody can tell by what comes out.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/json/json.h"
-#include "pipelines/command/verify.h"
-#include "tests/command/sandbox.h"
-#include "tests/command/small_parts.h"
-#include "tests/command/small_sources.h"
+#include "pipelines/command/inspect/verify.h"
+#include "tests/support/sandbox.h"
+#include "tests/support/small_parts.h"
+#include "tests/support/small_sources.h"
 
 #include <algorithm>
 #include <chrono>

@@ -1,7 +1,7 @@
 // What hearth cook tells while it works: messages, progress, colour.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/json/json.h"
-#include "tests/command/cook_folder.h"
+#include "tests/support/cook_folder.h"
 
 #include <filesystem>
 #include <gtest/gtest.h>

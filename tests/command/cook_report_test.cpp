@@ -1,8 +1,8 @@
 // The reports of hearth cook from the outside, and of hearth report.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/json/json.h"
-#include "tests/command/cook_folder.h"
-#include "tests/command/json_schema.h"
+#include "tests/support/cook_folder.h"
+#include "tests/support/json_schema.h"
 
 #include <filesystem>
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "pipelines/command/cook_summary.h"
+#include "pipelines/command/cook/cook_summary.h"
 
-#include "pipelines/command/messages.h"
+#include "pipelines/command/shell/messages.h"
 
 #include <gtest/gtest.h>
 

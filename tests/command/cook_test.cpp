@@ -1,10 +1,10 @@
 // hearth cook from the outside: what appears, what is left behind, and how it ends.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/json/json.h"
-#include "formats/bricks.h"
-#include "formats/container_reader.h"
-#include "pipelines/command/verify.h"
-#include "tests/command/cook_folder.h"
+#include "formats/container/container_reader.h"
+#include "formats/records/bricks.h"
+#include "pipelines/command/inspect/verify.h"
+#include "tests/support/cook_folder.h"
 
 #include <chrono>
 #include <csignal>

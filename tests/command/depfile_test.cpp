@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "pipelines/command/depfile.h"
+#include "pipelines/command/cook/depfile.h"
 
 #include <gtest/gtest.h>
 

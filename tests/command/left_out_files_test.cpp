@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "pipelines/command/left_out_files.h"
+#include "pipelines/command/sources/left_out_files.h"
 
-#include "tests/command/sandbox.h"
+#include "tests/support/sandbox.h"
 
 #include <filesystem>
 #include <gtest/gtest.h>

@@ -1,9 +1,9 @@
 // Levels of detail made by hand as files of one folder: by their names, and as rules say. With the real cookers.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/json/json.h"
-#include "formats/pack_view.h"
-#include "tests/command/json_schema.h"
-#include "tests/command/sandbox.h"
+#include "formats/pack/pack_view.h"
+#include "tests/support/json_schema.h"
+#include "tests/support/sandbox.h"
 
 #include <filesystem>
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // Progress of pictures for logs, by a clock that the test sets.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "pipelines/command/picture_progress.h"
+#include "pipelines/command/cook/picture_progress.h"
 
 #include <gtest/gtest.h>
 

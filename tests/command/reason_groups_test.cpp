@@ -1,7 +1,7 @@
 // Reasons of hearth why that several sources have in common.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "pipelines/command/name_list.h"
-#include "pipelines/command/reason_groups.h"
+#include "pipelines/command/cook/reason_groups.h"
+#include "pipelines/command/shell/name_list.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // Whatever the order of work, the threads and the surroundings, with the real cookers: a pack has the same bytes.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "tests/command/sandbox.h"
-#include "tests/command/small_sources.h"
+#include "tests/support/sandbox.h"
+#include "tests/support/small_sources.h"
 
 #include <filesystem>
 #include <gtest/gtest.h>

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/json/json.h"
 #include "cook/tools/read_list.h"
-#include "pipelines/command/verify.h"
-#include "tests/command/sandbox.h"
-#include "tests/command/small_sources.h"
+#include "pipelines/command/inspect/verify.h"
+#include "tests/support/sandbox.h"
+#include "tests/support/small_sources.h"
 
 #include <algorithm>
 #include <chrono>

@@ -1,8 +1,8 @@
 // The warning about sources of another scale than the others, with the real cookers.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/json/json.h"
-#include "tests/command/sandbox.h"
-#include "tests/command/small_sources.h"
+#include "tests/support/sandbox.h"
+#include "tests/support/small_sources.h"
 
 #include <filesystem>
 #include <gtest/gtest.h>

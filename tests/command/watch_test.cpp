@@ -1,8 +1,8 @@
 // hearth cook --watch, with the real cookers: every change of what a cook reads makes a cook, and nothing else does.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "pipelines/command/file_watch.h"
-#include "tests/command/sandbox.h"
-#include "tests/command/small_sources.h"
+#include "pipelines/command/sources/file_watch.h"
+#include "tests/support/sandbox.h"
+#include "tests/support/small_sources.h"
 
 #include <chrono>
 #include <csignal>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include "tests/command/sandbox.h"
+#include "tests/support/sandbox.h"
 
 #include <gtest/gtest.h>
 #include <memory>

@@ -4,8 +4,8 @@
 #include "cook/mesh/grid.h"
 #include "cook/mesh/triangles.h"
 #include "cook/mesh/weld.h"
-#include "formats/vertex_codec.h"
-#include "tests/cook/shapes.h"
+#include "formats/codecs/vertex_codec.h"
+#include "tests/support/shapes.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // hearth_corpus: cooks every file of the asset corpus and holds what comes of it against the manifest.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/command_line/command_line.h"
-#include "formats/program.h"
+#include "formats/base/program.h"
 #include "tests/corpus/report.h"
 
 #include <atomic>

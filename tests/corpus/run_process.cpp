@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "tests/corpus/run_process.h"
 
-#include "formats/assert.h"
+#include "formats/base/assert.h"
 
 #include <algorithm>
 #include <cctype>

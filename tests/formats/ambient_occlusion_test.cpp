@@ -1,6 +1,6 @@
 // Ambient occlusion of cones against integration over the hemisphere, and of real skies under bent normals.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "formats/shared/ambient_occlusion.h"
+#include "formats/gpu_shared/ambient_occlusion.h"
 
 #include <algorithm>
 #include <array>

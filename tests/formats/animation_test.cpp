@@ -1,6 +1,6 @@
 // Poses with known answers: interpolation, blends, hierarchies and palettes.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "formats/animation.h"
+#include "formats/scene/animation.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "formats/shared/brick_codes.h"
+#include "formats/gpu_shared/brick_codes.h"
 
-#include "formats/vertex_codec.h"
+#include "formats/codecs/vertex_codec.h"
 
 #include <gtest/gtest.h>
 

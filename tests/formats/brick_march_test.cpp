@@ -4,8 +4,8 @@
 // exact ray meets it, one made larger may be: of what must be met nothing may be missed or come late, and what is found must
 // be such that it may be met, by a face through which it may be entered, there.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "formats/shared/brick_codes.h"
-#include "tests/formats/march_rays.h"
+#include "formats/gpu_shared/brick_codes.h"
+#include "tests/support/march_rays.h"
 
 #include <gtest/gtest.h>
 

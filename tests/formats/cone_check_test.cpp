@@ -1,6 +1,6 @@
 // The bounds of normal cones in squares, held against their definition in angles and distances.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "formats/cone_check.h"
+#include "formats/pack/cone_check.h"
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "formats/container_reader.h"
-#include "formats/container_writer.h"
+#include "formats/container/container_reader.h"
+#include "formats/container/container_writer.h"
 #include "runtime/pack/pack.h"
-#include "tests/formats/small_pack.h"
-#include "tests/formats/temporary_folder.h"
+#include "tests/support/small_pack.h"
+#include "tests/support/temporary_folder.h"
 
 #include <gtest/gtest.h>
 

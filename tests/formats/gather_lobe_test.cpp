@@ -1,7 +1,7 @@
 // The lobes of mirror images against the reflection integral of a GGX surface, by sums over the whole hemisphere.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "formats/shared/gather.h"
-#include "formats/shared/gather_lobe.h"
+#include "formats/gpu_shared/gather.h"
+#include "formats/gpu_shared/gather_lobe.h"
 
 #include <gtest/gtest.h>
 

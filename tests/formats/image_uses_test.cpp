@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "formats/image_uses.h"
+#include "formats/pack/image_uses.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "formats/chunk_list.h"
-#include "formats/result.h"
+#include "formats/base/result.h"
+#include "formats/records/chunk_list.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "formats/cluster_bounds.h"
-#include "formats/container_reader.h"
+#include "formats/codecs/cluster_bounds.h"
+#include "formats/container/container_reader.h"
 #include "tests/formats/malformed_packs.h"
 
 #include <cstring>

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include "formats/issues.h"
-#include "tests/formats/small_pack.h"
+#include "formats/base/issues.h"
+#include "tests/support/small_pack.h"
 
 #include <ostream>
 #include <string>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "formats/pack_check.h"
+#include "formats/pack/pack_check.h"
 #include "pipelines/verify/verify_pack.h"
 #include "runtime/pack/pack.h"
 #include "tests/formats/malformed_packs.h"

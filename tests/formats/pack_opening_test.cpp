@@ -1,8 +1,8 @@
 // What opening a pack reads, and what becomes of the rest.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "formats/container_reader.h"
+#include "formats/container/container_reader.h"
 #include "runtime/pack/pack.h"
-#include "tests/formats/small_pack.h"
+#include "tests/support/small_pack.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

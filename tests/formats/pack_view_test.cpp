@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/pack/cut.h"
 #include "runtime/pack/pack.h"
-#include "tests/formats/small_pack.h"
+#include "tests/support/small_pack.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "formats/program.h"
+#include "formats/base/program.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "formats/vertex_codec.h"
+#include "formats/codecs/vertex_codec.h"
 
 #include <gtest/gtest.h>
 

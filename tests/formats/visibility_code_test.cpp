@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "formats/visibility_code.h"
+#include "formats/codecs/visibility_code.h"
 
 #include <gtest/gtest.h>
 

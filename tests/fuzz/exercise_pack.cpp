@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "tests/fuzz/exercise_pack.h"
 
-#include "formats/channel_keys.h"
-#include "formats/shared/brick_march.h"
+#include "formats/codecs/channel_keys.h"
+#include "formats/gpu_shared/brick_march.h"
 #include "runtime/pack/cut.h"
 #include "runtime/pack/pack.h"
 #include "runtime/pack/page_graph.h"

@@ -1,8 +1,8 @@
 // libFuzzer: the input is a pack. It is tried as it is, which exercises the container, and once more with right hashes,
 // so that the search gets past them to the checker of meaning.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "tests/formats/container_image.h"
 #include "tests/fuzz/exercise_pack.h"
+#include "tests/support/container_image.h"
 
 #include <cstdint>
 

@@ -1,9 +1,9 @@
 // libFuzzer: the input says which clusters a page has, and what is in its frame and behind it. It is packed right, so that
 // the search gets past zstd to the decoder of triangles and vertices.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "formats/byte_reader.h"
-#include "formats/cluster_bounds.h"
-#include "formats/page_decode.h"
+#include "formats/base/byte_reader.h"
+#include "formats/codecs/cluster_bounds.h"
+#include "formats/codecs/page_decode.h"
 
 #include <zstd.h>
 

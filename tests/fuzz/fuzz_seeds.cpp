@@ -1,6 +1,6 @@
 // Writes the packs that the search starts from into a folder.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "tests/formats/small_pack.h"
+#include "tests/support/small_pack.h"
 
 #include <cstdio>
 #include <fstream>

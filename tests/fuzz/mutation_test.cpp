@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "tests/formats/small_pack.h"
 #include "tests/fuzz/exercise_pack.h"
+#include "tests/support/small_pack.h"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
 // A program of the runtime alone, linked with all of its objects: it builds only if the runtime needs nothing of cook/
 // or pipelines/. Run, it writes the smallest pack and opens it.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "formats/container_writer.h"
-#include "formats/scene.h"
+#include "formats/container/container_writer.h"
+#include "formats/records/scene.h"
 #include "runtime/pack/pack.h"
 
 #include <cstdio>

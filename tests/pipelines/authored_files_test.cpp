@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/mesh/source_mesh.h"
 #include "cook/tools/lod_files.h"
-#include "formats/pack_view.h"
+#include "formats/pack/pack_view.h"
 #include "runtime/pack/cut.h"
-#include "tests/command/sandbox.h"
-#include "tests/reference/cut_checker.h"
+#include "tests/reference/culling/cut_checker.h"
+#include "tests/support/sandbox.h"
 #include "tests/support/sanitized.h"
 
 #include <gtest/gtest.h>

@@ -1,13 +1,13 @@
 // The cache by itself: whatever becomes of its files, it hands out what was put in or nothing.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/tools/sha256.h"
-#include "cook/tools/whole_file.h"
+#include "formats/base/atomic_file.h"
 #include "pipelines/cache/cache.h"
+#include "pipelines/cache/directory_store.h"
 #include "pipelines/cache/entry_text.h"
-#include "pipelines/cache/folder_level.h"
 #include "pipelines/cache/open_cache.h"
 #include "pipelines/cache/upkeep.h"
-#include "tests/command/sandbox.h"
+#include "tests/support/sandbox.h"
 
 #include <csignal>
 #include <cstdlib>

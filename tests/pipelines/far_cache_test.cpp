@@ -1,11 +1,11 @@
 // Levels that are far away: what they are asked, how often, and what becomes of what they answer.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/tools/sha256.h"
-#include "pipelines/cache/folder_level.h"
-#include "pipelines/graph/ask_ahead.h"
+#include "pipelines/cache/directory_store.h"
 #include "pipelines/graph/cook_graph.h"
+#include "pipelines/graph/prefetch.h"
 #include "pipelines/graph/resolver.h"
-#include "tests/command/sandbox.h"
+#include "tests/support/sandbox.h"
 
 #include <filesystem>
 #include <gtest/gtest.h>

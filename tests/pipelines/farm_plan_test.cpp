@@ -7,7 +7,7 @@
 #include "pipelines/farm/shard_index.h"
 #include "pipelines/farm/shard_record.h"
 #include "pipelines/farm/shards.h"
-#include "tests/command/sandbox.h"
+#include "tests/support/sandbox.h"
 
 #include <algorithm>
 #include <filesystem>

@@ -1,8 +1,8 @@
 // Files that are imported: small ones are copied, of large ones only a part is in memory at a time.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "formats/container_reader.h"
-#include "pipelines/import/file_bytes.h"
-#include "tests/command/sandbox.h"
+#include "formats/container/container_reader.h"
+#include "pipelines/import/source/file_bytes.h"
+#include "tests/support/sandbox.h"
 
 #include <fstream>
 #include <gtest/gtest.h>

@@ -1,8 +1,8 @@
 // Normals and tangents that are made where a source has none.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "pipelines/import/generate_normals.h"
-#include "pipelines/import/generate_tangents.h"
-#include "pipelines/import/mesh_pieces.h"
+#include "pipelines/import/part/generate_normals.h"
+#include "pipelines/import/part/generate_tangents.h"
+#include "pipelines/import/part/mesh_pieces.h"
 #include "tests/support/sanitized.h"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // Buffers, URIs and accessors: what numbers come out of which bytes.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "pipelines/import/gltf_uri.h"
+#include "pipelines/import/gltf/document/uri.h"
 #include "tests/pipelines/gltf_fixture.h"
 
 namespace hearth::import::test

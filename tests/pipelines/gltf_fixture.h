@@ -3,9 +3,9 @@
 #pragma once
 
 #include "cook/mesh/source_mesh.h"
-#include "formats/container_reader.h"
-#include "formats/scene.h"
-#include "pipelines/import/import_options.h"
+#include "formats/container/container_reader.h"
+#include "formats/records/scene.h"
+#include "pipelines/import/part/import_options.h"
 
 #include <gtest/gtest.h>
 

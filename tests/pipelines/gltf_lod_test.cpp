@@ -1,7 +1,7 @@
 // Levels of detail in glTF files: MSFT_lod, names, and what is not usable of them.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/tools/lod_files.h"
-#include "pipelines/import/bake_transform.h"
+#include "pipelines/import/part/bake_transform.h"
 #include "tests/pipelines/gltf_fixture.h"
 #include "tests/support/sanitized.h"
 

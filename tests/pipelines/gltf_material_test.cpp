@@ -1,6 +1,6 @@
 // Materials, textures and images.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "pipelines/import/gltf_specular_glossiness.h"
+#include "pipelines/import/gltf/specular_glossiness.h"
 #include "tests/pipelines/gltf_fixture.h"
 
 #include <cmath>

@@ -1,7 +1,7 @@
 // Nodes, instances, cameras, lights, skins and animations.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "formats/scale_bound.h"
-#include "pipelines/import/gltf_transform.h"
+#include "formats/base/scale_bound.h"
+#include "pipelines/import/part/transform.h"
 #include "tests/pipelines/gltf_fixture.h"
 #include "tests/support/sanitized.h"
 

@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/tools/sha256.h"
 #include "pipelines/cache/cache.h"
-#include "pipelines/cache/folder_level.h"
+#include "pipelines/cache/directory_store.h"
 #include "pipelines/cache/http_level.h"
-#include "tests/command/sandbox.h"
-#include "tests/command/web_server.h"
+#include "tests/support/sandbox.h"
+#include "tests/support/web_server.h"
 
 #include <chrono>
 #include <csignal>

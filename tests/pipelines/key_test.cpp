@@ -1,12 +1,12 @@
 // Keys: what changes the bytes of a part changes its key, and nothing else does.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/tools/sha256.h"
-#include "pipelines/cache/folder_level.h"
+#include "pipelines/cache/directory_store.h"
 #include "pipelines/graph/action_cache.h"
 #include "pipelines/graph/cook_graph.h"
 #include "pipelines/graph/cooker_version.h"
 #include "pipelines/graph/elf_libraries.h"
-#include "tests/command/sandbox.h"
+#include "tests/support/sandbox.h"
 
 #include <algorithm>
 #include <chrono>

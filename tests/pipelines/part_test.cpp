@@ -1,7 +1,7 @@
 // The import part, its report, and the JSON that is read and written.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "pipelines/import/asset_folder.h"
-#include "pipelines/import/json_document.h"
+#include "pipelines/import/gltf/document/json_document.h"
+#include "pipelines/import/source/asset_folder.h"
 #include "tests/pipelines/gltf_fixture.h"
 
 #include <sys/stat.h>

@@ -3,10 +3,10 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/json/json.h"
 #include "cook/mesh/source_mesh.h"
-#include "formats/animation.h"
-#include "formats/pack_view.h"
-#include "pipelines/import/source_space.h"
-#include "tests/command/sandbox.h"
+#include "formats/pack/pack_view.h"
+#include "formats/scene/animation.h"
+#include "pipelines/import/part/source_space.h"
+#include "tests/support/sandbox.h"
 #include "tests/support/sanitized.h"
 
 #include <cmath>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "formats/half.h"
-#include "pipelines/import/image_decode.h"
-#include "pipelines/import/import_options.h"
-#include "pipelines/import/part_builder.h"
+#include "formats/base/half.h"
+#include "pipelines/import/images/decode.h"
+#include "pipelines/import/part/import_options.h"
+#include "pipelines/import/part/part_builder.h"
 #include "tests/pipelines_scans/frozen_images.h"
 
 #include <gtest/gtest.h>

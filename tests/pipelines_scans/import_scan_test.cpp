@@ -1,12 +1,12 @@
 // Whole scans and lone images, up to the part.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "formats/pack_view.h"
+#include "formats/pack/pack_view.h"
 #include "pipelines/import/image_card.h"
-#include "pipelines/import/import_options.h"
-#include "pipelines/import/part_builder.h"
-#include "pipelines/import/scan_import.h"
-#include "tests/formats/temporary_folder.h"
+#include "pipelines/import/part/import_options.h"
+#include "pipelines/import/part/part_builder.h"
+#include "pipelines/import/scans/import.h"
 #include "tests/pipelines_scans/frozen_images.h"
+#include "tests/support/temporary_folder.h"
 
 #include <gtest/gtest.h>
 

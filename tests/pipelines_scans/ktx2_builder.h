@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include "pipelines/import/image_decode.h"
-#include "pipelines/import/part_builder.h"
+#include "pipelines/import/images/decode.h"
+#include "pipelines/import/part/part_builder.h"
 
 #include <array>
 #include <cstring>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "formats/half.h"
+#include "formats/base/half.h"
 #include "tests/pipelines_scans/ktx2_builder.h"
 
 #include <gtest/gtest.h>

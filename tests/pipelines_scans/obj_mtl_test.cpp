@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "pipelines/import/obj_materials.h"
+#include "pipelines/import/scans/obj_materials.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "pipelines/import/scan_triangulate.h"
+#include "pipelines/import/scans/triangulate.h"
 #include "tests/pipelines_scans/scan_test_tools.h"
 
 #include <gtest/gtest.h>

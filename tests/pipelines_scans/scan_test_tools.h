@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include "pipelines/import/scan_file.h"
+#include "pipelines/import/scans/file.h"
 
 #include <string>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "pipelines/import/basis_uastc.h"
+#include "pipelines/import/images/basis_uastc.h"
 #include "tests/pipelines_scans/ktx2_builder.h"
 
 #include <gtest/gtest.h>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/profiles/config_file.h"
 
-#include "cook/clusters/profile.h"
+#include "cook/clusters/program/profile.h"
 #include "pipelines/profiles/built_in.h"
 
 #include <gtest/gtest.h>

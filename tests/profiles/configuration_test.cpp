@@ -1,8 +1,8 @@
 // What holds: where settings come from, and which of two wins.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/profiles/configuration.h"
-#include "pipelines/profiles/told.h"
-#include "tests/command/sandbox.h"
+#include "pipelines/profiles/cooker_arguments.h"
+#include "tests/support/sandbox.h"
 
 #include <filesystem>
 #include <gtest/gtest.h>

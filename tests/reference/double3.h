@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include "formats/affine3d.h"
+#include "formats/base/affine3d.h"
 
 #include <cmath>
 

@@ -1,9 +1,9 @@
 // Where a pose puts the vertices of a pack's instances, written out from glTF 2.0, 3.7.3.3: nothing is shared with the
-// runtime but what a pose is (formats/animation.h).
+// runtime but what a pose is (formats/scene/animation.h).
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include "formats/animation.h"
+#include "formats/scene/animation.h"
 #include "tests/reference/double3.h"
 #include "tests/reference/pack_geometry.h"
 

@@ -1,7 +1,7 @@
 // Pictures of meshes alone, and those of a report: the real programs, on whatever Vulkan device there is.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "tests/command/sandbox.h"
-#include "tests/command/small_sources.h"
+#include "tests/support/sandbox.h"
+#include "tests/support/small_sources.h"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/json/json.h"
 #include "pipelines/report/write_report.h"
-#include "tests/command/sandbox.h"
+#include "tests/support/sandbox.h"
 
 #include <gtest/gtest.h>
 #include <string>

@@ -1,13 +1,13 @@
 // The report in other forms than JSON.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/json/json.h"
-#include "formats/result.h"
+#include "formats/base/result.h"
 #include "pipelines/report/base64.h"
 #include "pipelines/report/message.h"
 #include "pipelines/report/page.h"
 #include "pipelines/report/page_data.h"
 #include "pipelines/report/tables.h"
-#include "tests/command/sandbox.h"
+#include "tests/support/sandbox.h"
 
 #include <algorithm>
 #include <gtest/gtest.h>

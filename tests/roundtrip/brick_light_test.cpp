@@ -1,6 +1,6 @@
 // The light that bricks of a cooked scene give, beside that of paths through its geometry.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "tests/reference/light_error.h"
+#include "tests/reference/tracer/light_error.h"
 #include "tests/roundtrip/cooked_sample.h"
 
 #include <gtest/gtest.h>

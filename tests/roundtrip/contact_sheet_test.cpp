@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/json/json.h"
 #include "runtime/viewer/compare/picture.h"
-#include "tests/command/sandbox.h"
-#include "tests/command/small_sources.h"
+#include "tests/support/sandbox.h"
+#include "tests/support/small_sources.h"
 
 #include <cstring>
 #include <filesystem>

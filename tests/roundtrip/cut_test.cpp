@@ -1,8 +1,8 @@
 // Cuts through cooked hierarchies are whole surfaces: no crack, no overlap, at any threshold and from any camera.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/pack/cut.h"
-#include "tests/reference/cpu_culling.h"
-#include "tests/reference/cut_checker.h"
+#include "tests/reference/culling/cpu_culling.h"
+#include "tests/reference/culling/cut_checker.h"
 #include "tests/reference/source_triangles.h"
 #include "tests/roundtrip/draw_fixture.h"
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include "tests/reference/culling_oracle.h"
+#include "tests/reference/culling/culling_oracle.h"
 #include "tests/roundtrip/cooked_sample.h"
 #include "tests/roundtrip/gpu_draw.h"
 

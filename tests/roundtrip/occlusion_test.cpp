@@ -1,9 +1,9 @@
 // What vertices see, from a source through the pack and back out of it, against shapes whose visibility has a closed form.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/json/json.h"
-#include "tests/command/sandbox.h"
+#include "tests/support/sandbox.h"
 
-#include "formats/math.h"
+#include "formats/base/math.h"
 #include "tests/reference/png_image.h"
 
 #include <gtest/gtest.h>

@@ -1,9 +1,9 @@
 // Finished pictures: every view shows something, and the final one is what rays and the specification's formulas give.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "formats/animation.h"
+#include "formats/scene/animation.h"
 #include "runtime/pack/pack.h"
 #include "tests/reference/flip.h"
-#include "tests/reference/reference_renderer.h"
+#include "tests/reference/tracer/reference_renderer.h"
 #include "tests/roundtrip/draw_fixture.h"
 
 #include <cstdio>

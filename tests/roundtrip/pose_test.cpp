@@ -4,8 +4,8 @@
 #include "runtime/pack/pose_player.h"
 #include "runtime/viewer/camera_fit.h"
 #include "tests/roundtrip/cooked_sample.h"
-#include "tests/runtime/gpu_fixture.h"
-#include "tests/runtime/test_scene.h"
+#include "tests/support/gpu_fixture.h"
+#include "tests/support/test_scene.h"
 
 #include <algorithm>
 #include <cmath>

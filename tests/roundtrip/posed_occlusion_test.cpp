@@ -2,8 +2,8 @@
 // down on a floor while both are turned.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/json/json.h"
-#include "cook/visibility/poses.h"
-#include "tests/command/sandbox.h"
+#include "cook/visibility/scene/poses.h"
+#include "tests/support/sandbox.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // What the GPU draws, cluster by cluster and pixel by pixel, against the references on the CPU.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "tests/reference/cpu_culling.h"
-#include "tests/reference/cpu_rasteriser.h"
+#include "tests/reference/culling/cpu_culling.h"
+#include "tests/reference/culling/cpu_rasteriser.h"
 #include "tests/reference/source_triangles.h"
 #include "tests/roundtrip/draw_fixture.h"
 
@@ -43,7 +43,7 @@ struct Sums
     }
 };
 
-/// Of deformed ones the twins are held against the device in tests/runtime/deformation_twin_test.cpp.
+/// Of deformed ones the twins are held against the device in tests/runtime/gpu/deformation_twin_test.cpp.
 std::vector<DrawnCluster> rigidOnes(const formats::PackView& pack, std::vector<DrawnCluster> clusters)
 {
     std::erase_if(clusters,

@@ -2,8 +2,8 @@
 #include "cook/textures/mip_chain.h"
 
 #include "cook/textures/srgb.h"
-#include "formats/half.h"
-#include "formats/math.h"
+#include "formats/base/half.h"
+#include "formats/base/math.h"
 #include "tests/textures/texture_test_images.h"
 
 #include <gtest/gtest.h>

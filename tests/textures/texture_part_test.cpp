@@ -2,8 +2,8 @@
 #include "cook/textures/texture_part.h"
 
 #include "cook/textures/mip_chain.h"
-#include "formats/container_writer.h"
-#include "tests/formats/temporary_folder.h"
+#include "formats/container/container_writer.h"
+#include "tests/support/temporary_folder.h"
 #include "tests/textures/texture_test_images.h"
 
 #include <array>

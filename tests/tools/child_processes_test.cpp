@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/tools/child_processes.h"
 
-#include "formats/flush.h"
+#include "formats/base/flush.h"
 
 #include <atomic>
 #include <cerrno>
@@ -161,14 +161,14 @@ public:
 
 TEST(ChildProcesses, leaveFlushingToTheirParent)
 {
-    ASSERT_EQ(::unsetenv(formats::kFlushVariable), 0);
-    EXPECT_FALSE(formats::flush(-1));
+    ASSERT_EQ(::unsetenv(kFlushVariable), 0);
+    EXPECT_FALSE(flushFile(-1));
     ChildProcesses children;
     ASSERT_TRUE(children.start(shell("[ \"$HEARTH_FLUSH\" = off ]")).ok());
     EXPECT_EQ(children.wait()->exit_code, 0);
-    ASSERT_EQ(::setenv(formats::kFlushVariable, "off", 1), 0);
-    EXPECT_TRUE(formats::flush(-1)) << "nothing is asked of the disk";
-    ASSERT_EQ(::unsetenv(formats::kFlushVariable), 0);
+    ASSERT_EQ(::setenv(kFlushVariable, "off", 1), 0);
+    EXPECT_TRUE(flushFile(-1)) << "nothing is asked of the disk";
+    ASSERT_EQ(::unsetenv(kFlushVariable), 0);
 }
 
 TEST(ChildProcesses, runABatch)

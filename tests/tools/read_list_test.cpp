@@ -1,9 +1,9 @@
 // SHA-256 against published values, and the list of what was read.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "cook/tools/private_folder.h"
 #include "cook/tools/read_list.h"
 #include "cook/tools/sha256.h"
-#include "cook/tools/whole_file.h"
+#include "formats/base/atomic_file.h"
+#include "formats/base/temp_directory.h"
 
 #include <filesystem>
 #include <gtest/gtest.h>
@@ -19,9 +19,9 @@ constexpr const char* kOfAbc = "ba7816bf8f01cfea414140de5dae2223b00361a396177a9c
 constexpr const char* kOfNothing = "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855";
 constexpr const char* kOfAMillionA = "cdc76e5c9914fb9281a1c7e284d73e67f1809a48a497200e046d39ccc7112cd0";
 
-PrivateFolder temporaryFolder()
+TempDirectory temporaryFolder()
 {
-    return PrivateFolder::create(std::filesystem::temp_directory_path().string(), "test").value();
+    return TempDirectory::create(std::filesystem::temp_directory_path().string(), "test").value();
 }
 
 } // namespace
@@ -38,7 +38,7 @@ TEST(Sha256, hasThePublishedValues)
 
 TEST(Sha256, readsFilesPieceByPiece)
 {
-    const PrivateFolder folder = temporaryFolder();
+    const TempDirectory folder = temporaryFolder();
     const std::string path = folder.path() + "/a";
     ASSERT_TRUE(writeText(path, std::string(1000000, 'a')).ok());
     EXPECT_EQ(sha256OfFile(path), kOfAMillionA);
@@ -85,16 +85,16 @@ TEST(ReadList, refusesWhatIsNone)
     EXPECT_TRUE(ReadList::parse("").has_value());
 }
 
-TEST(PrivateFolder, removesWhatKilledProcessesHaveLeft)
+TEST(TempDirectory, removesWhatKilledProcessesHaveLeft)
 {
-    const PrivateFolder parent = temporaryFolder();
-    const PrivateFolder alive = PrivateFolder::create(parent.path(), "test").value();
+    const TempDirectory parent = temporaryFolder();
+    const TempDirectory alive = TempDirectory::create(parent.path(), "test").value();
     // a process that was killed leaves its lock file, unlocked; one that has just begun has none yet
     for (const char* name : {"/.hearth-killed", "/.hearth-begins", "/other"})
         ASSERT_TRUE(std::filesystem::create_directory(parent.path() + name));
     for (const char* name : {"/.hearth-killed/lock", "/.hearth-killed/half", "/other/lock"})
         ASSERT_TRUE(writeText(parent.path() + name, "x").ok());
-    const PrivateFolder next = PrivateFolder::create(parent.path(), "test").value();
+    const TempDirectory next = TempDirectory::create(parent.path(), "test").value();
     EXPECT_FALSE(std::filesystem::exists(parent.path() + "/.hearth-killed"));
     EXPECT_TRUE(std::filesystem::exists(parent.path() + "/.hearth-begins"));
     EXPECT_TRUE(std::filesystem::exists(parent.path() + "/other"));

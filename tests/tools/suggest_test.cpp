@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "cook/tools/suggest.h"
+#include "formats/base/suggest.h"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
 // Choosing an asset on the panel, with the validation layer listening.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "formats/shared/shading.h"
+#include "formats/gpu_shared/shading.h"
 #include "runtime/viewer/window/viewer.h"
-#include "tests/command/sandbox.h"
+#include "tests/support/sandbox.h"
 #include "tests/window/heap_pack.h"
 
 #include <gtest/gtest.h>

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include "formats/pack_view.h"
-#include "tests/formats/small_pack.h"
+#include "formats/pack/pack_view.h"
+#include "tests/support/small_pack.h"
 
 namespace hearth::test
 {

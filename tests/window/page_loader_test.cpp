@@ -1,8 +1,8 @@
 // Pages that are read beside the frames.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/viewer/window/page_loader.h"
-#include "tests/cook/shapes.h"
-#include "tests/runtime/test_scene.h"
+#include "tests/support/shapes.h"
+#include "tests/support/test_scene.h"
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/viewer/window/playback.h"
 
-#include "tests/cook/shapes.h"
-#include "tests/runtime/animated_rocks.h"
+#include "tests/runtime/gpu/animated_rocks.h"
+#include "tests/support/shapes.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // A window that is flown through by events: what a person would do, with the validation layer listening.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "formats/shared/shading.h"
+#include "formats/gpu_shared/shading.h"
 #include "runtime/viewer/window/viewer.h"
 #include "tests/roundtrip/cooked_sample.h"
 

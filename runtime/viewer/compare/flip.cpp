@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/viewer/compare/flip.h"
 
-#include "formats/double3.h"
+#include "formats/base/double3.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 // hearth-compare: how two pictures differ, as numbers and as a heat map.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "formats/program.h"
+#include "formats/base/program.h"
 #include "runtime/viewer/command_line.h"
 #include "runtime/viewer/compare/flip.h"
 #include "runtime/viewer/file_output.h"

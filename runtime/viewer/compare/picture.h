@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include "formats/math.h"
-#include "formats/result.h"
+#include "formats/base/math.h"
+#include "formats/base/result.h"
 
 #include <string>
 #include <vector>

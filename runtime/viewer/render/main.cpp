@@ -1,7 +1,7 @@
 // hearth-render: draws a pack into a PNG file.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "formats/program.h"
-#include "runtime/gpu/cull_statistics_pass.h"
+#include "formats/base/program.h"
+#include "runtime/gpu/passes/cull_statistics_pass.h"
 #include "runtime/pack/pack.h"
 #include "runtime/viewer/animation.h"
 #include "runtime/viewer/camera_path.h"

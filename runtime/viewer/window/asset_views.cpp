@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/viewer/window/asset_views.h"
 
-#include "runtime/gpu/scene_boxes.h"
+#include "runtime/gpu/scene/scene_boxes.h"
 #include "runtime/viewer/contact_sheet.h"
 
 #include <cstdio>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include "formats/shared/frame.h"
+#include "runtime/frame/frame.h"
 
 namespace hearth::viewer
 {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/viewer/window/imgui_layer.h"
 
-#include "runtime/gpu/pipelines.h"
+#include "runtime/gpu/vulkan/pipelines.h"
 #include "runtime/viewer/window/frame_ring.h"
 
 #include <backends/imgui_impl_sdl.h>

@@ -1,6 +1,6 @@
 // hearth-view: shows a pack in a window.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "formats/program.h"
+#include "formats/base/program.h"
 #include "runtime/pack/pack.h"
 #include "runtime/viewer/window/options.h"
 #include "runtime/viewer/window/viewer.h"

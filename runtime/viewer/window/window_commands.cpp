@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/viewer/window/window_commands.h"
 
-#include "runtime/gpu/pipelines.h"
+#include "runtime/gpu/vulkan/pipelines.h"
 
 namespace hearth::viewer
 {

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include "runtime/gpu/frame_targets.h"
+#include "runtime/gpu/passes/frame_targets.h"
 #include "runtime/viewer/window/swapchain.h"
 
 namespace hearth::viewer

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include "runtime/gpu/device.h"
+#include "runtime/gpu/vulkan/device.h"
 
 #define HEARTH_WINDOW_INSTANCE_FUNCTIONS(X)                                                                  \
     X(vkGetPhysicalDeviceSurfaceCapabilitiesKHR)                                                             \

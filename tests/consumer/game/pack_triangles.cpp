@@ -1,8 +1,8 @@
 // Counts the triangles of a pack's finest level.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include <cstdio>
-#include <formats/pack_check.h>
-#include <formats/pack_view.h>
+#include <formats/pack/pack_check.h>
+#include <formats/pack/pack_view.h>
 
 namespace
 {

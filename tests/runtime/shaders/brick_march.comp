@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #version 450
 #extension GL_GOOGLE_include_directive : require
-#include "runtime/shaders/bricks.glsl"
+#include "runtime/shaders/scene/bricks.glsl"
 
 layout(local_size_x = 64) in;
 

@@ -2,14 +2,14 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #version 450
 #extension GL_GOOGLE_include_directive : require
-#include "formats/shared/decisions.h"
-#include "formats/shared/shading.h"
-#include "runtime/shaders/scene.glsl"
-#include "runtime/shaders/material.glsl"
-#include "runtime/shaders/surface_point.glsl"
-#include "runtime/shaders/unshadowed.glsl"
-#include "runtime/shaders/lighting.glsl"
-#include "runtime/shaders/surrounding_sky.glsl"
+#include "formats/gpu_shared/decisions.h"
+#include "formats/gpu_shared/shading.h"
+#include "runtime/shaders/scene/scene.glsl"
+#include "runtime/shaders/scene/material.glsl"
+#include "runtime/shaders/scene/surface_point.glsl"
+#include "runtime/shaders/shade/unshadowed.glsl"
+#include "runtime/shaders/shade/lighting.glsl"
+#include "runtime/shaders/shade/surrounding_sky.glsl"
 
 layout(location = 0) in vec3 in_position;
 layout(location = 1) in vec3 in_normal;

@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #version 450
 #extension GL_GOOGLE_include_directive : require
-#include "formats/shared/decisions.h"
-#include "formats/shared/shading.h"
-#include "runtime/shaders/scene.glsl"
-#include "runtime/shaders/material.glsl"
-#include "runtime/shaders/surface_point.glsl"
-#include "runtime/shaders/resolve.glsl"
+#include "formats/gpu_shared/decisions.h"
+#include "formats/gpu_shared/shading.h"
+#include "runtime/shaders/scene/scene.glsl"
+#include "runtime/shaders/scene/material.glsl"
+#include "runtime/shaders/scene/surface_point.glsl"
+#include "runtime/shaders/scene/resolve.glsl"
 
 layout(set = 2, binding = 0, std430) readonly buffer BinDraws { BinDraw bin_draws[]; };
 layout(push_constant) uniform Push

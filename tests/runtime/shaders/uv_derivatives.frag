@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #version 450
 #extension GL_GOOGLE_include_directive : require
-#include "formats/shared/decisions.h"
-#include "formats/shared/shading.h"
-#include "runtime/shaders/scene.glsl"
-#include "runtime/shaders/material.glsl"
-#include "runtime/shaders/surface_point.glsl"
-#include "runtime/shaders/resolve.glsl"
+#include "formats/gpu_shared/decisions.h"
+#include "formats/gpu_shared/shading.h"
+#include "runtime/shaders/scene/scene.glsl"
+#include "runtime/shaders/scene/material.glsl"
+#include "runtime/shaders/scene/surface_point.glsl"
+#include "runtime/shaders/scene/resolve.glsl"
 
 layout(input_attachment_index = 0, set = 2, binding = 0) uniform usubpassInput visibility;
 layout(location = 0) out vec4 out_derivatives;

@@ -1,0 +1,68 @@
+// The keys of an animation channel as points and Bezier pieces of what they are keys of.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "formats/codecs/channel_keys.h"
+#include "formats/scene/animation.h"
+
+#include <algorithm>
+#include <array>
+
+namespace hearth::motion
+{
+
+/// Four numbers of a channel's value; those that it has not are 0.
+using Value = formats::KeyValue;
+/// Control points of a cubic over parameters 0 to 1.
+using BezierPiece = std::array<Value, 4>;
+
+/// A channel's keys, `count` components from `first` on.
+class CurveKeys
+{
+public:
+    CurveKeys(const formats::MotionTables& tables, const formats::AnimationChannelRecord& channel,
+              uint32_t first, uint32_t count)
+        : keys_(tables.keys, tables.key_bits, channel), first_(first), count_(count)
+    {
+    }
+
+    bool isSpline() const { return keys_.interpolation() == formats::Interpolation::cubic_spline; }
+    bool isStep() const { return keys_.interpolation() == formats::Interpolation::step; }
+
+    uint32_t count() const { return keys_.count(); }
+
+    /// Seconds.
+    double time(uint32_t key) const { return keys_.time(key); }
+
+    /// The last key that is not later than a time; the first where all are.
+    uint32_t keyBefore(double time) const { return std::max(keys_.keyAfter(time), 1u) - 1; }
+
+    Value at(uint32_t key) const { return keys_.value(key, first_, count_); }
+
+    /// Whether the value moves from the key to the next: not where the two are at one time.
+    bool hasPiece(uint32_t key) const { return key + 1 < count() && time(key + 1) > time(key); }
+    bool hasSpline(uint32_t key) const { return isSpline() && hasPiece(key); }
+
+    /// The spline from a key to the next.
+    BezierPiece piece(uint32_t key) const
+    {
+        const double third = (time(key + 1) - time(key)) / 3;
+        const Value start = at(key), end = at(key + 1);
+        const Value out = keys_.outTangent(key, first_, count_),
+                    in = keys_.inTangent(key + 1, first_, count_);
+        BezierPiece bezier{start, start, end, end};
+        for (size_t i = 0; i < count_; ++i)
+        {
+            bezier[1][i] += third * out[i];
+            bezier[2][i] -= third * in[i];
+        }
+        return bezier;
+    }
+
+private:
+    formats::ChannelKeys keys_;
+    uint32_t first_;
+    uint32_t count_;
+};
+
+} // namespace hearth::motion

@@ -1,0 +1,392 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/animation_bounds/rotation_set.h"
+
+#include "cook/animation_bounds/quaternion.h"
+#include "formats/base/assert.h"
+
+#include <cmath>
+
+namespace hearth::motion
+{
+
+using namespace formats;
+
+namespace
+{
+
+constexpr std::array<std::array<int, 3>, kSlabCount> kSlabs{{{1, 0, 0},
+                                                             {0, 1, 0},
+                                                             {0, 0, 1},
+                                                             {1, 1, 0},
+                                                             {1, -1, 0},
+                                                             {1, 0, 1},
+                                                             {1, 0, -1},
+                                                             {0, 1, 1},
+                                                             {0, 1, -1},
+                                                             {1, 1, 1},
+                                                             {1, 1, -1},
+                                                             {1, -1, 1},
+                                                             {-1, 1, 1}}};
+
+// Rounding of a projection, far above what double precision leaves.
+constexpr double kSlabMargin = 1e-9;
+
+// Two rotations with a smaller cosine between their quaternions count as half a turn apart: either arc may be the
+// shorter one.
+constexpr double kLeastCosine = 1e-5;
+
+// Rotations whose quaternions are this near to one circle are bounded as turns about one axis.
+constexpr double kNearCircle = 0.02;
+
+// Largest half width of a cell: control points stand out by less than a third.
+constexpr double kMostCellHalf = 0.4;
+
+// Where a projection reaches farther than this, the set is hardly smaller than that of all rotations.
+constexpr double kMostReach = 4;
+
+// More pairs than this are not looked at one by one.
+constexpr size_t kMostPairs = 4'000'000;
+
+double along(const std::array<int, 3>& direction, Double3 u)
+{
+    return direction[0] * u.x + direction[1] * u.y + direction[2] * u.z;
+}
+
+/// The direction that the points, whatever their signs, lie around.
+Eigenvectors<4> spread(std::span<const Quaternion> points)
+{
+    std::array<std::array<double, 4>, 4> sum{};
+    for (const Quaternion& q : points)
+    {
+        const double weight = 1 / dot(q, q);
+        for (size_t i = 0; i < 4; ++i)
+            for (size_t j = 0; j < 4; ++j)
+                sum[i][j] += q[i] * q[j] * weight;
+    }
+    return eigenvectors(sum);
+}
+
+/// Whether all points, each with the sign that brings it nearer to `center`, lie less than a quarter turn of S3 apart,
+/// so that the shorter arc between any two of their blends stays in their cone.
+bool areInOneCone(std::span<const Quaternion> points, const Quaternion& center)
+{
+    constexpr double kEighthTurn = 0.7072; // cosine, rounded up: two such are less than a quarter apart
+    const auto cosine = [](const Quaternion& a, const Quaternion& b)
+    { return dot(a, b) / (length(a) * length(b)); };
+    double least = 1;
+    for (const Quaternion& q : points)
+        least = std::min(least, std::abs(cosine(q, center)));
+    if (least >= kEighthTurn)
+        return true;
+    if (least < kLeastCosine || points.size() * points.size() > kMostPairs)
+        return false;
+    for (size_t i = 0; i < points.size(); ++i)
+        for (size_t j = i + 1; j < points.size(); ++j)
+        {
+            const double sides = dot(points[i], center) * dot(points[j], center) < 0 ? -1 : 1;
+            if (cosine(points[i], points[j]) * sides < kLeastCosine)
+                return false;
+        }
+    return true;
+}
+
+/// Gnomonic coordinates from a frame.
+Double3 projected(const Quaternion& frame, const Quaternion& q)
+{
+    const Quaternion turned = multiply(conjugate(frame), q);
+    return Double3{turned[0], turned[1], turned[2]} * (1 / turned[3]);
+}
+
+Double3 unit(const std::array<double, 3>& v)
+{
+    return {v[0], v[1], v[2]};
+}
+
+/// Principal axes of vectors.
+std::array<Double3, 3> principalAxes(std::span<const Double3> vectors)
+{
+    Double3 mean;
+    for (const Double3 v : vectors)
+        mean = mean + v * (1 / static_cast<double>(vectors.size()));
+    Matrix3 sum{};
+    for (const Double3 v : vectors)
+    {
+        const Double3 away = v - mean;
+        const std::array<double, 3> a{away.x, away.y, away.z};
+        for (size_t i = 0; i < 3; ++i)
+            for (size_t j = 0; j < 3; ++j)
+                sum[i][j] += a[i] * a[j];
+    }
+    const Eigenvectors<3> axes = eigenvectors(sum);
+    return {unit(axes.vectors[0]), unit(axes.vectors[1]), unit(axes.vectors[2])};
+}
+
+std::vector<Double3> projectedAll(const Quaternion& frame, std::span<const Quaternion> points)
+{
+    std::vector<Double3> vectors;
+    vectors.reserve(points.size());
+    for (const Quaternion& q : points)
+        vectors.push_back(projected(frame, q));
+    return vectors;
+}
+
+Double3 inAxes(const std::array<Double3, 3>& axes, Double3 v)
+{
+    return {dot(axes[0], v), dot(axes[1], v), dot(axes[2], v)};
+}
+
+Double3 fromAxes(const std::array<Double3, 3>& axes, Double3 u)
+{
+    return axes[0] * u.x + axes[1] * u.y + axes[2] * u.z;
+}
+
+Box3d boxOf(const RotationPatch& patch)
+{
+    return {patch.slabs[0], patch.slabs[1], patch.slabs[2]};
+}
+
+/// The points are in one cone around the frame.
+RotationPatch patchAround(const Quaternion& frame, std::span<const Quaternion> points)
+{
+    RotationPatch patch;
+    patch.frame = frame;
+    const std::vector<Double3> vectors = projectedAll(frame, points);
+    patch.axes = principalAxes(vectors);
+    for (const Double3 v : vectors)
+    {
+        const Double3 u = inAxes(patch.axes, v);
+        for (size_t s = 0; s < kSlabCount; ++s)
+            patch.slabs[s].add(along(kSlabs[s], u));
+    }
+    for (Interval& slab : patch.slabs)
+        slab.grow(kSlabMargin * (1 + slab.magnitude()));
+    return patch;
+}
+
+/// A frame in the middle of the points, which are in one cone around `center`: few rotations are then far from it.
+Quaternion middleFrame(const Quaternion& center, std::span<const Quaternion> points)
+{
+    const RotationPatch patch = patchAround(center, points);
+    const Double3 u = fromAxes(patch.axes, middle(boxOf(patch)));
+    return normalizedOrNone(multiply(center, {u.x, u.y, u.z, 1}));
+}
+
+/// Half of a circle of S3 around `frame`, with the directions beside it as wide as the points need.
+RotationPatch halfCircle(const Quaternion& frame, const Quaternion& side, double beside)
+{
+    const Quaternion axis = multiply(conjugate(frame), side); // of a right angle: no real part
+    const Double3 a{axis[0], axis[1], axis[2]};
+    const Double3 other = std::abs(a.x) < 0.6 ? Double3{1, 0, 0} : Double3{0, 1, 0};
+    const Double3 b = cross(a, other) * (1 / length(cross(a, other)));
+    RotationPatch patch;
+    patch.frame = frame;
+    patch.axes = {a, b, cross(a, b)};
+    const Double3 extent{1 + 4 * beside, 4 * beside, 4 * beside};
+    for (size_t s = 0; s < kSlabCount; ++s)
+    {
+        const double reach = std::abs(kSlabs[s][0]) * extent.x + std::abs(kSlabs[s][1]) * extent.y +
+                             std::abs(kSlabs[s][2]) * extent.z + kSlabMargin;
+        patch.slabs[s] = {-reach, reach};
+    }
+    return patch;
+}
+
+/// How far at most a unit quaternion of the points is from the circle through two.
+double distanceFromCircle(std::span<const Quaternion> points, const Quaternion& a, const Quaternion& b)
+{
+    double distance = 0;
+    for (const Quaternion& q : points)
+    {
+        const double in_plane = (dot(q, a) * dot(q, a) + dot(q, b) * dot(q, b)) / dot(q, q);
+        distance = std::max(distance, std::sqrt(std::max(0.0, 1 - in_plane)));
+    }
+    return distance;
+}
+
+/// One axis of a patch's box, cut into cells. Nodes alternate between ends of cells and their middles.
+class AxisCells
+{
+public:
+    AxisCells(const Interval& interval, double tolerance)
+    {
+        // a quaternion that turns by an angle turns the matrix by 2 sin(angle)
+        if (2 * interval.half() <= tolerance)
+        {
+            first_ = interval.middle();
+            slack_ = 2 * interval.half();
+            return;
+        }
+        const double most_half = std::min(kMostCellHalf, std::sqrt(tolerance * 0.5));
+        cells_ = std::ceil(interval.half() / most_half);
+        first_ = interval.low;
+        half_ = interval.half() / cells_;
+    }
+
+    /// Whole, but not always within the range of an integer.
+    double nodeCount() const { return 2 * cells_ + 1; }
+    size_t nodes() const { return static_cast<size_t>(nodeCount()); }
+    double at(size_t node) const { return first_ + static_cast<double>(node) * half_; }
+    /// Half of the cell that a node is the middle of; 0 for the end of one.
+    double halfAt(size_t node) const { return node % 2 == 1 ? half_ : 0.0; }
+    /// How far the cells of a node reach from it.
+    double reachAt(size_t node) const
+    {
+        return cells_ == 0 ? 0.5 * slack_ : node % 2 == 1 ? half_ : 2 * half_;
+    }
+    /// Operator norm of what is left out where the axis is so short that its middle stands for it.
+    double slack() const { return slack_; }
+
+private:
+    double cells_ = 0;
+    double first_ = 0;
+    double half_ = 0;
+    double slack_ = 0;
+};
+
+std::array<AxisCells, 3> cellsOf(const RotationPatch& patch, double tolerance)
+{
+    return {AxisCells(patch.slabs[0], tolerance), AxisCells(patch.slabs[1], tolerance),
+            AxisCells(patch.slabs[2], tolerance)};
+}
+
+double slackOf(const std::array<AxisCells, 3>& cells)
+{
+    return cells[0].slack() + cells[1].slack() + cells[2].slack();
+}
+
+Matrix3 matrixOf(const Quaternion& unit_quaternion)
+{
+    const Affine3d t = affineFromTrs({}, unit_quaternion, {1, 1, 1});
+    return {{{t.m[0][0], t.m[0][1], t.m[0][2]},
+             {t.m[1][0], t.m[1][1], t.m[1][2]},
+             {t.m[2][0], t.m[2][1], t.m[2][2]}}};
+}
+
+/// Control points of a patch's matrices, which are rational functions of u: |q|^2 R and |q|^2 are of second degree in
+/// q = frame * (u, 1), so on each cell the matrices are in the convex hull of their Bernstein coefficients' quotients.
+/// source  G. Farin, "NURBS: from projective geometry to practical use", 1999 (rational Bezier patches)
+class ControlPoints
+{
+public:
+    explicit ControlPoints(const RotationPatch& patch) : patch_(patch)
+    {
+        for (size_t i = 0; i < 3; ++i)
+        {
+            const Double3 axis = patch.axes[i];
+            axis_matrices_[i] = matrixOf(multiply(patch.frame, {axis.x, axis.y, axis.z, 0}));
+        }
+    }
+
+    /// u      a node of the lattice
+    /// halves half the width of the cell that u is the middle of, by axis; 0 where it is at an end
+    Matrix3 at(Double3 u, const std::array<double, 3>& halves) const
+    {
+        const Double3 v = fromAxes(patch_.axes, u);
+        const double square = 1 + dot(u, u);
+        Matrix3 sum = matrixOf(normalizedOrNone(multiply(patch_.frame, {v.x, v.y, v.z, 1})));
+        double weight = square;
+        for (const double half : halves)
+            weight -= half * half;
+        for (size_t row = 0; row < 3; ++row)
+            for (size_t column = 0; column < 3; ++column)
+            {
+                double value = square * sum[row][column];
+                for (size_t axis = 0; axis < 3; ++axis)
+                    value -= halves[axis] * halves[axis] * axis_matrices_[axis][row][column];
+                sum[row][column] = value / weight;
+            }
+        return sum;
+    }
+
+private:
+    const RotationPatch& patch_;
+    std::array<Matrix3, 3> axis_matrices_;
+};
+
+/// Whether a box of the lattice reaches into all slabs.
+bool reachesInto(const RotationPatch& patch, Double3 center, Double3 extent)
+{
+    for (size_t s = 0; s < kSlabCount; ++s)
+    {
+        const double reach = std::abs(kSlabs[s][0]) * extent.x + std::abs(kSlabs[s][1]) * extent.y +
+                             std::abs(kSlabs[s][2]) * extent.z;
+        const double at = along(kSlabs[s], center);
+        if (at + reach < patch.slabs[s].low || at - reach > patch.slabs[s].high)
+            return false;
+    }
+    return true;
+}
+
+void addControlPoints(const RotationPatch& patch, double tolerance, RotationHull& hull)
+{
+    const std::array<AxisCells, 3> cells = cellsOf(patch, tolerance);
+    const ControlPoints points(patch);
+    for (size_t i = 0; i < cells[0].nodes(); ++i)
+        for (size_t j = 0; j < cells[1].nodes(); ++j)
+            for (size_t k = 0; k < cells[2].nodes(); ++k)
+            {
+                const Double3 u{cells[0].at(i), cells[1].at(j), cells[2].at(k)};
+                const Double3 reach{cells[0].reachAt(i), cells[1].reachAt(j), cells[2].reachAt(k)};
+                if (reachesInto(patch, u, reach))
+                    hull.matrices.push_back(
+                        points.at(u, {cells[0].halfAt(i), cells[1].halfAt(j), cells[2].halfAt(k)}));
+            }
+    hull.slack = std::max(hull.slack, slackOf(cells));
+}
+
+bool isNarrow(const RotationPatch& patch)
+{
+    return std::max({patch.slabs[0].magnitude(), patch.slabs[1].magnitude(), patch.slabs[2].magnitude()}) <=
+           kMostReach;
+}
+
+} // namespace
+
+RotationSet RotationSet::around(const RotationPoints& points)
+{
+    RotationSet set;
+    if (points.unbounded)
+        return set;
+    HEARTH_ASSERT(!points.points.empty());
+    const Eigenvectors<4> spread_of_points = spread(points.points);
+    const Quaternion& center = spread_of_points.vectors[0];
+    if (areInOneCone(points.points, center))
+    {
+        const Quaternion frame = middleFrame(center, points.points);
+        const RotationPatch patch =
+            patchAround(areInOneCone(points.points, frame) ? frame : center, points.points);
+        if (isNarrow(patch))
+            set.patches_.push_back(patch);
+        return set;
+    }
+    const Quaternion& side = spread_of_points.vectors[1];
+    if (const double beside = distanceFromCircle(points.points, center, side); beside <= kNearCircle)
+        set.patches_ = {halfCircle(center, side, beside), halfCircle(side, center, beside)};
+    return set;
+}
+
+double RotationSet::hullSize(double tolerance) const
+{
+    double size = 0;
+    for (const RotationPatch& patch : patches_)
+    {
+        const std::array<AxisCells, 3> cells = cellsOf(patch, tolerance);
+        if (slackOf(cells) > 1)
+            return 1;
+        size += cells[0].nodeCount() * cells[1].nodeCount() * cells[2].nodeCount();
+    }
+    return std::max(size, 1.0);
+}
+
+RotationHull RotationSet::hull(double tolerance) const
+{
+    RotationHull hull;
+    for (const RotationPatch& patch : patches_)
+        addControlPoints(patch, tolerance, hull);
+    // any rotation is within 1 of the matrix 0
+    if (unbounded() || hull.slack > 1)
+        return {{Matrix3{}}, 1};
+    return hull;
+}
+
+} // namespace hearth::motion

@@ -1,0 +1,246 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/animation_bounds/slerp_model.h"
+
+#include "cook/animation_bounds/quaternion.h"
+
+#include <cmath>
+#include <numbers>
+
+namespace hearth::motion
+{
+
+using namespace formats;
+
+namespace
+{
+
+// The squared sine of half the arc, 1/2 for quaternions at a right angle, which are half a turn apart.
+constexpr double kMostSquare = 0.495;
+
+// Series end where their terms are smaller: those of values, and of bounds of third derivatives, which are of order 1.
+constexpr double kValueTerm = 1e-14;
+constexpr double kBoundTerm = 1e-4;
+
+// What rounding comes to.
+constexpr double kSlerpRounding = 1e-12;
+
+/// Derivatives by v and z up to third order in all: at[i][j] is d^(i+j) / dv^i dz^j.
+struct Derivatives
+{
+    double at[4][4] = {};
+};
+
+/// Sums over k of c_k(v) z^k, and of the same divided by 2 k + 1, with c_0 = 1 and
+/// c_(k+1) = c_k ((k + 1/2)^2 - v) / ((k + 1/2) (k + 1)), for v in [0, 1/4] and z in [0, 1/2].
+struct Series
+{
+    Derivatives cosines;
+    Derivatives sines;
+};
+/// last_term  what is left out is at most three times as much
+Series seriesAt(double v, double z, double last_term)
+{
+    Series sum;
+    double c[4] = {1, 0, 0, 0};      // derivatives by v
+    double powers[4] = {1, 0, 0, 0}; // z^(k - j)
+    constexpr int kMost = 150;
+    for (int k = 0; k < kMost; ++k)
+    {
+        const double share = 1.0 / (2 * k + 1);
+        double falling = 1; // k (k - 1) .. of the derivatives by z
+        for (int j = 0; j < 4; ++j)
+        {
+            const double power = falling * powers[j];
+            for (int i = 0; i + j < 4; ++i)
+            {
+                const double term = c[i] * power;
+                sum.cosines.at[i][j] += term;
+                sum.sines.at[i][j] += share * term;
+            }
+            falling *= k - j;
+        }
+        const double largest = std::max({c[0], -c[1], c[2], -c[3]});
+        // from then on each term is less than three quarters of the one before it
+        if (k > 3 && z * (k + 1) < 0.75 * (k - 2) && largest * falling * powers[3] < last_term)
+            break;
+        const double a = (k + 0.5) * (k + 0.5) - v, inverse = 1 / ((k + 0.5) * (k + 1));
+        for (int i = 3; i > 0; --i)
+            c[i] = (c[i] * a - i * c[i - 1]) * inverse;
+        c[0] *= a * inverse;
+        for (int j = 3; j > 0; --j)
+            powers[j] = powers[j - 1];
+        powers[0] *= z;
+    }
+    return sum;
+}
+
+/// At least the absolute values.
+Series boundsAt(double v, double z)
+{
+    Series series = seriesAt(v, z, kBoundTerm);
+    for (Derivatives* const derivatives : {&series.cosines, &series.sines})
+        for (auto& row : derivatives->at)
+            for (double& number : row)
+                number = std::abs(number) + 3 * kBoundTerm;
+    return series;
+}
+
+/// A function of u, where v = u^2, and z: its derivatives up to second order, and bounds of those of third order.
+struct Expansion
+{
+    double value, u, z, uu, uz, zz;
+    double uuu, uuz, uzz, zzz;
+};
+
+/// cos(u arc) / cos(arc / 2), z the squared sine of half the arc.
+Expansion cosines(double u, const Derivatives& s, double most_u, const Derivatives& most)
+{
+    const double v = u * u, most_v = most_u * most_u;
+    return {s.at[0][0],
+            2 * u * s.at[1][0],
+            s.at[0][1],
+            2 * s.at[1][0] + 4 * v * s.at[2][0],
+            2 * u * s.at[1][1],
+            s.at[0][2],
+            most_u * (12 * most.at[2][0] + 8 * most_v * most.at[3][0]),
+            2 * most.at[1][1] + 4 * most_v * most.at[2][1],
+            2 * most_u * most.at[1][2],
+            most.at[0][3]};
+}
+
+/// sin(u arc) / sin(arc / 2) = 2 u sum.
+Expansion sines(double u, const Derivatives& s, double most_u, const Derivatives& most)
+{
+    const double v = u * u, most_v = most_u * most_u;
+    return {2 * u * s.at[0][0],
+            2 * s.at[0][0] + 4 * v * s.at[1][0],
+            2 * u * s.at[0][1],
+            2 * u * (6 * s.at[1][0] + 4 * v * s.at[2][0]),
+            2 * s.at[0][1] + 4 * v * s.at[1][1],
+            2 * u * s.at[0][2],
+            12 * most.at[1][0] + 48 * most_v * most.at[2][0] + 16 * most_v * most_v * most.at[3][0],
+            2 * most_u * (6 * most.at[1][1] + 4 * most_v * most.at[2][1]),
+            2 * most.at[0][2] + 4 * most_v * most.at[1][2],
+            2 * most_u * most.at[0][3]};
+}
+
+/// The squared sine of half the arc as a function of the two times, without its constant.
+struct Square
+{
+    double middle;
+    double linear[2];
+    double quadratic[2];
+    double mixed;
+    double remainder;
+
+    double linearNorm() const { return std::abs(linear[0]) + std::abs(linear[1]); }
+    double away() const
+    {
+        return linearNorm() + std::abs(quadratic[0]) + std::abs(quadratic[1]) + std::abs(mixed) + remainder;
+    }
+};
+
+/// `side` is the sign of `to`.
+Square squareOf(const TimeCurve& from, const TimeCurve& to, double side)
+{
+    const auto& a = from.terms;
+    const auto& b = to.terms;
+    const double left_out = std::abs(dot(a[2], b[1])) + std::abs(dot(a[1], b[2])) + std::abs(dot(a[2], b[2]));
+    // of fits that are no rotations it may be negative, of rotations it never is
+    const double middle = 0.5 - 0.5 * side * dot(a[0], b[0]);
+    return {std::max(middle, 0.0),
+            {-0.5 * side * dot(a[1], b[0]), -0.5 * side * dot(a[0], b[1])},
+            {-0.5 * side * dot(a[2], b[0]), -0.5 * side * dot(a[0], b[2])},
+            -0.5 * side * dot(a[1], b[1]),
+            0.5 * (left_out + from.remainder + to.remainder * (1 + from.remainder)) + std::max(-middle, 0.0) +
+                kSlerpRounding};
+}
+
+/// The expansion with u moving by half_u x2 and z as it does.
+TaylorModel<1> composed(const Expansion& f, double half_u, const Square& z)
+{
+    const double l0 = z.linear[0], l1 = z.linear[1], linear = z.linearNorm(), away = z.away();
+    TaylorModel<1> model;
+    const auto set = [&](size_t term, double number) { model.terms[term][0] = number; };
+    set(0, f.value);
+    set(kFirstLinear, f.z * l0);
+    set(kFirstLinear + 1, f.z * l1);
+    set(kFirstLinear + 2, f.u * half_u);
+    set(termOf(0, 0), f.z * z.quadratic[0] + 0.5 * f.zz * l0 * l0);
+    set(termOf(1, 1), f.z * z.quadratic[1] + 0.5 * f.zz * l1 * l1);
+    set(termOf(2, 2), 0.5 * f.uu * half_u * half_u);
+    set(termOf(0, 1), f.z * z.mixed + f.zz * l0 * l1);
+    set(termOf(0, 2), f.uz * l0 * half_u);
+    set(termOf(1, 2), f.uz * l1 * half_u);
+    model.remainder = std::abs(f.z) * z.remainder + std::abs(f.uz) * half_u * (away - linear) +
+                      0.5 * std::abs(f.zz) * (away * away - linear * linear) +
+                      f.zzz * away * away * away / 6 + 0.5 * f.uzz * half_u * away * away +
+                      0.5 * f.uuz * half_u * half_u * away + f.uuu * half_u * half_u * half_u / 6 +
+                      kSlerpRounding;
+    return model;
+}
+
+/// Add the polynomial of the product, and what is left of it.
+void addProduct(const TaylorModel<1>& factor, const TaylorModel<4>& of, TaylorModel<4>& sum)
+{
+    for (const TermProduct& product : kProducts)
+        for (size_t i = 0; i < 4; ++i)
+            sum.terms[product.product][i] += factor.terms[product.one][0] * of.terms[product.other][i];
+    const DegreeNorms norms = degreeNorms(of);
+    sum.remainder += leftOut(degreeNorms(factor), norms) + factor.remainder * norms.all();
+}
+
+constexpr size_t kFromTerms[3] = {0, kFirstLinear, termOf(0, 0)};
+constexpr size_t kToTerms[3] = {0, kFirstLinear + 1, termOf(1, 1)};
+
+/// The nearer end, and that an arc is never longer than a right angle.
+TaylorModel<4> nearEnd(const TimeCurve& from, const TimeCurve& to, Interval weights)
+{
+    const bool is_from = weights.high < 1 - weights.low;
+    const TimeCurve& end = is_from ? from : to;
+    TaylorModel<4> model;
+    for (size_t degree = 0; degree < 3; ++degree)
+        model.terms[is_from ? kFromTerms[degree] : kToTerms[degree]] = end.terms[degree];
+    const double share = is_from ? weights.high : 1 - weights.low;
+    model.remainder = end.remainder + 2 * std::sin(share * std::numbers::pi / 4) + kSlerpRounding;
+    return model;
+}
+
+} // namespace
+
+TaylorModel<4> slerpModel(const TimeCurve& from, const TimeCurve& to, Interval weights)
+{
+    const double side = dot(from.terms[0], to.terms[0]) < 0 ? -1 : 1;
+    const Square square = squareOf(from, to, side);
+    const double most_square = square.middle + square.away();
+    if (!(most_square < kMostSquare))
+        return nearEnd(from, to, weights);
+    // slerp = S (from + to) / 2 + D (to - from) / 2, at u = weight - 1/2: where the two are near each other, D is multiplied
+    // by little
+    const double u = weights.middle() - 0.5, half_u = weights.half();
+    const double most_u = std::abs(u) + half_u, least_u = std::max(0.0, std::abs(u) - half_u);
+    // derivatives by v are largest where v is small
+    const double z = square.middle, least_v = least_u * least_u;
+    const Series here = seriesAt(u * u, z, kValueTerm), most = boundsAt(least_v, most_square);
+    const TaylorModel<1> s = composed(cosines(u, here.cosines, most_u, most.cosines), half_u, square);
+    const TaylorModel<1> d = composed(sines(u, here.sines, most_u, most.sines), half_u, square);
+    TaylorModel<4> sum, difference;
+    for (size_t degree = 0; degree < 3; ++degree)
+        for (size_t i = 0; i < 4; ++i)
+        {
+            const double a = 0.5 * from.terms[degree][i], b = 0.5 * side * to.terms[degree][i];
+            sum.terms[kFromTerms[degree]][i] += a;
+            sum.terms[kToTerms[degree]][i] += b;
+            difference.terms[kFromTerms[degree]][i] -= a;
+            difference.terms[kToTerms[degree]][i] += b;
+        }
+    TaylorModel<4> model;
+    addProduct(s, sum, model);
+    addProduct(d, difference, model);
+    // what multiplies either end, sin(t arc) / sin(arc), is largest where the arc is a right angle
+    model.remainder += std::sin((1 - weights.low) * std::numbers::pi / 2) * from.remainder +
+                       std::sin(weights.high * std::numbers::pi / 2) * to.remainder;
+    return model;
+}
+
+} // namespace hearth::motion

@@ -1,0 +1,147 @@
+// Functions of three parameters, each from -1 to 1: a polynomial of second degree and how far the function is from it.
+// M. Berz, K. Makino, "Verified integration of ODEs and flows using differential algebraic methods on high-order Taylor
+// models", 1998; here of one order and with a ball as the remainder.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "cook/animation_bounds/box.h"
+
+#include <array>
+#include <cmath>
+
+namespace hearth::motion
+{
+
+/// 1; x0, x1, x2; x0^2, x1^2, x2^2; x0 x1, x0 x2, x1 x2.
+inline constexpr size_t kTerms = 10;
+inline constexpr size_t kFirstLinear = 1;
+inline constexpr size_t kFirstQuadratic = 4;
+
+/// The term of a product of two parameters, 0 to 2.
+constexpr size_t termOf(size_t a, size_t b)
+{
+    return a == b ? kFirstQuadratic + a : kFirstQuadratic + 2 + a + b;
+}
+
+/// Products of terms that are of no more than second degree: the term `product` gets one times the other.
+struct TermProduct
+{
+    size_t one;
+    size_t other;
+    size_t product;
+};
+inline constexpr size_t kTermProducts = 28;
+constexpr std::array<TermProduct, kTermProducts> termProducts()
+{
+    std::array<TermProduct, kTermProducts> products{};
+    size_t count = 0;
+    for (size_t term = 0; term < kTerms; ++term)
+        products[count++] = {0, term, term};
+    for (size_t term = 1; term < kTerms; ++term)
+        products[count++] = {term, 0, term};
+    for (size_t a = 0; a < 3; ++a)
+        for (size_t b = 0; b < 3; ++b)
+            products[count++] = {kFirstLinear + a, kFirstLinear + b, termOf(a, b)};
+    return products;
+}
+inline constexpr std::array<TermProduct, kTermProducts> kProducts = termProducts();
+
+/// The same for the square of one: each pair stands once, as often as `times` says.
+struct TermSquare
+{
+    size_t one;
+    size_t other;
+    size_t product;
+    double times;
+};
+inline constexpr size_t kTermSquares = 16;
+constexpr std::array<TermSquare, kTermSquares> termSquares()
+{
+    std::array<TermSquare, kTermSquares> squares{};
+    size_t count = 0;
+    for (const TermProduct& product : kProducts)
+        if (product.one <= product.other)
+            squares[count++] = {product.one, product.other, product.product,
+                                product.one == product.other ? 1.0 : 2.0};
+    return squares;
+}
+inline constexpr std::array<TermSquare, kTermSquares> kSquares = termSquares();
+
+/// Of N numbers: a vector, or a 3 x 3 matrix row by row.
+template <size_t N>
+struct TaylorModel
+{
+    std::array<std::array<double, N>, kTerms> terms{};
+    double remainder = 0; ///< of a vector its length, of a matrix its operator norm
+};
+using VectorModel = TaylorModel<3>;
+using MatrixModel = TaylorModel<9>;
+
+/// Lengths of a model's terms, of matrices their Frobenius norms, summed by degree.
+struct DegreeNorms
+{
+    double constant = 0;
+    double linear = 0;
+    double quadratic = 0;
+
+    double all() const { return constant + linear + quadratic; }
+};
+
+template <size_t N>
+DegreeNorms degreeNorms(const TaylorModel<N>& model)
+{
+    std::array<double, kTerms> lengths;
+    for (size_t term = 0; term < kTerms; ++term)
+    {
+        double square = 0;
+        for (const double number : model.terms[term])
+            square += number * number;
+        lengths[term] = std::sqrt(square);
+    }
+    return {lengths[0], lengths[1] + lengths[2] + lengths[3],
+            lengths[4] + lengths[5] + lengths[6] + lengths[7] + lengths[8] + lengths[9]};
+}
+
+/// At most what a product's terms of third and fourth degree come to, which are left out.
+inline double leftOut(const DegreeNorms& a, const DegreeNorms& b)
+{
+    return a.linear * b.quadratic + a.quadratic * (b.linear + b.quadratic);
+}
+
+/// The polynomial of the product of two, without a remainder: matrix times matrix, or matrix times vector.
+template <size_t N>
+TaylorModel<N> productTerms(const MatrixModel& a, const TaylorModel<N>& b)
+{
+    constexpr size_t kColumns = N / 3;
+    TaylorModel<N> result;
+    for (const TermProduct& product : kProducts)
+    {
+        const std::array<double, 9>& one = a.terms[product.one];
+        const std::array<double, N>& other = b.terms[product.other];
+        std::array<double, N>& sum = result.terms[product.product];
+        for (size_t row = 0; row < 3; ++row)
+            for (size_t k = 0; k < 3; ++k)
+                for (size_t column = 0; column < kColumns; ++column)
+                    sum[row * kColumns + column] += one[row * 3 + k] * other[k * kColumns + column];
+    }
+    return result;
+}
+
+/// What a polynomial of one number can be.
+inline Interval rangeOf(const std::array<double, kTerms>& terms)
+{
+    Interval range{terms[0], terms[0]};
+    for (size_t i = 0; i < 3; ++i)
+    {
+        const double linear = terms[kFirstLinear + i], square = terms[kFirstQuadratic + i];
+        Interval along{square - std::abs(linear), square + std::abs(linear)};
+        if (2 * std::abs(square) > std::abs(linear))
+            along.add(-0.25 * linear * linear / square);
+        range.low += along.low;
+        range.high += along.high;
+    }
+    range.grow(std::abs(terms[7]) + std::abs(terms[8]) + std::abs(terms[9]));
+    return range;
+}
+
+} // namespace hearth::motion

@@ -1,0 +1,322 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/animation_bounds/transform_model.h"
+
+#include "cook/animation_bounds/slerp_model.h"
+#include "cook/animation_bounds/symmetric.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hearth::motion
+{
+
+namespace
+{
+
+// What rounding moves the result of a product by, as a share of its factors.
+constexpr double kTransformRounding = 1e-14;
+
+// Scales that are this near to 1 are rounded ones.
+constexpr double kNearRigid = 1e-5;
+
+/// A linear part takes no vector farther than `norm`: where the remainder allows more, the polynomial says nothing.
+void limitRemainder(TransformModel& transform)
+{
+    if (transform.linear.remainder < transform.norm)
+        return;
+    transform.linear.terms = {};
+    transform.linear.remainder = transform.norm;
+    transform.norms = {};
+}
+
+RigidModel rigidOf(const TaylorModel<4>& rotation, double stretch)
+{
+    return {rotation, degreeNorms(rotation), stretch};
+}
+
+/// First b, then a.
+RigidModel productOf(const RigidModel& a, const RigidModel& b)
+{
+    TaylorModel<4> rotation;
+    for (const TermProduct& product : kProducts)
+    {
+        const auto& p = a.rotation.terms[product.one];
+        const auto& q = b.rotation.terms[product.other];
+        std::array<double, 4>& sum = rotation.terms[product.product];
+        sum[0] += p[3] * q[0] + p[0] * q[3] + p[1] * q[2] - p[2] * q[1];
+        sum[1] += p[3] * q[1] - p[0] * q[2] + p[1] * q[3] + p[2] * q[0];
+        sum[2] += p[3] * q[2] + p[0] * q[1] - p[1] * q[0] + p[2] * q[3];
+        sum[3] += p[3] * q[3] - p[0] * q[0] - p[1] * q[1] - p[2] * q[2];
+    }
+    // of quaternions of length 1: (a + e) (b + f) = a b + a f + e (b + f)
+    rotation.remainder = a.norms.all() * b.rotation.remainder + a.rotation.remainder +
+                         leftOut(a.norms, b.norms) + kTransformRounding;
+    // and of rotations with a stretch: (A + E) (B + F) = A B + E B + (A + E) F
+    return rigidOf(rotation.remainder < 1 ? rotation : anyRotation(),
+                   a.stretch + (1 + a.stretch) * b.stretch);
+}
+
+/// Set the linear part from its rotation: |q|^2 times the matrix of q, which is of second degree in q.
+void setLinear(TransformModel& transform)
+{
+    const TaylorModel<4>& rotation = transform.rigid->rotation;
+    MatrixModel& matrix = transform.linear;
+    matrix.terms = {};
+    for (const TermSquare& square : kSquares)
+    {
+        const auto [ax, ay, az, aw] = rotation.terms[square.one];
+        const auto& q = rotation.terms[square.other];
+        const double bx = square.times * q[0], by = square.times * q[1], bz = square.times * q[2],
+                     bw = square.times * q[3];
+        const double xx = ax * bx, yy = ay * by, zz = az * bz, ww = aw * bw;
+        const double xy = ax * by + ay * bx, xz = ax * bz + az * bx, yz = ay * bz + az * by;
+        const double xw = ax * bw + aw * bx, yw = ay * bw + aw * by, zw = az * bw + aw * bz;
+        std::array<double, 9>& m = matrix.terms[square.product];
+        m[0] += ww + xx - yy - zz;
+        m[1] += xy - zw;
+        m[2] += xz + yw;
+        m[3] += xy + zw;
+        m[4] += ww - xx + yy - zz;
+        m[5] += yz - xw;
+        m[6] += xz - yw;
+        m[7] += yz + xw;
+        m[8] += ww - xx - yy + zz;
+    }
+    // q x q* with q = p + e: e x q* + p x e*
+    const DegreeNorms& p = transform.rigid->norms;
+    transform.norms = {p.constant * p.constant, 2 * p.constant * p.linear,
+                       2 * p.constant * p.quadratic + p.linear * p.linear};
+    matrix.remainder = rotation.remainder * (2 + rotation.remainder) + leftOut(p, p) + kTransformRounding +
+                       transform.rigid->stretch;
+    limitRemainder(transform);
+}
+
+std::array<double, kTerms> axisTerms(const VectorModel& model, size_t axis)
+{
+    std::array<double, kTerms> terms;
+    for (size_t term = 0; term < kTerms; ++term)
+        terms[term] = model.terms[term][axis];
+    return terms;
+}
+
+Interval axisRange(const VectorModel& model, size_t axis)
+{
+    Interval range = rangeOf(axisTerms(model, axis));
+    range.grow(model.remainder);
+    return range;
+}
+
+double largest(const VectorModel& model)
+{
+    return std::max(
+        {axisRange(model, 0).magnitude(), axisRange(model, 1).magnitude(), axisRange(model, 2).magnitude()});
+}
+
+/// 1 / s axis by axis; nothing where s can be 0.
+std::optional<VectorModel> reciprocal(const VectorModel& s)
+{
+    VectorModel result;
+    for (size_t axis = 0; axis < 3; ++axis)
+    {
+        const Interval range = axisRange(s, axis);
+        const double least = range.low > 0 ? range.low : -range.high;
+        if (!(least > 1e-6 * range.magnitude()))
+            return std::nullopt;
+        const std::array<double, kTerms> terms = axisTerms(s, axis);
+        const double inverse = 1 / terms[0], square = inverse * inverse, cube = square * inverse;
+        result.terms[0][axis] = inverse;
+        double linear = 0, away = s.remainder;
+        for (size_t term = 1; term < kTerms; ++term)
+        {
+            result.terms[term][axis] = -terms[term] * square;
+            away += std::abs(terms[term]);
+        }
+        for (size_t a = 0; a < 3; ++a)
+        {
+            linear += std::abs(terms[kFirstLinear + a]);
+            for (size_t b = 0; b < 3; ++b)
+                result.terms[termOf(a, b)][axis] += terms[kFirstLinear + a] * terms[kFirstLinear + b] * cube;
+        }
+        // 1 / (c + d) = 1/c - d/c^2 + d^2/c^3 - d^3/e^4, e between c and c + d
+        const double remainder = s.remainder * square + (away * away - linear * linear) * std::abs(cube) +
+                                 away * away * away / (least * least * least * least);
+        result.remainder = std::max(result.remainder, remainder + kTransformRounding * std::abs(inverse));
+    }
+    return result;
+}
+
+/// How far from 1 a scale gets.
+double departureFromOne(const VectorModel& scale)
+{
+    double away = 0;
+    for (size_t axis = 0; axis < 3; ++axis)
+    {
+        const Interval range = axisRange(scale, axis);
+        away = std::max({away, range.high - 1, 1 - range.low});
+    }
+    return away;
+}
+
+TaylorModel<4> conjugate(TaylorModel<4> rotation)
+{
+    for (std::array<double, 4>& term : rotation.terms)
+        for (size_t i = 0; i < 3; ++i)
+            term[i] = -term[i];
+    return rotation;
+}
+
+TransformModel rotated(const TaylorModel<4>& rotation)
+{
+    TransformModel model;
+    model.rigid = rigidOf(rotation, 0);
+    return model;
+}
+
+/// Multiply a rotation by a diagonal matrix, of which `axisOf` names the number for an element of the product.
+template <typename AxisOf>
+void scaleElements(TransformModel& model, const VectorModel& scale, const AxisOf& axis_of)
+{
+    model.norm = largest(scale);
+    if (const double away = departureFromOne(scale); away < kNearRigid)
+    {
+        model.rigid->stretch = away;
+        return;
+    }
+    setLinear(model);
+    model.rigid.reset();
+    const DegreeNorms of_scale = degreeNorms(scale);
+    MatrixModel scaled;
+    for (const TermProduct& product : kProducts)
+        for (size_t i = 0; i < 9; ++i)
+            scaled.terms[product.product][i] +=
+                model.linear.terms[product.one][i] * scale.terms[product.other][axis_of(i)];
+    scaled.remainder = model.linear.remainder * model.norm + scale.remainder * (1 + model.linear.remainder) +
+                       leftOut(model.norms, of_scale) + kTransformRounding * model.norm;
+    model.linear = scaled;
+    model.norms = degreeNorms(scaled);
+    limitRemainder(model);
+}
+
+void scaleBefore(TransformModel& model, const VectorModel& scale)
+{
+    scaleElements(model, scale, [](size_t element) { return element % 3; });
+}
+
+void scaleAfter(TransformModel& model, const VectorModel& scale)
+{
+    scaleElements(model, scale, [](size_t element) { return element / 3; });
+}
+
+VectorModel constantProduct(const MatrixModel& matrix, const std::array<double, 3>& vector)
+{
+    VectorModel result;
+    for (size_t term = 0; term < kTerms; ++term)
+        for (size_t row = 0; row < 3; ++row)
+            for (size_t k = 0; k < 3; ++k)
+                result.terms[term][row] += matrix.terms[term][row * 3 + k] * vector[k];
+    return result;
+}
+
+/// What the linear part does to a vector.
+VectorModel moved(const TransformModel& transform, const VectorModel& vector)
+{
+    const DegreeNorms norms = degreeNorms(vector);
+    // most joints turn, and stay where they are
+    VectorModel result = norms.linear == 0 && norms.quadratic == 0
+                             ? constantProduct(transform.linear, vector.terms[0])
+                             : productTerms(transform.linear, vector);
+    result.remainder = transform.norm * vector.remainder +
+                       (transform.linear.remainder + kTransformRounding * transform.norm) * norms.all() +
+                       leftOut(transform.norms, norms);
+    return result;
+}
+
+} // namespace
+
+TransformModel unmoved()
+{
+    TaylorModel<4> rotation;
+    rotation.terms[0][3] = 1;
+    TransformModel model = rotated(rotation);
+    setLinear(model);
+    return model;
+}
+
+TransformModel exactly(const Affine3d& transform)
+{
+    TransformModel model;
+    model.norm = operatorNorm(transform);
+    for (size_t row = 0; row < 3; ++row)
+    {
+        for (size_t column = 0; column < 3; ++column)
+            model.linear.terms[0][row * 3 + column] = transform.m[row][column];
+        model.place.terms[0][row] = transform.m[row][3];
+    }
+    model.norms.constant = model.norm;
+    return model;
+}
+
+TransformModel parentFromNode(const NodeModel& node)
+{
+    TransformModel model = rotated(node.rotation);
+    model.place = node.translation;
+    scaleBefore(model, node.scale);
+    return model;
+}
+
+std::optional<TransformModel> nodeFromParent(const NodeModel& node)
+{
+    const std::optional<VectorModel> inverse = reciprocal(node.scale);
+    if (!inverse)
+        return std::nullopt;
+    TransformModel model = rotated(conjugate(node.rotation));
+    scaleAfter(model, *inverse);
+    const auto& translation = node.translation.terms;
+    model.pivot = {translation[0][0], translation[0][1], translation[0][2]};
+    VectorModel away; // from where the node is to the pivot
+    for (size_t term = 1; term < kTerms; ++term)
+        for (size_t i = 0; i < 3; ++i)
+            away.terms[term][i] = -translation[term][i];
+    away.remainder = node.translation.remainder;
+    if (model.rigid)
+        setLinear(model);
+    model.place = moved(model, away);
+    model.place.remainder += kTransformRounding * model.norm * length(model.pivot);
+    return model;
+}
+
+void compose(const TransformModel& second, TransformModel& first, TransformModel& result)
+{
+    result.rigid.reset();
+    result.pivot = first.pivot;
+    result.norm = second.norm * first.norm;
+    if (second.rigid && first.rigid)
+    {
+        result.rigid = productOf(*second.rigid, *first.rigid);
+        setLinear(result);
+    }
+    else
+    {
+        if (first.rigid)
+            setLinear(first);
+        result.linear = productTerms(second.linear, first.linear);
+        // (A + E) (B + F) = A B + E B + (A + E) F
+        result.linear.remainder = second.linear.remainder * (first.norm + first.linear.remainder) +
+                                  second.norm * first.linear.remainder + leftOut(second.norms, first.norms) +
+                                  kTransformRounding * result.norm;
+        result.norms = degreeNorms(result.linear);
+        limitRemainder(result);
+    }
+    VectorModel away = first.place; // from the second pivot
+    away.terms[0][0] -= second.pivot.x;
+    away.terms[0][1] -= second.pivot.y;
+    away.terms[0][2] -= second.pivot.z;
+    result.place = moved(second, away);
+    for (size_t term = 0; term < kTerms; ++term)
+        for (size_t i = 0; i < 3; ++i)
+            result.place.terms[term][i] += second.place.terms[term][i];
+    result.place.remainder +=
+        second.place.remainder + kTransformRounding * second.norm * length(second.pivot);
+}
+
+} // namespace hearth::motion

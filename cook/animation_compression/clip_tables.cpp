@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/animation_compression/clip_tables.h"
+
+#include "formats/base/assert.h"
+
+#include <algorithm>
+#include <bit>
+#include <map>
+#include <optional>
+#include <set>
+
+namespace hearth::clips
+{
+
+using namespace formats;
+
+namespace
+{
+
+using Times = std::vector<float>;
+
+/// Writes fields one behind the other; each stream begins at a word.
+class BitStream
+{
+public:
+    explicit BitStream(std::vector<uint32_t>& words) : words_(words), offset_(words.size() * 32) {}
+
+    void write(uint32_t value, uint32_t count)
+    {
+        for (uint32_t bit = 0; bit < count; ++bit, ++offset_)
+        {
+            if (offset_ % 32 == 0)
+                words_.push_back(0);
+            words_.back() |= (value >> bit & 1u) << (offset_ % 32);
+        }
+    }
+
+private:
+    std::vector<uint32_t>& words_;
+    size_t offset_;
+};
+
+/// All times of the channels that move.
+Times commonTimes(const FittedClip& clip)
+{
+    Times times;
+    for (const FittedChannel& channel : clip.channels)
+        if (channel.times.size() > 1)
+            times.insert(times.end(), channel.times.begin(), channel.times.end());
+    std::sort(times.begin(), times.end());
+    times.erase(std::unique(times.begin(), times.end()), times.end());
+    return times;
+}
+
+uint32_t placeIn(const Times& table, float time)
+{
+    return static_cast<uint32_t>(std::lower_bound(table.begin(), table.end(), time) - table.begin());
+}
+
+bool isRunOf(const Times& table, const Times& times)
+{
+    const size_t first = placeIn(table, times[0]);
+    return times.size() <= table.size() - first &&
+           std::equal(times.begin(), times.end(), table.begin() + static_cast<std::ptrdiff_t>(first));
+}
+
+uint32_t placeBits(const Times& table)
+{
+    return static_cast<uint32_t>(std::bit_width(table.size() - 1));
+}
+
+/// Whether the clip is smaller with one table of times than with a list for each channel.
+bool pays(const Times& table, const FittedClip& clip)
+{
+    if (table.empty() || placeBits(table) > kMostKeyFieldBits)
+        return false;
+    std::set<Times> own, beside;
+    uint64_t with = 32 * table.size(), without = 0;
+    for (const FittedChannel& channel : clip.channels)
+    {
+        const Times& times = channel.times;
+        if (times.size() < 2)
+            continue;
+        without += own.insert(times).second ? 32 * times.size() : 0;
+        if (isRunOf(table, times))
+            continue;
+        if (isPacked(channel.record))
+            with += placeBits(table) * times.size();
+        else
+            with += beside.insert(times).second ? 32 * times.size() : 0;
+    }
+    return with <= without;
+}
+
+class ClipWriter
+{
+public:
+    ClipTables write(const FittedClip& clip)
+    {
+        table_ = commonTimes(clip);
+        if (pays(table_, clip))
+            table_place_ = placeOf(table_);
+        for (const FittedChannel& channel : clip.channels)
+            addChannel(channel);
+        return std::move(tables_);
+    }
+
+private:
+    uint32_t placeOf(const std::vector<float>& floats)
+    {
+        const auto [found, added] = places_.try_emplace(floats, static_cast<uint32_t>(tables_.keys.size()));
+        if (added)
+            tables_.keys.insert(tables_.keys.end(), floats.begin(), floats.end());
+        return found->second;
+    }
+
+    void addChannel(const FittedChannel& channel)
+    {
+        AnimationChannelRecord record = channel.record;
+        placeTimes(channel, record);
+        if (isPacked(record))
+        {
+            const PackedCurve& packed = channel.packed;
+            record.first_value = placeOf({packed.base[0], packed.base[1], packed.base[2], packed.step});
+            writeKeys(channel, record);
+        }
+        else
+            record.first_value = placeOf(channel.values);
+        tables_.channels.push_back(record);
+    }
+
+    void placeTimes(const FittedChannel& channel, AnimationChannelRecord& record)
+    {
+        // one key holds at any time: any time does
+        if (channel.times.size() == 1 && table_place_)
+            record.first_time = *table_place_;
+        else if (table_place_ && isRunOf(table_, channel.times))
+            record.first_time = *table_place_ + placeIn(table_, channel.times[0]);
+        else if (table_place_ && isPacked(record))
+        {
+            record.first_time = *table_place_;
+            record.time_bits = static_cast<uint8_t>(placeBits(table_));
+        }
+        else
+            record.first_time = placeOf(channel.times);
+    }
+
+    void writeKeys(const FittedChannel& channel, AnimationChannelRecord& record)
+    {
+        record.first_word = static_cast<uint32_t>(tables_.key_bits.size());
+        BitStream stream(tables_.key_bits);
+        for (size_t i = 0; i < channel.packed.keys.size(); ++i)
+        {
+            const PackedCurve::Key& key = channel.packed.keys[i];
+            if (record.time_bits > 0)
+                stream.write(placeIn(table_, channel.times[i]), record.time_bits);
+            if (record.path == static_cast<uint32_t>(AnimationPath::rotation))
+                stream.write(key.largest, kLargestBits);
+            for (size_t n = 0; n < key.codes.size(); ++n)
+                stream.write(key.codes[n], record.value_bits[n]);
+        }
+    }
+
+    ClipTables tables_;
+    Times table_; ///< of the whole clip
+    std::optional<uint32_t> table_place_;
+    std::map<std::vector<float>, uint32_t> places_;
+};
+
+} // namespace
+
+uint64_t ClipTables::bytes() const
+{
+    return channels.size() * sizeof(AnimationChannelRecord) + keys.size() * sizeof(float) +
+           key_bits.size() * sizeof(uint32_t);
+}
+
+void ClipTables::append(const ClipTables& other)
+{
+    const auto first_key = static_cast<uint32_t>(keys.size());
+    const auto first_word = static_cast<uint32_t>(key_bits.size());
+    for (AnimationChannelRecord channel : other.channels)
+    {
+        channel.first_time += first_key;
+        channel.first_value += first_key;
+        channel.first_word += isPacked(channel) ? first_word : 0;
+        channels.push_back(channel);
+    }
+    keys.insert(keys.end(), other.keys.begin(), other.keys.end());
+    key_bits.insert(key_bits.end(), other.key_bits.begin(), other.key_bits.end());
+}
+
+ClipTables clipTables(const FittedClip& clip)
+{
+    return ClipWriter().write(clip);
+}
+
+} // namespace hearth::clips

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/animation_compression/compress.h"
+
+#include "formats/pack/pack_view.h"
+
+#include <cmath>
+#include <limits>
+#include <set>
+#include <utility>
+
+#include <tbb/parallel_for.h>
+
+namespace hearth::clips
+{
+
+using namespace formats;
+
+namespace
+{
+
+struct Compressed
+{
+    ClipTables tables;
+    ClipStatistics statistics;
+};
+
+/// Channels may share times and values: those count once.
+uint64_t sourceBytes(const MotionTables& tables, const AnimationRecord& animation)
+{
+    std::set<std::pair<uint32_t, size_t>> ranges;
+    for (const AnimationChannelRecord& channel : recordsOf(tables.channels, animation.channels))
+    {
+        const bool spline = channel.interpolation == static_cast<uint32_t>(Interpolation::cubic_spline);
+        ranges.insert({channel.first_time, channel.key_count});
+        ranges.insert(
+            {channel.first_value, size_t{channel.key_count} * channel.components * (spline ? 3 : 1)});
+    }
+    uint64_t bytes = uint64_t{animation.channels.count} * sizeof(AnimationChannelRecord);
+    for (const auto& [first, count] : ranges)
+        bytes += count * sizeof(float);
+    return bytes;
+}
+
+uint32_t keyCount(std::span<const AnimationChannelRecord> channels)
+{
+    uint32_t count = 0;
+    for (const AnimationChannelRecord& channel : channels)
+        count += channel.key_count;
+    return count;
+}
+
+Compressed compressed(const MotionTables& tables, const AnimationRecord& animation, const SceneReach& scene,
+                      const StatedError& stated)
+{
+    Compressed result{clipTables(sourceClip(tables, animation)), {}};
+    const bool exact = !(stated.metres > 0) && !(stated.share_of_size > 0);
+    const FittedClip fitted = exact ? FittedClip{} : fitClip(tables, animation, scene, stated);
+    result.statistics.stated_error = fitted.stated_error;
+    if (!exact)
+    {
+        ClipTables smaller = clipTables(fitted);
+        if (smaller.bytes() < result.tables.bytes())
+        {
+            result.tables = std::move(smaller);
+            result.statistics.proven_error = fitted.proven_error;
+        }
+    }
+    result.statistics.keys_before = keyCount(recordsOf(tables.channels, animation.channels));
+    result.statistics.keys_after = keyCount(result.tables.channels);
+    result.statistics.bytes_before = sourceBytes(tables, animation);
+    result.statistics.bytes_after = result.tables.bytes();
+    return result;
+}
+
+float roundedUp(double value)
+{
+    const auto nearest = static_cast<float>(value);
+    return double{nearest} >= value ? nearest
+                                    : std::nextafter(nearest, std::numeric_limits<float>::infinity());
+}
+
+} // namespace
+
+CompressedClips compressClips(const MotionTables& tables, std::span<const Carried> carried,
+                              const StatedError& stated)
+{
+    const SceneReach scene = sceneReach(tables, carried);
+    std::vector<Compressed> clips(tables.animations.size());
+    tbb::parallel_for(size_t{0}, clips.size(),
+                      [&](size_t i) { clips[i] = compressed(tables, tables.animations[i], scene, stated); });
+    CompressedClips result;
+    for (size_t i = 0; i < clips.size(); ++i)
+    {
+        AnimationRecord animation = tables.animations[i];
+        animation.channels = {static_cast<uint32_t>(result.tables.channels.size()),
+                              static_cast<uint32_t>(clips[i].tables.channels.size())};
+        animation.error = roundedUp(clips[i].statistics.proven_error);
+        result.animations.push_back(animation);
+        result.tables.append(clips[i].tables);
+        result.statistics.push_back(clips[i].statistics);
+    }
+    return result;
+}
+
+} // namespace hearth::clips

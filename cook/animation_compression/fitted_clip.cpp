@@ -1,0 +1,354 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/animation_compression/fitted_clip.h"
+
+#include "cook/animation_bounds/quaternion.h"
+#include "formats/base/assert.h"
+#include "formats/pack/pack_view.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hearth::clips
+{
+
+using namespace formats;
+
+namespace
+{
+
+// What hangs on a node counts as at least this share of the model from its pivot: games attach things.
+constexpr double kLeastReach = 0.01;
+
+// Of what a channel may be off at most, as a chord of a rotation or as a share of the node's scale, where its reach is
+// small: bounds of larger ones say nothing.
+constexpr double kMostChord = 0.1;
+
+// Between quaternions that are one but for the roundings of bringing them to length 1.
+constexpr double kSameChord = 1e-15;
+
+// Sums and products of the bounds themselves.
+constexpr double kSpentMargin = 1 + 1e-9;
+
+// Of a spline's tolerance, for what straight pieces leave of it.
+constexpr double kSplineShare = 0.25;
+
+AnimationPath pathOf(const AnimationChannelRecord& channel)
+{
+    return static_cast<AnimationPath>(channel.path);
+}
+
+bool isSpline(const AnimationChannelRecord& channel)
+{
+    return channel.interpolation == static_cast<uint32_t>(Interpolation::cubic_spline);
+}
+
+std::vector<float> floatsOf(const KeyValue& value, uint32_t components)
+{
+    std::vector<float> floats;
+    for (uint32_t i = 0; i < components; ++i)
+        floats.push_back(static_cast<float>(value[i]));
+    return floats;
+}
+
+FittedChannel asSource(const MotionTables& tables, const AnimationChannelRecord& channel)
+{
+    HEARTH_ASSERT(!isPacked(channel));
+    const size_t rows = isSpline(channel) ? 3 : 1;
+    const auto values =
+        tables.keys.subspan(channel.first_value, channel.key_count * rows * size_t{channel.components});
+    const auto times = tables.keys.subspan(channel.first_time, channel.key_count);
+    FittedChannel fitted;
+    fitted.record = channel;
+    fitted.times.assign(times.begin(), times.end());
+    fitted.values.assign(values.begin(), values.end());
+    return fitted;
+}
+
+/// One value at all times.
+FittedChannel constant(const AnimationChannelRecord& channel, std::vector<float> value)
+{
+    FittedChannel fitted;
+    fitted.record = channel;
+    fitted.record.key_count = 1;
+    fitted.record.interpolation = static_cast<uint32_t>(Interpolation::step);
+    fitted.times = {0};
+    fitted.values = std::move(value);
+    return fitted;
+}
+
+/// The weights that a channel has at all times, if they never change.
+std::optional<std::vector<float>> constantWeights(const MotionTables& tables,
+                                                  const AnimationChannelRecord& channel)
+{
+    const bool spline = isSpline(channel);
+    const size_t count = channel.components;
+    const auto row = [&](size_t number)
+    { return tables.keys.subspan(channel.first_value + number * count, count); };
+    const std::span<const float> first = row(spline ? 1 : 0);
+    for (size_t i = 0; i < channel.key_count * size_t{spline ? 3u : 1u}; ++i)
+    {
+        const bool tangent = spline && i % 3 != 1;
+        const std::span<const float> other = row(i);
+        if (tangent ? std::any_of(other.begin(), other.end(), [](float slope) { return slope != 0; })
+                    : !std::equal(other.begin(), other.end(), first.begin()))
+            return std::nullopt;
+    }
+    return std::vector<float>(first.begin(), first.end());
+}
+
+FittedChannel packed(const AnimationChannelRecord& channel, const Curve& curve, PackedCurve keys)
+{
+    FittedChannel fitted;
+    fitted.record = channel;
+    fitted.record.key_count = static_cast<uint32_t>(keys.keys.size());
+    fitted.record.interpolation =
+        static_cast<uint32_t>(curve.steps ? Interpolation::step : Interpolation::linear);
+    fitted.record.encoding = static_cast<uint32_t>(KeyEncoding::packed);
+    std::copy(keys.bits.begin(), keys.bits.end(), fitted.record.value_bits);
+    for (const PackedCurve::Key& key : keys.keys)
+        fitted.times.push_back(curve.times[key.of_curve]);
+    fitted.packed = std::move(keys);
+    return fitted;
+}
+
+/// About what the values of a packed channel take, with the places of its times where it has not all of them.
+size_t sizeBits(const PackedCurve& packed, const AnimationChannelRecord& channel, const Curve& curve)
+{
+    constexpr size_t kOfOneTime = 8, kOfBaseAndStep = 128;
+    const bool all_times = packed.keys.size() == curve.times.size() && !isSpline(channel);
+    return packed.keys.size() * (packed.keyBits(curve.path) + (all_times ? 0 : kOfOneTime)) + kOfBaseAndStep;
+}
+
+KeyValue restValue(const NodePose& rest, AnimationPath path)
+{
+    const Double3 vector = path == AnimationPath::scale ? rest.scale : rest.translation;
+    return path == AnimationPath::rotation ? rest.rotation : KeyValue{vector.x, vector.y, vector.z, 0};
+}
+
+/// What a node allows and what it took of it.
+struct NodeState
+{
+    uint32_t chain = 0; ///< channels that need a part of the error, on the longest chain from the node down
+    double model_size = 0; ///< metres; of the model that the node is part of
+    double left = -1; ///< metres that the node and those below may be off; below 0: nothing moves up to here
+    double spent = 0; ///< metres by which vertices that hang on it may be off already
+    double stretch = 1; ///< at least the largest singular value of all nodes above
+    double scale = 1;   ///< at least that of the node itself
+};
+
+class ClipFitter
+{
+public:
+    ClipFitter(const MotionTables& tables, const AnimationRecord& animation, const SceneReach& scene,
+               const StatedError& stated)
+        : tables_(tables),
+          scene_(scene),
+          stated_(stated),
+          reach_(clipReach(tables, animation, scene)),
+          rest_(restPose(tables)),
+          channels_of_node_(tables.nodes.size()),
+          states_(tables.nodes.size())
+    {
+        for (const AnimationChannelRecord& channel : recordsOf(tables.channels, animation.channels))
+            addChannel(channel);
+        countChains();
+    }
+
+    FittedClip fit()
+    {
+        for (const uint32_t node : scene_.parents_first)
+            fitNode(node);
+        for (size_t node = 0; node < states_.size(); ++node)
+            if (scene_.own[node] >= 0)
+                clip_.proven_error = std::max(clip_.proven_error, states_[node].spent);
+        return std::move(clip_);
+    }
+
+private:
+    struct Channel
+    {
+        AnimationChannelRecord record;
+        KeyValue middle{};
+        double from_middle = 0; ///< how far it goes from there
+    };
+
+    /// Morph weights stay as they are, and a node with a matrix alone does not move.
+    bool isMeasured(const AnimationChannelRecord& channel) const
+    {
+        return pathOf(channel) != AnimationPath::weights && tables_.nodes[channel.node].has_trs != 0;
+    }
+
+    /// Of two channels that set the same, the later one is seen.
+    void addChannel(const AnimationChannelRecord& record)
+    {
+        std::vector<Channel>& channels = channels_of_node_[record.node];
+        std::erase_if(channels, [&](const Channel& other) { return other.record.path == record.path; });
+        Channel channel{record, {}, 0};
+        if (isMeasured(record))
+        {
+            channel.middle = middleValue(tables_, record);
+            const bool rotation = pathOf(record) == AnimationPath::rotation;
+            channel.from_middle = constantDeviation(
+                tables_, record, rotation ? motion::normalizedOrNone(channel.middle) : channel.middle);
+        }
+        channels.push_back(channel);
+    }
+
+    void countChains()
+    {
+        for (auto at = scene_.parents_first.rbegin(); at != scene_.parents_first.rend(); ++at)
+        {
+            for (const Channel& channel : channels_of_node_[*at])
+                states_[*at].chain += channel.from_middle > 0 ? 1 : 0;
+            if (const uint32_t parent = tables_.nodes[*at].parent; parent != kNone)
+                states_[parent].chain = std::max(states_[parent].chain, states_[*at].chain);
+        }
+    }
+
+    void fitNode(uint32_t node)
+    {
+        NodeState& state = states_[node];
+        state.scale = reach_.scale[node];
+        if (const uint32_t parent = tables_.nodes[node].parent; parent != kNone)
+        {
+            const NodeState& above = states_[parent];
+            state.model_size = above.model_size;
+            state.left = above.left;
+            state.spent = above.spent;
+            state.stretch = above.stretch * above.scale;
+        }
+        if (state.left < 0 && !channels_of_node_[node].empty())
+            beginModel(node);
+        uint32_t takers = state.chain;
+        for (const Channel& channel : channels_of_node_[node])
+        {
+            if (!isMeasured(channel.record))
+            {
+                fitUnmeasured(channel.record);
+                continue;
+            }
+            const double share = channel.from_middle > 0 ? state.left / takers-- : 0;
+            fitMeasured(channel, share, state);
+        }
+    }
+
+    void beginModel(uint32_t node)
+    {
+        NodeState& state = states_[node];
+        state.model_size = scene_.size[node] > 0 ? scene_.size[node] : scene_.scene_size;
+        state.left = stated_.metres + stated_.share_of_size * state.model_size;
+        if (!std::isfinite(state.left))
+            state.left = 0;
+        clip_.stated_error = std::max(clip_.stated_error, state.left);
+    }
+
+    /// Metres in the world for a deviation of 1.
+    double metresOf(const AnimationChannelRecord& channel, const NodeState& state) const
+    {
+        const double farthest = reach_.farthest[channel.node];
+        const double least = farthest < 0 ? state.model_size : kLeastReach * state.model_size;
+        switch (pathOf(channel))
+        {
+        case AnimationPath::rotation:
+            return 2 * std::max(state.stretch * reach_.scale[channel.node] * farthest, least);
+        case AnimationPath::scale:
+            return std::max(state.stretch * farthest, least / std::max(reach_.scale[channel.node], 1e-30));
+        case AnimationPath::translation:
+        case AnimationPath::weights:
+            break;
+        }
+        return state.stretch;
+    }
+
+    void fitMeasured(const Channel& channel, double share, NodeState& state)
+    {
+        const double metres = metresOf(channel.record, state);
+        if (!std::isfinite(metres))
+        {
+            clip_.channels.push_back(asSource(tables_, channel.record));
+            return;
+        }
+        double tolerance = share > 0 ? share / metres : 0;
+        if (pathOf(channel.record) == AnimationPath::rotation)
+            tolerance = std::clamp(tolerance, kSameChord, kMostChord);
+        if (pathOf(channel.record) == AnimationPath::scale)
+            tolerance = std::min(tolerance, kMostChord * reach_.scale[channel.record.node]);
+        const double deviation = fitChannel(channel, tolerance);
+        if (pathOf(channel.record) == AnimationPath::scale)
+            state.scale += deviation;
+        state.spent += deviation * metres * kSpentMargin;
+        state.left = std::max(state.left - deviation * metres * kSpentMargin, 0.0);
+    }
+
+    /// returns  how far what it adds to the clip is from the channel
+    double fitChannel(const Channel& channel, double tolerance)
+    {
+        const AnimationChannelRecord& record = channel.record;
+        const KeyValue rest = restValue(rest_.nodes[record.node], pathOf(record));
+        if (const double off = constantDeviation(tables_, record, rest); off <= tolerance)
+            return off;
+        if (channel.from_middle <= tolerance)
+        {
+            clip_.channels.push_back(constant(record, floatsOf(channel.middle, record.components)));
+            return channel.from_middle;
+        }
+        clip_.channels.push_back(asSource(tables_, record));
+        if (!(channel.from_middle > 0 && tolerance > 0))
+            return 0;
+        const std::optional<Curve> curve = curveOf(tables_, record, kSplineShare * tolerance);
+        if (!curve)
+            return 0;
+        std::optional<PackedCurve> smaller = packedCurve(*curve, tolerance);
+        if (!smaller || sizeBits(*smaller, record, *curve) >= 32 * clip_.channels.back().values.size())
+            return 0;
+        const double deviation = smaller->deviation;
+        clip_.channels.back() = packed(record, *curve, std::move(*smaller));
+        return deviation;
+    }
+
+    void fitUnmeasured(const AnimationChannelRecord& channel)
+    {
+        if (pathOf(channel) != AnimationPath::weights)
+        {
+            clip_.channels.push_back(asSource(tables_, channel));
+            return;
+        }
+        const std::optional<std::vector<float>> weights = constantWeights(tables_, channel);
+        const std::span<const float> rest =
+            recordsOf(tables_.morph_weights, tables_.nodes[channel.node].morph_weights);
+        if (!weights)
+            clip_.channels.push_back(asSource(tables_, channel));
+        else if (!std::equal(rest.begin(),
+                             rest.begin() +
+                                 static_cast<std::ptrdiff_t>(std::min(rest.size(), weights->size())),
+                             weights->begin()))
+            clip_.channels.push_back(constant(channel, *weights));
+    }
+
+    const MotionTables& tables_;
+    const SceneReach& scene_;
+    const StatedError& stated_;
+    ClipReach reach_;
+    ScenePose rest_;
+    std::vector<std::vector<Channel>> channels_of_node_;
+    std::vector<NodeState> states_;
+    FittedClip clip_;
+};
+
+} // namespace
+
+FittedClip fitClip(const MotionTables& tables, const AnimationRecord& animation, const SceneReach& scene,
+                   const StatedError& stated)
+{
+    return ClipFitter(tables, animation, scene, stated).fit();
+}
+
+FittedClip sourceClip(const MotionTables& tables, const AnimationRecord& animation)
+{
+    FittedClip clip;
+    for (const AnimationChannelRecord& channel : recordsOf(tables.channels, animation.channels))
+        clip.channels.push_back(asSource(tables, channel));
+    return clip;
+}
+
+} // namespace hearth::clips

@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/animation_compression/packed_curve.h"
+
+#include "cook/animation_bounds/quaternion.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+namespace hearth::clips
+{
+
+using namespace formats;
+
+namespace
+{
+
+/// The three numbers of a key that are stored.
+struct Numbers
+{
+    uint32_t largest = 0;
+    std::array<double, 3> values{};
+};
+
+Numbers numbersOf(AnimationPath path, const KeyValue& value)
+{
+    if (path != AnimationPath::rotation)
+        return {0, {value[0], value[1], value[2]}};
+    Numbers numbers;
+    for (uint32_t i = 1; i < 4; ++i)
+        if (std::abs(value[i]) > std::abs(value[numbers.largest]))
+            numbers.largest = i;
+    const double sign = value[numbers.largest] < 0 ? -1 : 1;
+    for (uint32_t i = 0; i < 3; ++i)
+        numbers.values[i] = sign * value[i < numbers.largest ? i : i + 1];
+    return numbers;
+}
+
+struct Coded
+{
+    PackedCurve packed;           ///< with all keys
+    std::vector<KeyValue> values; ///< what they are read as
+};
+
+/// All keys with codes of `bits` bits for the number that moves most. Nothing where one needs more than there are.
+std::optional<Coded> coded(const Curve& curve, std::span<const Numbers> numbers, uint32_t bits)
+{
+    std::array<double, 3> low, high;
+    low.fill(std::numeric_limits<double>::infinity());
+    high.fill(-std::numeric_limits<double>::infinity());
+    for (const Numbers& key : numbers)
+        for (size_t i = 0; i < 3; ++i)
+        {
+            low[i] = std::min(low[i], key.values[i]);
+            high[i] = std::max(high[i], key.values[i]);
+        }
+    const double extent = std::max({high[0] - low[0], high[1] - low[1], high[2] - low[2]});
+    Coded result;
+    result.packed.step = static_cast<float>(extent / (std::exp2(bits) - 1));
+    for (size_t i = 0; i < 3; ++i)
+        result.packed.base[i] = static_cast<float>(low[i]);
+    const double step = double{result.packed.step};
+    for (size_t k = 0; k < numbers.size(); ++k)
+    {
+        PackedCurve::Key key{k, numbers[k].largest, {}};
+        std::array<double, 3> read{};
+        for (size_t i = 0; i < 3; ++i)
+        {
+            const double base = double{result.packed.base[i]};
+            const double code = step > 0 ? std::round((numbers[k].values[i] - base) / step) : 0.0;
+            if (!(code < std::exp2(kMostKeyFieldBits)))
+                return std::nullopt;
+            key.codes[i] = static_cast<uint32_t>(std::max(code, 0.0));
+            read[i] = base + step * key.codes[i];
+            result.packed.bits[i] =
+                std::max(result.packed.bits[i], static_cast<uint8_t>(std::bit_width(key.codes[i])));
+        }
+        result.packed.keys.push_back(key);
+        result.values.push_back(curve.path == AnimationPath::rotation
+                                    ? motion::normalizedOrNone(rotationWithout(key.largest, read))
+                                    : KeyValue{read[0], read[1], read[2], 0});
+    }
+    return result;
+}
+
+/// Leaves out keys: from each that is kept as far as the straight piece stays within the tolerance, found by doubling and
+/// halving.
+class KeyReduction
+{
+public:
+    KeyReduction(const Curve& curve, std::span<const KeyValue> values, double tolerance)
+        : curve_(curve), values_(values), tolerance_(tolerance)
+    {
+    }
+
+    /// Which keys stay; none where neighbours alone are beyond the tolerance.
+    std::vector<size_t> keys()
+    {
+        // steps hold until the end, straight pieces need their last key
+        const size_t end = curve_.steps ? values_.size() : values_.size() - 1;
+        std::vector<size_t> kept;
+        size_t at = 0;
+        for (; at < end; at = next(at, end))
+        {
+            if (!keep(at) || deviation(at, at + 1) > tolerance_)
+                return {};
+            kept.push_back(at);
+        }
+        if (!curve_.steps)
+        {
+            if (!keep(at))
+                return {};
+            kept.push_back(at);
+        }
+        return kept;
+    }
+
+    double worst() const { return worst_; }
+
+private:
+    /// Where it holds by itself: before the first key, behind the last.
+    bool keep(size_t key)
+    {
+        const double off = distance(curve_.path, curve_.values[key], values_[key]);
+        worst_ = std::max(worst_, off);
+        return off <= tolerance_;
+    }
+
+    double deviation(size_t first, size_t last) const
+    {
+        const KeyValue& end = values_[std::min(last, values_.size() - 1)];
+        return pieceDeviation(curve_, first, last, values_[first], end, tolerance_);
+    }
+
+    size_t next(size_t first, size_t end)
+    {
+        size_t good = first + 1, bad = end + 1;
+        for (size_t stride = 2; first + stride < bad; stride *= 2)
+            (deviation(first, first + stride) <= tolerance_ ? good : bad) = first + stride;
+        while (bad - good > 1)
+        {
+            const size_t middle = good + (bad - good) / 2;
+            (deviation(first, middle) <= tolerance_ ? good : bad) = middle;
+        }
+        worst_ = std::max(worst_, deviation(first, good));
+        return good;
+    }
+
+    const Curve& curve_;
+    std::span<const KeyValue> values_;
+    double tolerance_;
+    double worst_ = 0;
+};
+
+size_t sizeBits(const PackedCurve& packed, AnimationPath path)
+{
+    return packed.keys.size() * packed.keyBits(path);
+}
+
+} // namespace
+
+std::optional<PackedCurve> packedCurve(const Curve& curve, double tolerance)
+{
+    std::vector<Numbers> numbers;
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (const KeyValue& value : curve.values)
+    {
+        numbers.push_back(numbersOf(curve.path, value));
+        for (const double number : numbers.back().values)
+        {
+            low = std::min(low, number);
+            high = std::max(high, number);
+        }
+    }
+    // one bit less than steps as wide as the tolerance, up to three bits more: keys go where codes leave them room
+    const double widest = std::log2((high - low) / tolerance + 1);
+    const auto fewest = static_cast<uint32_t>(std::clamp(std::ceil(widest) - 2, 1.0, 24.0));
+    std::optional<PackedCurve> best;
+    for (uint32_t bits = fewest; bits <= std::min(fewest + 5, kMostKeyFieldBits); ++bits)
+    {
+        std::optional<Coded> candidate = coded(curve, numbers, bits);
+        if (!candidate)
+            continue;
+        KeyReduction reduction(curve, candidate->values, tolerance - curve.remainder);
+        const std::vector<size_t> kept = reduction.keys();
+        if (kept.empty())
+            continue;
+        PackedCurve packed = std::move(candidate->packed);
+        for (size_t i = 0; i < kept.size(); ++i)
+            packed.keys[i] = packed.keys[kept[i]];
+        packed.keys.resize(kept.size());
+        packed.deviation = reduction.worst() + curve.remainder;
+        if (!best || sizeBits(packed, curve.path) < sizeBits(*best, curve.path))
+            best = std::move(packed);
+    }
+    return best;
+}
+
+} // namespace hearth::clips

@@ -1,0 +1,48 @@
+// A grid of bricks in memory, as its chunks have it (FORMAT.md, "Bricks").
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "formats/container/container_writer.h"
+#include "formats/gpu_shared/brick_march.h"
+#include "formats/records/bricks.h"
+
+#include <vector>
+
+namespace hearth::bricks
+{
+
+struct BrickTables
+{
+    formats::BrickGridRecord grid{};
+    std::vector<formats::BrickGroupRecord> groups;
+    std::vector<formats::BrickRecord> bricks;
+    std::vector<uint8_t> opacity; ///< of each solid voxel
+    std::vector<uint32_t> albedo; ///< of each face, here and below
+    std::vector<uint16_t> normals;
+    std::vector<uint32_t> emission;
+    std::vector<uint32_t> lighting; ///< outgoing radiance, emission included
+
+    /// What marches read.
+    shared::BrickMasks masks() const { return {formats::brickGridOf(grid), groups, bricks}; }
+};
+
+/// What a voxel grid costs on the GPU, bytes.
+struct BrickBytes
+{
+    uint64_t groups = 0;
+    uint64_t bricks = 0;
+    uint64_t opacity = 0;
+    uint64_t albedo = 0;
+    uint64_t normals = 0;
+    uint64_t emission = 0;
+    uint64_t lighting = 0;
+
+    uint64_t total() const { return groups + bricks + opacity + albedo + normals + emission + lighting; }
+};
+
+BrickBytes bytesOf(uint64_t groups, uint64_t bricks, uint64_t voxels, uint64_t faces);
+
+/// Add the chunks of a grid.
+Status writeTables(formats::ContainerWriter& writer, const BrickTables& tables);
+
+} // namespace hearth::bricks

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/bricks/light/face_lighting.h"
+
+#include "formats/base/assert.h"
+
+#include <algorithm>
+#include <cmath>
+#include <tbb/parallel_for.h>
+
+namespace hearth::bricks
+{
+
+using namespace shared;
+
+namespace
+{
+
+/// Rays that march side by side, about: of whole faces.
+constexpr uint32_t kRaysAtOnce = 256;
+
+} // namespace
+
+FaceLighting::FaceLighting(const BrickView& bricks)
+    : bricks_(bricks), table_(bricks.masks), places_(facePlaces(bricks.masks)), next_(places_.size())
+{
+    HEARTH_ASSERT(places_.size() == bricks.lighting.size());
+    faces_.reserve(bricks.lighting.size());
+    for (const uint32_t code : bricks.lighting)
+        faces_.push_back({code, 0});
+}
+
+void FaceLighting::light(const Lighting& lighting, const FrameShare& share)
+{
+    HEARTH_ASSERT(share.period > 0 && share.rays > 0);
+    const std::span<const Brick> bricks = bricks_.masks.bricks;
+    const auto brick_count = static_cast<uint32_t>(bricks.size());
+    const auto firstFace = [&](uint32_t brick)
+    { return brick < brick_count ? size_t{bricks[brick].first_face} : faces_.size(); };
+    const size_t first = firstFace(brickSliceBegin(brick_count, frame_, share.period));
+    const size_t end = firstFace(brickSliceEnd(brick_count, frame_, share.period));
+    ++frame_;
+    const size_t at_once = std::max(1u, kRaysAtOnce / share.rays);
+    tbb::parallel_for(size_t{0}, (end - first + at_once - 1) / at_once,
+                      [&](size_t i)
+                      {
+                          const size_t some = first + i * at_once;
+                          light(lighting, share.rays, some, std::min(some + at_once, end));
+                      });
+    std::copy(next_.begin() + static_cast<ptrdiff_t>(first), next_.begin() + static_cast<ptrdiff_t>(end),
+              faces_.begin() + static_cast<ptrdiff_t>(first));
+}
+
+void FaceLighting::sweep(const Lighting& lighting, uint32_t rays, uint32_t sweeps)
+{
+    for (uint32_t i = 0; i < sweeps; ++i)
+        light(lighting, {.period = 1, .rays = rays});
+}
+
+std::vector<uint32_t> FaceLighting::codes() const
+{
+    std::vector<uint32_t> codes;
+    codes.reserve(faces_.size());
+    for (const BrickLight& face : faces_)
+        codes.push_back(face.code);
+    return codes;
+}
+
+void FaceLighting::light(const Lighting& lighting, uint32_t rays, size_t first, size_t end)
+{
+    const BrickScene scene = this->scene();
+    std::vector<BrickStart> starts;
+    std::vector<BrickRay> marched;
+    marched.reserve((end - first) * rays);
+    for (size_t face = first; face < end; ++face)
+    {
+        const auto [x, y, z, side] = places_[face];
+        starts.push_back(brickFaceStart(scene, x, y, z, side, decodeFaceNormal(bricks_.normals[face])));
+        const uint32_t seed = brickFaceSeed(x, y, z, side);
+        for (uint32_t i = 0; i < rays; ++i)
+            marched.push_back(brickRayInVoxels(bricks_.masks.grid, starts.back().place,
+                                               brickRayDirection(starts.back().normal, i, rays, seed),
+                                               kBrickFar));
+    }
+    marchRays(table_, marched);
+    const BrickSky sky{lighting.sky_zenith, lighting.sky_horizon, lighting.sky_ground};
+    for (size_t face = first; face < end; ++face)
+    {
+        const BrickStart& start = starts[face - first];
+        // as brickGather does
+        Float3 sum;
+        for (size_t i = 0; i < rays; ++i)
+            sum += brickLightAlong(scene, sky, marched[(face - first) * rays + i]).radiance;
+        Float3 arrived = start.buried != 0 ? Float3{} : sum * (1.0f / static_cast<float>(rays));
+        const auto [x, y, z, side] = places_[face];
+        const Float3 surface = brickFaceSurface(x, y, z, side, start.normal);
+        for (uint32_t i = 0; i < lighting.light_count; ++i)
+            arrived += brickDirect(scene, start, surface, lighting.lights[i]);
+        next_[face] = encodeBrickLight(brickSentOut(decodeRadiance(bricks_.emission[face]),
+                                                    decodeAlbedo(bricks_.albedo[face]), arrived));
+    }
+}
+
+uint32_t sweepsToForget(float most_albedo, float share)
+{
+    const double kept = double{std::min(most_albedo, kBrickMostAlbedo)} * 1.0001;
+    return std::max(1u, static_cast<uint32_t>(std::ceil(std::log(double{share}) / std::log(kept))));
+}
+
+} // namespace hearth::bricks

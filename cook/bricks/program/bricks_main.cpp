@@ -1,0 +1,200 @@
+// hearth-bricks: makes the bricks of one or more sources, or marches rays through those of a file.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/bricks/light/bake.h"
+#include "cook/bricks/light/march_rows.h"
+#include "cook/command_line/command_line.h"
+#include "cook/tools/open_part.h"
+#include "formats/base/atomic_file.h"
+#include "formats/base/program.h"
+
+#include <cstdio>
+#include <memory>
+
+#include <tbb/global_control.h>
+
+namespace
+{
+
+using namespace hearth;
+using namespace hearth::bricks;
+
+struct Arguments
+{
+    std::vector<std::string> inputs; ///< parts, or with `rays` the file that is marched through
+    std::string output;
+    std::string rays;
+    std::string statistics;
+    double voxel_size = 0;
+    std::vector<double> min, max;
+    std::vector<std::vector<double>> seeds;
+    GridSettings settings;
+    std::optional<uint32_t> bounces; ///< none: no light is baked
+    size_t jobs = 0;
+};
+
+Result<std::vector<SourceParts>> openSources(const std::vector<std::string>& paths)
+{
+    std::vector<SourceParts> sources;
+    for (size_t i = 0; i + 2 < paths.size(); i += 3)
+    {
+        HEARTH_ASSIGN_OR_RETURN(formats::PackView scene, tools::openPart(paths[i]));
+        HEARTH_ASSIGN_OR_RETURN(formats::PackView clusters, tools::openPart(paths[i + 1]));
+        HEARTH_ASSIGN_OR_RETURN(formats::PackView textures, tools::openPart(paths[i + 2]));
+        sources.push_back({std::move(scene), std::move(clusters), std::move(textures)});
+    }
+    return sources;
+}
+
+/// One line of what was left out or dropped, for those who did not ask for it.
+void warn(const GridStatistics& statistics, const std::string& output)
+{
+    const auto print = [&](const std::string& detail) {
+        std::fprintf(stderr, "%s\n", formatMessage({Issue::dropped, output, "", detail}).c_str());
+    };
+    if (statistics.left_out.animated + statistics.left_out.deformed > 0)
+        print(std::to_string(statistics.left_out.animated) + " moving and " +
+              std::to_string(statistics.left_out.deformed) + " deformed instances have no bricks");
+    if (statistics.dropped.bricks > 0)
+    {
+        char distance[32];
+        std::snprintf(distance, sizeof(distance), "%.4g", statistics.dropped.from_distance);
+        print(std::to_string(statistics.dropped.bricks) + " of " +
+              std::to_string(statistics.dropped.bricks + statistics.bricks) +
+              " bricks do not fit the memory: those from " + distance + " m on from what matters" +
+              (statistics.dropped.tiles > 0 ? "; " + std::to_string(statistics.dropped.tiles) +
+                                                  " tiles farther away were not looked at"
+                                            : ""));
+    }
+}
+
+Status cook(const Arguments& arguments)
+{
+    HEARTH_ASSIGN_OR_RETURN(const std::vector<SourceParts> sources, openSources(arguments.inputs));
+    HEARTH_ASSIGN_OR_RETURN(const StaticScene scene, staticScene(sources));
+    HEARTH_ASSIGN_OR_RETURN(CookedGrid grid, cookGrid(scene, arguments.settings));
+    if (arguments.bounces)
+        HEARTH_TRY(bakeLight(scene, {.bounces = *arguments.bounces}, grid));
+    HEARTH_TRY(writeGridPart(arguments.output, grid));
+    warn(grid.statistics, arguments.output);
+    if (arguments.statistics.empty())
+        return success();
+    if (arguments.statistics != "-")
+        HEARTH_TRY(writeText("-", memoryText(grid.statistics)));
+    return writeText(arguments.statistics, statisticsJson(grid.statistics));
+}
+
+int run(const Arguments& arguments)
+{
+    std::unique_ptr<tbb::global_control> limit;
+    if (arguments.jobs > 0)
+        limit = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism,
+                                                      arguments.jobs);
+    const Status done = arguments.rays.empty()
+                            ? cook(arguments)
+                            : marchFile(arguments.inputs[0], arguments.rays, arguments.output);
+    return done.ok() ? 0 : reportFailure(done.error());
+}
+
+Double3 point(const std::vector<double>& values)
+{
+    return {values[0], values[1], values[2]};
+}
+
+/// Options that do not go together; empty where all is well.
+std::string faultOf(const Arguments& arguments)
+{
+    if (!arguments.rays.empty() && arguments.inputs.size() != 1)
+        return "--march: one pack or bricks part is needed";
+    if (arguments.rays.empty() && arguments.inputs.size() % 3 != 0)
+        return "PARTS: three parts are needed for each source";
+    return "";
+}
+
+void fillSettings(Arguments& arguments, bool has_voxel_size)
+{
+    GridSettings& settings = arguments.settings;
+    if (has_voxel_size)
+        settings.voxel_size = arguments.voxel_size;
+    if (!arguments.min.empty())
+        settings.min = point(arguments.min);
+    if (!arguments.max.empty())
+        settings.max = point(arguments.max);
+    for (const std::vector<double>& seed : arguments.seeds)
+        settings.seeds.push_back(narrow(point(seed)));
+}
+
+void addOptions(cli::CommandLine& app, Arguments& arguments)
+{
+    app.addOption("PARTS", arguments.inputs,
+                  "import, clusters and textures part of each source; with --march one pack or bricks part")
+        .required();
+    app.addOption("-o,--output", arguments.output,
+                  "bricks part to write; with --march the CSV file, - is standard output")
+        .required();
+    const cli::Option voxel_size = app.addOption(
+        "--voxel-size", arguments.voxel_size,
+        "metres; by default about 512 voxels along the longest side, 0.1 m at least where that makes 64, and "
+        "more where the memory asks for it");
+    const auto addPoint = [&app](const char* name, auto& values, const char* what)
+    { return app.addOption(name, values, what).delimiter(',').expected(3).typeName("X,Y,Z"); };
+    const cli::Option min = addPoint(
+        "--min", arguments.min, "least corner of the grid, metres; by default around all that stands still");
+    const cli::Option max = addPoint("--max", arguments.max, "its greatest corner");
+    const cli::Option seed = addPoint(
+        "--seed", arguments.seeds,
+        "a place that is seen from, as cameras are: what is sealed off from all of them has no faces; may "
+        "be given again");
+    const cli::Option memory =
+        app.addOption(
+               "--memory", arguments.settings.memory,
+               "bytes that the grid may take on the GPU, 20971520 by default; farther bricks are dropped")
+            .range(uint64_t{1}, uint64_t{1} << 40, "BYTES");
+    const cli::Option error =
+        app.addOption("--error", arguments.settings.error_share,
+                      "how far clusters may be off, in voxels; 0.25 by default, 0: the finest triangles")
+            .range(0.0, 16.0, "FLOAT");
+    app.addOption("--bake", arguments.bounces,
+                  "light the faces by the scene's lights with so many bounces, as the start value; else they "
+                  "start dark, but for what shines")
+        .range(0, 64, "BOUNCES");
+    const cli::Option statistics =
+        app.addOption("--stats", arguments.statistics,
+                      "write what became of the scene as JSON, and print the memory; - is standard output");
+    const cli::Option jobs =
+        app.addOption("-j,--jobs", arguments.jobs, "threads to use; the result does not depend on it");
+    cli::Option march = app.addOption(
+        "--march", arguments.rays,
+        "CSV file of origin_x,origin_y,origin_z,direction_x,direction_y,direction_z in metres: write "
+        "hit,x,y,z,face,t for each ray: 1, the first solid voxel, the face by which it is entered (none "
+        "where the ray starts inside) and the distance in metres; 0,,,,, where it meets none");
+    for (const cli::Option& option : {voxel_size, min, max, seed, memory, error, statistics, jobs})
+        march.excludes(option);
+    app.setFooter(
+        "Examples:\n"
+        "  hearth-bricks room.import.part room.clusters.part room.textures.part -o room.bricks.part\n"
+        "  hearth-bricks village.hearth --march rays.csv -o hits.csv\n"
+        "Exit codes: 0 done, 2 usage, 65 malformed input, 66 input missing, 70 internal, 73 cannot write, "
+        "74 I/O");
+    app.setCheck([&arguments] { return faultOf(arguments); });
+    app.setAction([&arguments, voxel_size] { fillSettings(arguments, voxel_size.count() > 0); });
+}
+
+int program(int argc, char** argv)
+{
+    cli::CommandLine app(
+        "Makes the bricks that light is marched through, of all that stands still; or marches "
+        "rays through them.",
+        "hearth-bricks");
+    Arguments arguments;
+    addOptions(app, arguments);
+    if (const std::optional<int> exit_code = app.parse(argc, argv))
+        return *exit_code;
+    return run(arguments);
+}
+
+} // namespace
+
+int main(int argc, char** argv)
+{
+    return hearth::runProgram("hearth-bricks", [&] { return program(argc, argv); });
+}

@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/bricks/voxels/grid_part.h"
+#include "cook/bricks/voxels/side_mix.h"
+
+#include "cook/bricks/voxels/opacity.h"
+#include "cook/json/json.h"
+
+#include <chrono>
+
+namespace hearth::bricks
+{
+
+using namespace formats;
+
+namespace
+{
+
+double secondsSince(std::chrono::steady_clock::time_point start)
+{
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// What matters most: where cameras and seeds are; without any, the middle of what stands still.
+std::vector<Float3> fociOf(const StaticScene& scene, const GridSettings& settings)
+{
+    std::vector<Float3> foci = scene.cameras;
+    foci.insert(foci.end(), settings.seeds.begin(), settings.seeds.end());
+    if (!foci.empty())
+        return foci;
+    Double3 sum;
+    for (const StaticInstance& instance : scene.instances)
+        sum = sum + widen(instance.box.center());
+    const double count = std::max<double>(1, static_cast<double>(scene.instances.size()));
+    return {narrow(sum * (1 / count))};
+}
+
+CookedGrid cooked(const StaticScene& scene, const Voxelised& voxelised, const FacedGrid& faced)
+{
+    CookedGrid cooked{tablesOf(faced.solid, faced.faces), {}};
+    GridStatistics& statistics = cooked.statistics;
+    statistics.frame = faced.solid.frame;
+    statistics.left_out = scene.left_out;
+    statistics.instances = scene.instances.size();
+    statistics.counts = voxelised.counts;
+    statistics.bricks = cooked.tables.bricks.size();
+    statistics.solid_voxels = cooked.tables.opacity.size();
+    for (const uint8_t opacity : cooked.tables.opacity)
+        statistics.opaque_voxels += opacity == kOpaque ? 1 : 0;
+    statistics.faces = cooked.tables.albedo.size();
+    statistics.sealed_spaces = faced.seen.sealed;
+    statistics.sealed_sides = faced.seen.sealed_sides;
+    statistics.dropped = faced.dropped;
+    statistics.bytes = faced.bytes();
+    return cooked;
+}
+
+/// Cook at one size of voxels. keep_all  nothing where bricks would have to be dropped
+Result<std::optional<CookedGrid>> cookAt(const StaticScene& scene, const GridSettings& settings, double size,
+                                         bool keep_all)
+{
+    HEARTH_ASSIGN_OR_RETURN(const GridFrame frame, frameOf(settings, scene.box(), size));
+    const double error = size * settings.error_share;
+    auto start = std::chrono::steady_clock::now();
+    const std::vector<Float3> foci = fociOf(scene, settings);
+    HEARTH_ASSIGN_OR_RETURN(
+        Voxelised voxelised,
+        voxelise(scene, clustersOfCut(scene, static_cast<float>(error)), frame, foci, settings.memory));
+    hideSheets(voxelised.grid);
+    mixSides(voxelised.grid);
+    const double voxelise_seconds = secondsSince(start);
+
+    start = std::chrono::steady_clock::now();
+    std::vector<Float3> seen_points = scene.cameras;
+    seen_points.insert(seen_points.end(), settings.seeds.begin(), settings.seeds.end());
+    FacedGrid faced = withinBudget(std::move(voxelised.grid), seen_points, foci, settings.memory);
+    faced.dropped.tiles = voxelised.tiles_skipped;
+    if (keep_all && faced.dropped.any())
+        return std::optional<CookedGrid>();
+    CookedGrid grid = cooked(scene, voxelised, faced);
+    grid.statistics.error = error;
+    grid.statistics.voxelise_seconds = voxelise_seconds;
+    grid.statistics.faces_seconds = secondsSince(start);
+    return std::optional(std::move(grid));
+}
+
+/// A table of the grid beside the talk's, with the sizes as the talk has them.
+struct Row
+{
+    const char* talks;
+    double talks_kib;
+    const char* ours;
+    uint64_t bytes;
+};
+
+std::array<Row, 10> rowsOf(const BrickBytes& bytes)
+{
+    return {Row{"BrickGroupBitMask", 64, "groups", bytes.groups},
+            Row{"BrickTexture", 2048, "in groups", 0},
+            Row{"BrickBitMask", 16, "bricks", bytes.bricks},
+            Row{"BrickOpacityAtlas", 2048, "opacity", bytes.opacity},
+            Row{"BrickMappingAtlas", 8192, "in bricks", 0},
+            Row{"BrickVisFacesAlbedoAtlas", 4096, "albedo", bytes.albedo},
+            Row{"BrickVisFacesNormalAtlas", 4096, "normals", bytes.normals},
+            Row{"BrickVisFacesLightingAtlas", 4096, "lighting", bytes.lighting},
+            Row{"BrickVisFacesEmissiveAtlas", 4096, "emission", bytes.emission},
+            Row{"Total", 28 * 1024, "total", bytes.total()}};
+}
+
+Json settingsJson(const GridStatistics& statistics)
+{
+    const GridFrame& frame = statistics.frame;
+    return {{"voxel_size", frame.voxel_size},
+            {"origin", {frame.origin.x, frame.origin.y, frame.origin.z}},
+            {"dims", frame.voxels},
+            {"error", statistics.error}};
+}
+
+} // namespace
+
+Result<CookedGrid> cookGrid(const StaticScene& scene, const GridSettings& settings)
+{
+    double size = settings.voxel_size.value_or(0);
+    if (!settings.voxel_size)
+    {
+        Box3 box = scene.box();
+        if (settings.min && settings.max)
+            box = {narrow(*settings.min), narrow(*settings.max)};
+        size = firstVoxelSize(box);
+    }
+    for (;; size = nextVoxelSize(size))
+    {
+        HEARTH_ASSIGN_OR_RETURN(std::optional<CookedGrid> grid,
+                                cookAt(scene, settings, size, !settings.voxel_size));
+        if (grid)
+            return std::move(*grid);
+    }
+}
+
+Status writeGridPart(const std::string& path, const CookedGrid& grid)
+{
+    HEARTH_ASSIGN_OR_RETURN(ContainerWriter writer, ContainerWriter::create(path, ContainerKind::part));
+    const Json meta{{"schema", "hearth.meta/1"},
+                    {"tool", {{"name", "hearth-bricks"}, {"version", HEARTH_VERSION}}},
+                    {"settings", {{"bricks", settingsJson(grid.statistics)}}}};
+    HEARTH_TRY(writer.addText(kChunkMeta, meta.dump(1, '\t')));
+    HEARTH_TRY(writeTables(writer, grid.tables));
+    return writer.finish();
+}
+
+std::string statisticsJson(const GridStatistics& statistics)
+{
+    Json json{{"schema", "hearth.bricks/1"}};
+    json.update(settingsJson(statistics));
+    json["instances"] = statistics.instances;
+    json["left_out"] = {{"animated", statistics.left_out.animated},
+                        {"deformed", statistics.left_out.deformed},
+                        {"unlit", statistics.left_out.unlit}};
+    json["clusters"] = statistics.counts.clusters;
+    json["triangles"] = statistics.counts.triangles;
+    json["pieces"] = statistics.counts.pieces;
+    json["bricks"] = statistics.bricks;
+    json["solid_voxels"] = statistics.solid_voxels;
+    json["opaque_voxels"] = statistics.opaque_voxels;
+    json["faces"] = statistics.faces;
+    json["sealed"] = {{"spaces", statistics.sealed_spaces}, {"sides", statistics.sealed_sides}};
+    json["dropped"] = {{"bricks", statistics.dropped.bricks},
+                       {"voxels", statistics.dropped.voxels},
+                       {"tiles", statistics.dropped.tiles},
+                       {"from_distance", statistics.dropped.from_distance}};
+    json["memory"] = Json::array();
+    for (const Row& row : rowsOf(statistics.bytes))
+        json["memory"].push_back(
+            {{"table", row.ours}, {"bytes", row.bytes}, {"talks", row.talks}, {"talks_kib", row.talks_kib}});
+    json["seconds"] = {{"voxelise", statistics.voxelise_seconds}, {"faces", statistics.faces_seconds}};
+    return json.dump(1) + "\n";
+}
+
+std::string memoryText(const GridStatistics& statistics)
+{
+    char line[128];
+    std::snprintf(line, sizeof(line), "%-28s%10s   %-10s%12s\n", "the talk's", "KiB", "here", "KiB");
+    std::string text = line;
+    for (const Row& row : rowsOf(statistics.bytes))
+    {
+        std::snprintf(line, sizeof(line), "%-28s%10.0f   %-10s%12.1f\n", row.talks, row.talks_kib, row.ours,
+                      static_cast<double>(row.bytes) / 1024);
+        text += line;
+    }
+    return text;
+}
+
+} // namespace hearth::bricks

@@ -1,0 +1,54 @@
+// From the parts of one or more sources to the part with their grid of bricks. See cook/bricks/README.md.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "cook/bricks/grid/grid_settings.h"
+#include "cook/bricks/voxels/budget.h"
+#include "cook/bricks/voxels/voxelise.h"
+
+#include <string>
+
+namespace hearth::bricks
+{
+
+/// What became of a scene.
+struct GridStatistics
+{
+    GridFrame frame;
+    double error = 0; ///< metres in the world that the clusters may be off
+    LeftOut left_out;
+    uint64_t instances = 0;
+    VoxeliseCounts counts;
+    uint64_t bricks = 0;
+    uint64_t solid_voxels = 0;
+    uint64_t opaque_voxels = 0;
+    uint64_t faces = 0;
+    uint64_t sealed_spaces = 0;
+    uint64_t sealed_sides = 0; ///< of voxels towards them, which are no faces
+    Dropped dropped;
+    BrickBytes bytes;
+    double voxelise_seconds = 0;
+    double faces_seconds = 0;
+};
+
+struct CookedGrid
+{
+    BrickTables tables;
+    GridStatistics statistics;
+};
+
+/// Cook the grid. The same for any number of threads.
+/// errors: usage for settings that make no sense; those of voxelise
+Result<CookedGrid> cookGrid(const StaticScene& scene, const GridSettings& settings);
+
+/// Write a part with the grid.
+Status writeGridPart(const std::string& path, const CookedGrid& grid);
+
+/// The statistics as JSON text: schema "hearth.bricks/1".
+std::string statisticsJson(const GridStatistics& statistics);
+
+/// The tables of the grid beside those that the talk lists for 512 x 512 x 128 m ("Seamless rendering on mobile", SIGGRAPH
+/// 2024, Advances in Real-Time Rendering in Games).
+std::string memoryText(const GridStatistics& statistics);
+
+} // namespace hearth::bricks

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/bricks/voxels/side_mix.h"
+
+#include "cook/bricks/voxels/each_voxel.h"
+#include "formats/gpu_shared/brick_codes.h"
+
+#include <algorithm>
+#include <bit>
+
+namespace hearth::bricks
+{
+
+namespace
+{
+
+constexpr int kSamples = static_cast<int>(kSampleRow * kSampleRow);
+
+const SolidVoxel* voxelAt(const SolidGrid& grid, const Cell& cell)
+{
+    const uint32_t voxel = isInside(grid.frame, cell) ? grid.voxelAt(cell) : kNowhere;
+    return voxel == kNowhere ? nullptr : &grid.voxels[voxel];
+}
+
+uint64_t hiddenBy(const SolidVoxel* voxel, size_t axis)
+{
+    return voxel == nullptr ? 0 : voxel->hidden[axis];
+}
+
+bool shows(const SolidVoxel* voxel, uint32_t face)
+{
+    return voxel != nullptr && (voxel->looked_at >> face & 1) != 0;
+}
+
+/// By how much a side's own light counts, and that of the same side of the voxel behind it.
+struct Shares
+{
+    float own = 1, behind = 0;
+};
+
+Shares sharesOf(const SolidGrid& grid, const Cell& cell, const SolidVoxel& voxel, uint32_t face)
+{
+    const size_t axis = face / 2;
+    const SolidVoxel* const next = voxelAt(grid, across(cell, face ^ 1));
+    const uint64_t own = voxel.hidden[axis];
+    const int own_count = std::popcount(own);
+    if (voxel.opacity < 255)
+    {
+        const float stopped = static_cast<float>(voxel.opacity) / 255.0f * kSamples;
+        return {std::min(1.0f, static_cast<float>(own_count) / stopped), 0};
+    }
+    const uint64_t behind = hiddenBy(next, axis) & ~own;
+    const uint64_t before = hiddenBy(voxelAt(grid, across(cell, face)), axis) & ~own & ~behind;
+    // what a voxel before this one hides is not seen here
+    const int seen = kSamples - std::popcount(before);
+    if (seen == 0)
+        return {};
+    return {static_cast<float>(own_count) / static_cast<float>(seen),
+            shows(next, face) ? static_cast<float>(std::popcount(behind)) / static_cast<float>(seen) : 0};
+}
+
+SolidVoxel mixed(const SolidGrid& grid, const Cell& cell, const SolidVoxel& voxel)
+{
+    SolidVoxel result = voxel;
+    for (uint32_t face = 0; face < kFaces; ++face)
+    {
+        if (!shows(&voxel, face))
+            continue;
+        const Shares shares = sharesOf(grid, cell, voxel, face);
+        const float sum = shares.own + shares.behind;
+        if (sum == 0)
+        {
+            result.emission[face] = 0;
+            continue;
+        }
+        Float3 albedo = shared::decodeAlbedo(voxel.albedo[face]) * (shares.own / sum);
+        Float3 emission = shared::decodeRadiance(voxel.emission[face]) * shares.own;
+        if (shares.behind > 0)
+        {
+            const SolidVoxel& next = *voxelAt(grid, across(cell, face ^ 1));
+            albedo += shared::decodeAlbedo(next.albedo[face]) * (shares.behind / sum);
+            emission += shared::decodeRadiance(next.emission[face]) * shares.behind;
+        }
+        result.albedo[face] = shared::encodeAlbedo(albedo);
+        result.emission[face] = shared::encodeRadiance(emission);
+    }
+    return result;
+}
+
+} // namespace
+
+void mixSides(SolidGrid& grid)
+{
+    std::vector<SolidVoxel> voxels(grid.voxels.size());
+    forEachVoxel(grid, [&](uint32_t voxel, const Cell& cell)
+                 { voxels[voxel] = mixed(grid, cell, grid.voxels[voxel]); });
+    grid.voxels = std::move(voxels);
+}
+
+} // namespace hearth::bricks

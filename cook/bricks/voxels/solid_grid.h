@@ -1,0 +1,131 @@
+// The solid voxels of a grid and what their sides look like, before it is known which of them are seen.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "cook/bricks/grid/grid_frame.h"
+#include "cook/bricks/voxels/cross_section.h"
+#include "formats/gpu_shared/bricks.h"
+
+#include <bit>
+#include <vector>
+
+namespace hearth::bricks
+{
+
+inline constexpr uint32_t kNowhere = 0xFFFFFFFFu;
+inline constexpr uint32_t kFaces = shared::kVoxelFaces;
+
+/// Axis of a face, and whether it looks upwards along it.
+constexpr int axisOf(uint32_t face)
+{
+    return static_cast<int>(face / 2);
+}
+constexpr bool looksUp(uint32_t face)
+{
+    return face % 2 != 0;
+}
+
+/// Codes of formats/gpu_shared/brick_codes.h for each of the six sides, as if all were faces.
+struct SolidVoxel
+{
+    std::array<uint32_t, kFaces> albedo;
+    std::array<uint32_t, kFaces> emission;
+    std::array<uint16_t, kFaces> normal;
+    uint8_t looked_at; ///< bit f: the front of a surface is seen through face f
+    uint8_t opacity;   ///< > 0; as hideSheets and separateSpaces leave it
+    CrossSections hidden;
+};
+
+/// Cells of 4 x 4 x 4, a bit each, and where the first of those that are set stands; as formats/records/bricks.h orders them.
+struct MaskedCells
+{
+    uint64_t mask = 0;
+    uint32_t first = 0;
+
+    bool has(uint32_t bit) const { return (mask >> bit & 1) != 0; }
+    uint32_t at(uint32_t bit) const
+    {
+        return first + static_cast<uint32_t>(std::popcount(mask & ((uint64_t{1} << bit) - 1)));
+    }
+};
+
+/// Bit of a voxel in its brick, or with shift 2 of a brick in its group.
+constexpr uint32_t bitOf(const Cell& cell, uint32_t shift = 0)
+{
+    return (cell[0] >> shift & 3u) | (cell[1] >> shift & 3u) << 2 | (cell[2] >> shift & 3u) << 4;
+}
+
+struct SolidGrid
+{
+    GridFrame frame;
+    std::vector<MaskedCells> groups; ///< all of the grid, x fastest
+    std::vector<MaskedCells> bricks;
+    std::vector<SolidVoxel> voxels;
+
+    uint32_t groupOf(const Cell& cell) const
+    {
+        const Cell count = frame.groups();
+        return (cell[0] >> 4) + count[0] * ((cell[1] >> 4) + count[1] * (cell[2] >> 4));
+    }
+    /// kNowhere where it is empty.
+    uint32_t brickAt(const Cell& cell) const
+    {
+        const MaskedCells& group = groups[groupOf(cell)];
+        const uint32_t bit = bitOf(cell, 2);
+        return group.has(bit) ? group.at(bit) : kNowhere;
+    }
+    /// Number of a solid voxel, kNowhere for an empty one; the cell lies in the grid.
+    uint32_t voxelAt(const Cell& cell) const
+    {
+        const uint32_t brick = brickAt(cell);
+        if (brick == kNowhere || !bricks[brick].has(bitOf(cell)))
+            return kNowhere;
+        return bricks[brick].at(bitOf(cell));
+    }
+
+    /// Call visit(brick, least cell of the brick) for all bricks in their order.
+    template <typename Visit>
+    void forEachBrick(const Visit& visit) const
+    {
+        const Cell count = frame.groups();
+        for (uint32_t g = 0; g < groups.size(); ++g)
+        {
+            const Cell group{g % count[0] * 16, g / count[0] % count[1] * 16, g / count[0] / count[1] * 16};
+            uint32_t brick = groups[g].first;
+            for (uint64_t rest = groups[g].mask; rest != 0; rest &= rest - 1, ++brick)
+            {
+                const auto bit = static_cast<uint32_t>(std::countr_zero(rest));
+                visit(brick, Cell{group[0] + (bit & 3) * 4, group[1] + (bit >> 2 & 3) * 4,
+                                  group[2] + (bit >> 4) * 4});
+            }
+        }
+    }
+
+    /// The least cell of each brick.
+    std::vector<Cell> brickCells() const
+    {
+        std::vector<Cell> cells(bricks.size());
+        forEachBrick([&](uint32_t brick, const Cell& cell) { cells[brick] = cell; });
+        return cells;
+    }
+};
+
+/// Cell of a bit of a brick whose least cell this is.
+constexpr Cell cellOf(const Cell& brick, uint32_t bit)
+{
+    return {brick[0] + (bit & 3), brick[1] + (bit >> 2 & 3), brick[2] + (bit >> 4)};
+}
+
+/// The cell across a face, which may lie outside: then a coordinate is no less than the grid's, since below 0 it wraps.
+constexpr Cell across(Cell cell, uint32_t face)
+{
+    cell[face / 2] += looksUp(face) ? 1u : ~0u;
+    return cell;
+}
+
+inline bool isInside(const GridFrame& frame, const Cell& cell)
+{
+    return cell[0] < frame.voxels[0] && cell[1] < frame.voxels[1] && cell[2] < frame.voxels[2];
+}
+
+} // namespace hearth::bricks

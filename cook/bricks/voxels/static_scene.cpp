@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/bricks/voxels/static_scene.h"
+
+#include "formats/pack/pack_check.h"
+
+#include <algorithm>
+
+namespace hearth::bricks
+{
+
+using namespace formats;
+
+namespace
+{
+
+/// For each node whether a clip moves it or one above it.
+std::vector<bool> movedNodes(const PackView& scene)
+{
+    std::vector<bool> moved(scene.nodes().size());
+    for (const AnimationChannelRecord& channel : scene.channels())
+        if (channel.node < moved.size())
+            moved[channel.node] = true;
+    // parents may stand behind their children
+    for (bool changed = true; changed;)
+    {
+        changed = false;
+        for (size_t node = 0; node < moved.size(); ++node)
+        {
+            const uint32_t parent = scene.nodes()[node].parent;
+            if (!moved[node] && parent < moved.size() && moved[parent])
+                moved[node] = changed = true;
+        }
+    }
+    return moved;
+}
+
+bool isDeformed(const MeshRecord& mesh)
+{
+    return mesh.skinned != 0 || mesh.morph_target_count != 0;
+}
+
+Box3 boxOf(const MeshRecord& mesh, const Affine3& world_from_object)
+{
+    Box3 box;
+    for (uint32_t corner = 0; corner < 8; ++corner)
+        box.add(transformPoint(world_from_object, {(corner & 1) != 0 ? mesh.box_max.x : mesh.box_min.x,
+                                                   (corner & 2) != 0 ? mesh.box_max.y : mesh.box_min.y,
+                                                   (corner & 4) != 0 ? mesh.box_max.z : mesh.box_min.z}));
+    return box;
+}
+
+Status checkTogether(const SourceParts& source, const std::vector<MaterialUse>& materials)
+{
+    HEARTH_TRY(checkHierarchy(source.clusters));
+    for (const ClusterRecord& cluster : source.clusters.clusters())
+        if (cluster.material != kNone && cluster.material >= materials.size())
+            return Error{Issue::meaning_reference, source.clusters.name(), "",
+                         "material " + std::to_string(cluster.material) + " of a cluster is not in " +
+                             source.scene.name()};
+    return success();
+}
+
+/// Whether nothing of the mesh is lit.
+bool isUnlit(const StaticScene& scene, uint32_t source, const MeshRecord& mesh)
+{
+    const auto clusters = recordsOf(scene.sources[source].clusters.clusters(), mesh.clusters);
+    return std::ranges::all_of(clusters, [&](const ClusterRecord& cluster)
+                               { return scene.material(source, cluster.material).unlit(); });
+}
+
+Status addInstances(StaticScene& scene, uint32_t source)
+{
+    const SourceParts& parts = scene.sources[source];
+    const std::vector<bool> moved = movedNodes(parts.scene);
+    for (size_t i = 0; i < parts.scene.instances().size(); ++i)
+    {
+        const InstanceRecord& instance = parts.scene.instances()[i];
+        if (instance.mesh >= parts.clusters.meshes().size())
+            return Error{Issue::meaning_reference, parts.scene.name(), "instance " + std::to_string(i),
+                         "mesh " + std::to_string(instance.mesh) + " is not in " + parts.clusters.name()};
+        const MeshRecord& mesh = parts.clusters.meshes()[instance.mesh];
+        if (mesh.clusters.count == 0)
+            continue;
+        if (isDeformed(mesh))
+            ++scene.left_out.deformed;
+        else if (instance.node < moved.size() && moved[instance.node])
+            ++scene.left_out.animated;
+        else if (isUnlit(scene, source, mesh))
+            ++scene.left_out.unlit;
+        else
+            scene.instances.push_back({source, instance.mesh, instance.world_from_object, instance.scale_max,
+                                       (instance.flags & kInstanceMirrored) != 0,
+                                       boxOf(mesh, instance.world_from_object)});
+    }
+    for (const CameraRecord& camera : parts.scene.cameras())
+        scene.cameras.push_back({camera.world_from_camera.m[0][3], camera.world_from_camera.m[1][3],
+                                 camera.world_from_camera.m[2][3]});
+    return success();
+}
+
+/// The clusters of a mesh that the runtime draws at an error in object space.
+template <typename Visit>
+void forEachOfCut(const PackView& part, const MeshRecord& mesh, float error, const Visit& visit)
+{
+    for (uint32_t c = mesh.clusters.first; c < mesh.clusters.first + mesh.clusters.count; ++c)
+    {
+        const ClusterRecord& cluster = part.clusters()[c];
+        if (errorOf(cluster, part.groups()) <= error && part.groups()[cluster.group].error > error)
+            visit(c, cluster);
+    }
+}
+
+} // namespace
+
+Box3 StaticScene::box() const
+{
+    Box3 box;
+    for (const StaticInstance& instance : instances)
+        box.add(instance.box);
+    return box;
+}
+
+const MaterialUse& StaticScene::material(uint32_t source, uint32_t material) const
+{
+    return material == kNone ? default_material_ : materials[source][material];
+}
+
+Result<StaticScene> staticScene(std::span<const SourceParts> sources)
+{
+    StaticScene scene;
+    scene.sources = sources;
+    for (uint32_t source = 0; source < sources.size(); ++source)
+    {
+        HEARTH_ASSIGN_OR_RETURN(std::vector<MaterialUse> materials,
+                                materialsOf(sources[source].scene, sources[source].textures));
+        HEARTH_TRY(checkTogether(sources[source], materials));
+        scene.materials.push_back(std::move(materials));
+        HEARTH_TRY(addInstances(scene, source));
+    }
+    return scene;
+}
+
+std::vector<PlacedCluster> clustersOfCut(const StaticScene& scene, float error)
+{
+    std::vector<PlacedCluster> placed;
+    for (uint32_t i = 0; i < scene.instances.size(); ++i)
+    {
+        const StaticInstance& instance = scene.instances[i];
+        const PackView& part = scene.sources[instance.source].clusters;
+        // what has no size in the world is off by nothing, and has no area
+        if (!(instance.scale_max > 0))
+            continue;
+        forEachOfCut(part, part.meshes()[instance.mesh], error / instance.scale_max,
+                     [&](uint32_t number, const ClusterRecord& cluster)
+                     {
+                         if (!scene.material(instance.source, cluster.material).unlit())
+                             placed.push_back({instance.source, cluster.page, number, i});
+                     });
+    }
+    std::ranges::sort(placed);
+    return placed;
+}
+
+VoxelBox voxelBoxOf(const StaticScene& scene, const PlacedCluster& placed, const Affine3d& voxels_from_object)
+{
+    const PackView& part = scene.sources[placed.source].clusters;
+    const ClusterRecord& cluster = part.clusters()[placed.cluster];
+    const double step = part.meshes()[scene.instances[placed.instance].mesh].grid_step;
+    Double3 low, high;
+    for (size_t axis = 0; axis < 3; ++axis)
+    {
+        const double base = cluster.base[axis];
+        const double extent = static_cast<double>(uint32_t{cluster.extent[axis]} << cluster.extent_shift);
+        (axis == 0 ? low.x : axis == 1 ? low.y : low.z) = base * step;
+        (axis == 0 ? high.x : axis == 1 ? high.y : high.z) = (base + extent) * step;
+    }
+    const Double3 middle = transformPoint(voxels_from_object, (low + high) * 0.5);
+    const Double3 half = (high - low) * 0.5;
+    // corners move by half a step of the grid when they are rounded, and a box's sides by what doubles leave out
+    const auto reach = [&](const double(&row)[4])
+    { return std::abs(row[0]) * half.x + std::abs(row[1]) * half.y + std::abs(row[2]) * half.z + 1 / kSnap; };
+    const Double3 reached{reach(voxels_from_object.m[0]), reach(voxels_from_object.m[1]),
+                          reach(voxels_from_object.m[2])};
+    return {middle - reached, middle + reached};
+}
+
+} // namespace hearth::bricks

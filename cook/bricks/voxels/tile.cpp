@@ -1,0 +1,291 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/bricks/voxels/tile.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+namespace hearth::bricks
+{
+
+using namespace formats;
+
+namespace
+{
+
+/// Thresholds of the samples of a cross-section, each of the 64 steps once: blended surfaces hide as many samples as their
+/// alpha says, evenly spread (B. E. Bayer, "An optimum method for two-level rendition of continuous-tone pictures", 1973).
+float thresholdOf(uint32_t u, uint32_t v)
+{
+    uint32_t order = 0;
+    for (uint32_t bit = 0; bit < 3; ++bit)
+    {
+        const uint32_t x = u >> bit & 1, y = v >> bit & 1;
+        order |= (x ^ y) << (5 - 2 * bit) | y << (4 - 2 * bit);
+    }
+    return (static_cast<float>(order) + 0.5f) / 64.0f;
+}
+
+/// The point of a triangle's plane that is seen at a sample along an axis; the plane is not seen edge-on.
+Double3 pointAt(const Polygon& piece, const Double3& normal, const Cell& cell, int axis, uint32_t bit)
+{
+    const int u_axis = uAxis(axis), v_axis = vAxis(axis);
+    const double u = cell[static_cast<size_t>(u_axis)] + (bit % kSampleRow + 0.5) / kSampleRow;
+    const double v = cell[static_cast<size_t>(v_axis)] + (bit / kSampleRow + 0.5) / kSampleRow;
+    const Double3& p = piece.points[0];
+    const double along = coordinate(p, axis) - ((u - coordinate(p, u_axis)) * coordinate(normal, u_axis) +
+                                                (v - coordinate(p, v_axis)) * coordinate(normal, v_axis)) /
+                                                   coordinate(normal, axis);
+    Double3 at;
+    const auto set = [&](int which, double value) { (which == 0 ? at.x : which == 1 ? at.y : at.z) = value; };
+    set(axis, along);
+    set(u_axis, u);
+    set(v_axis, v);
+    return at;
+}
+
+/// Mean over the piece: of the middles of the triangles that fan out from its first corner, by their areas.
+Look meanLook(const Polygon& piece, const TriangleSurface& surface)
+{
+    if (surface.plain())
+        return surface.at(piece.points[0]);
+    double area = 0, hidden = 0;
+    Double3 albedo, emission;
+    for (uint32_t i = 2; i < piece.count; ++i)
+    {
+        const Double3& a = piece.points[0];
+        const Double3& b = piece.points[i - 1];
+        const Double3& c = piece.points[i];
+        const double weight = length(cross(b - a, c - a));
+        const Look look = surface.at((a + b + c) * (1.0 / 3));
+        area += weight;
+        hidden += weight * look.hidden;
+        albedo = albedo + widen(look.albedo) * (weight * look.hidden);
+        emission = emission + widen(look.emission) * (weight * look.hidden);
+    }
+    Look mean;
+    mean.hidden = static_cast<float>(hidden / area);
+    if (hidden > 0)
+    {
+        mean.albedo = narrow(albedo * (1 / hidden));
+        mean.emission = narrow(emission * (1 / hidden));
+    }
+    return mean;
+}
+
+TriangleLook lookOf(const ClusterGeometry& geometry, const std::array<uint32_t, 3>& corners,
+                    const MaterialUse& material)
+{
+    TriangleLook look;
+    const auto uvs = [&](const TextureRef& reference, std::array<Float2, 3>& out)
+    {
+        if (reference.uv_set < 4 && geometry.has(kVertexUv0 << reference.uv_set))
+            for (size_t i = 0; i < 3; ++i)
+                out[i] = geometry.uv(corners[i], reference.uv_set);
+    };
+    if (material.base_color)
+        uvs(material.record.base_color_texture, look.base_color_uv);
+    if (material.emissive)
+        uvs(material.record.emissive_texture, look.emissive_uv);
+    if (geometry.has(kVertexColor))
+        for (size_t i = 0; i < 3; ++i)
+            look.color[i] = geometry.color(corners[i]);
+    return look;
+}
+
+} // namespace
+
+Cell tilesOf(const GridFrame& frame)
+{
+    Cell count;
+    for (size_t axis = 0; axis < 3; ++axis)
+        count[axis] = (frame.voxels[axis] + kTileVoxels - 1) / kTileVoxels;
+    return count;
+}
+
+Cell tileAt(const GridFrame& frame, uint32_t tile)
+{
+    const Cell count = tilesOf(frame);
+    return {tile % count[0], tile / count[0] % count[1], tile / count[0] / count[1]};
+}
+
+SolidGrid mergedTiles(const GridFrame& frame, std::span<const TileVoxels> tiles)
+{
+    struct Place
+    {
+        uint32_t tile;
+        uint32_t group;
+    };
+    SolidGrid grid{frame, {}, {}, {}};
+    grid.groups.resize(frame.groupCount());
+    std::vector<Place> place_of_group(grid.groups.size(), {kNowhere, 0});
+    size_t bricks = 0, voxels = 0;
+    for (uint32_t t = 0; t < tiles.size(); ++t)
+    {
+        for (uint32_t g = 0; g < tiles[t].groups.size(); ++g)
+            place_of_group[grid.groupOf(tiles[t].groups[g].cell)] = {t, g};
+        bricks += tiles[t].bricks.size();
+        voxels += tiles[t].voxels.size();
+    }
+    grid.bricks.reserve(bricks);
+    grid.voxels.reserve(voxels);
+    for (size_t g = 0; g < grid.groups.size(); ++g)
+    {
+        grid.groups[g].first = static_cast<uint32_t>(grid.bricks.size());
+        if (place_of_group[g].tile == kNowhere)
+            continue;
+        const TileVoxels& tile = tiles[place_of_group[g].tile];
+        const MaskedCells& group = tile.groups[place_of_group[g].group].bricks;
+        grid.groups[g].mask = group.mask;
+        for (int b = 0; b < std::popcount(group.mask); ++b)
+        {
+            const MaskedCells& brick = tile.bricks[group.first + static_cast<uint32_t>(b)];
+            grid.bricks.push_back({brick.mask, static_cast<uint32_t>(grid.voxels.size())});
+            const auto first = tile.voxels.begin() + brick.first;
+            grid.voxels.insert(grid.voxels.end(), first, first + std::popcount(brick.mask));
+        }
+    }
+    return grid;
+}
+
+Tile::Tile(const GridFrame& frame, const Cell& at)
+    : frame_(frame), index_(size_t{kTileVoxels} * kTileVoxels * kTileVoxels, kNowhere)
+{
+    for (size_t axis = 0; axis < 3; ++axis)
+    {
+        box_.begin[axis] = at[axis] * kTileVoxels;
+        box_.end[axis] = std::min(box_.begin[axis] + kTileVoxels, frame.voxels[axis]);
+    }
+}
+
+void Tile::add(const ClusterGeometry& geometry, const MaterialUse& material,
+               const Affine3d& voxels_from_object, bool mirrored)
+{
+    places_.clear();
+    for (uint32_t v = 0; v < geometry.vertexCount(); ++v)
+        places_.push_back(snapped(transformPoint(voxels_from_object, widen(geometry.position(v)))));
+    Polygon triangle;
+    for (uint32_t t = 0; t < geometry.triangleCount(); ++t)
+    {
+        const std::array<uint32_t, 3> corners = geometry.triangle(t);
+        triangle.count = 0;
+        for (const uint32_t corner : corners)
+            triangle.add(places_[corner]);
+        if (reaches(triangle))
+            add(triangle, lookOf(geometry, corners, material), material, mirrored ? -1 : 1);
+    }
+}
+
+/// False for what is not finite, too.
+bool Tile::reaches(const Polygon& triangle) const
+{
+    for (int axis = 0; axis < 3; ++axis)
+    {
+        const std::array<double, 2> ends = triangle.span(axis);
+        const auto a = static_cast<size_t>(axis);
+        if (!(ends[1] >= box_.begin[a] && ends[0] <= box_.end[a]))
+            return false;
+    }
+    return true;
+}
+
+void Tile::add(const Polygon& triangle, const TriangleLook& look, const MaterialUse& material, double front)
+{
+    const Double3 normal = doubleArea(triangle) * front;
+    if (normal.x == 0 && normal.y == 0 && normal.z == 0)
+        return;
+    const TriangleSurface surface(material, triangle, look);
+    forEachPiece(triangle, normal, frame_.voxels, box_,
+                 [&](const Cell& cell, const Polygon& piece)
+                 {
+                     ++pieces_;
+                     uint32_t& index = indexAt(cell);
+                     if (index != kNowhere)
+                     {
+                         addPiece(sums_[index], cell, piece, surface, material, front);
+                         return;
+                     }
+                     VoxelSum sum;
+                     if (!addPiece(sum, cell, piece, surface, material, front))
+                         return;
+                     index = static_cast<uint32_t>(sums_.size());
+                     sums_.push_back(sum);
+                 });
+}
+
+/// Whether the piece hides anything.
+bool Tile::addPiece(VoxelSum& sum, const Cell& cell, const Polygon& piece, const TriangleSurface& surface,
+                    const MaterialUse& material, double front)
+{
+    const Double3 double_area = doubleArea(piece) * front;
+    const Look look = meanLook(piece, surface);
+    if (look.hidden == 0)
+        return false;
+    sum.add(double_area, look, material.doubleSided());
+    for (int axis = 0; axis < 3; ++axis)
+    {
+        uint64_t hidden = hiddenSamples(piece, cell, axis);
+        if (material.hasHoles() && coordinate(double_area, axis) != 0)
+            for (uint64_t rest = hidden; rest != 0; rest &= rest - 1)
+            {
+                const auto bit = static_cast<uint32_t>(std::countr_zero(rest));
+                const Double3 at = pointAt(piece, double_area, cell, axis, bit);
+                if (surface.hiddenAt(at) < thresholdOf(bit % kSampleRow, bit / kSampleRow))
+                    hidden &= ~(uint64_t{1} << bit);
+            }
+        sum.hidden[static_cast<size_t>(axis)] |= hidden;
+    }
+    return true;
+}
+
+uint32_t& Tile::indexAt(const Cell& cell)
+{
+    return index_[(cell[0] - box_.begin[0]) +
+                  kTileVoxels *
+                      ((cell[1] - box_.begin[1]) + size_t{kTileVoxels} * (cell[2] - box_.begin[2]))];
+}
+
+TileVoxels Tile::finish() const
+{
+    TileVoxels tile;
+    tile.pieces = pieces_;
+    const auto index = [&](const Cell& cell) // counted from the tile
+    { return index_[cell[0] + kTileVoxels * (cell[1] + size_t{kTileVoxels} * cell[2])]; };
+    const auto corner = [](uint32_t bits, uint32_t per_row, uint32_t edge) {
+        return Cell{bits % per_row * edge, bits / per_row % per_row * edge,
+                    bits / (per_row * per_row) * edge};
+    };
+    constexpr uint32_t kGroupsAcross = kTileVoxels / 16;
+    for (uint32_t g = 0; g < kGroupsAcross * kGroupsAcross * kGroupsAcross; ++g)
+    {
+        const Cell group = corner(g, kGroupsAcross, 16);
+        MaskedCells group_bricks{0, static_cast<uint32_t>(tile.bricks.size())};
+        for (uint32_t b = 0; b < 64; ++b)
+        {
+            const Cell in_group = corner(b, 4, 4);
+            MaskedCells brick{0, static_cast<uint32_t>(tile.voxels.size())};
+            for (uint32_t v = 0; v < 64; ++v)
+            {
+                const Cell in_brick = corner(v, 4, 1);
+                const uint32_t sum =
+                    index({group[0] + in_group[0] + in_brick[0], group[1] + in_group[1] + in_brick[1],
+                           group[2] + in_group[2] + in_brick[2]});
+                if (sum == kNowhere)
+                    continue;
+                brick.mask |= uint64_t{1} << v;
+                tile.voxels.push_back(voxelOf(sums_[sum]));
+            }
+            if (brick.mask == 0)
+                continue;
+            group_bricks.mask |= uint64_t{1} << b;
+            tile.bricks.push_back(brick);
+        }
+        if (group_bricks.mask != 0)
+            tile.groups.push_back(
+                {{box_.begin[0] + group[0], box_.begin[1] + group[1], box_.begin[2] + group[2]},
+                 group_bricks});
+    }
+    return tile;
+}
+
+} // namespace hearth::bricks

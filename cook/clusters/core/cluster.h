@@ -1,0 +1,108 @@
+// What the builder's stages hand to each other: the cleaned mesh and clusters that are not records yet.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "cook/clusters/core/mesh_motion.h"
+#include "cook/mesh/deformation.h"
+#include "cook/mesh/grid.h"
+#include "cook/mesh/source_mesh.h"
+#include "formats/records/mesh.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace hearth::clusters
+{
+
+/// The triangles that are kept, and the vertices of all levels. A vertex is an index into the arrays of `vertices`: first
+/// those of the source (the first of equal ones), then those that the levels made. A position stands for all vertices
+/// at one place.
+struct PreparedMesh
+{
+    mesh::SourceMesh vertices; ///< on the grid; without indices and materials
+    mesh::Grid grid;
+    uint32_t attributes = 0;
+    uint32_t degenerate_count = 0;
+    uint32_t position_count = 0;
+    bool bends_gently = false;                ///< 8 bits are too few for its normals
+    std::vector<uint32_t> corners;            ///< three vertices for each triangle
+    std::vector<uint32_t> materials;          ///< for each triangle
+    std::vector<uint32_t> position_of_vertex; ///< for each vertex
+    const MeshMotion* motion = nullptr;       ///< of a deformed mesh; null: nothing moves it
+    mesh::InfluenceLoss influence_loss;
+    std::optional<double> influence_displacement; ///< as in BuildCounts
+    std::vector<float> morph_steps;               ///< of each morph target's deltas; a power of two
+
+    size_t triangleCount() const { return corners.size() / 3; }
+    bool deforms() const { return !vertices.joint_sets.empty() || !vertices.morph_targets.empty(); }
+};
+
+/// First id of the vertices that a simplification makes, while its level is not finished: kMadeVertex + k is the k-th of them.
+inline constexpr uint32_t kMadeVertex = 0x80000000u;
+
+/// Most vertices of a cluster: fewer than the format's limit where the morph targets of two would not fit into a page.
+uint32_t clusterVertexLimit(const PreparedMesh& mesh);
+
+/// So many triangles as whole clusters hold, or all where they are less than one.
+inline size_t fullClusters(size_t triangles)
+{
+    return triangles < formats::kClusterMaxTriangles
+               ? triangles
+               : triangles / formats::kClusterMaxTriangles * formats::kClusterMaxTriangles;
+}
+
+/// A cluster's triangles: three u8 indices into its own list of vertices.
+struct ClusterShape
+{
+    uint32_t first_vertex = 0; ///< in ClusterStore::vertices
+    uint32_t vertex_count = 0;
+    uint32_t first_index = 0; ///< in ClusterStore::indices
+    uint32_t triangle_count = 0;
+    uint32_t material = 0;
+};
+
+struct ClusterStore
+{
+    std::vector<ClusterShape> shapes;
+    std::vector<uint32_t> vertices; ///< of the prepared mesh
+    std::vector<uint8_t> indices;
+    std::vector<float>
+        errors; ///< for each triangle, object space: bounds the distance to the source, both ways
+
+    std::span<const uint32_t> verticesOf(const ClusterShape& shape) const
+    {
+        return std::span(vertices).subspan(shape.first_vertex, shape.vertex_count);
+    }
+    std::span<const uint8_t> indicesOf(const ClusterShape& shape) const
+    {
+        return std::span(indices).subspan(shape.first_index, size_t{shape.triangle_count} * 3);
+    }
+
+    std::span<const float> errorsOf(const ClusterShape& shape) const
+    {
+        return std::span(errors).subspan(shape.first_index / 3, shape.triangle_count);
+    }
+
+    /// Append all clusters of `other`, in their order.
+    void append(const ClusterStore& other);
+
+    /// Append a copy of one cluster of `other`.
+    void appendCluster(const ClusterStore& other, const ClusterShape& shape);
+};
+
+/// Append a copy of a vertex with its position and attributes.
+void appendVertex(mesh::SourceMesh& to, const mesh::SourceMesh& from, uint32_t vertex);
+
+/// Append all vertices of `from`, which has the same attributes.
+void appendVertices(mesh::SourceMesh& to, const mesh::SourceMesh& from);
+
+/// Move to the grid, weld, drop triangles without area and those that the grid takes an edge from, merge equal vertices.
+/// What deforms the mesh comes to what its pages can hold: `influences` (4 or 8) of each vertex at most, in codes, and
+/// morph deltas in steps.
+PreparedMesh prepareMesh(mesh::SourceMesh source, uint32_t influences = 8,
+                         const MeshMotion* motion = nullptr);
+
+} // namespace hearth::clusters

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/clusters/core/deformation_weights.h"
+
+#include "formats/base/double3.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace hearth::clusters
+{
+
+namespace
+{
+
+// More rows cost more than they tell: a group's vertices have seldom more joints, and the rest is measured all the same.
+constexpr size_t kMaxJoints = 12;
+constexpr size_t kMostMorphs = 4;
+
+// Joints that no clip moves against each other count as if they did by this part of the group: a game may pose them.
+constexpr double kLeastLength = 0.1;
+
+// Joints whose motion has no bound count as if they turned over.
+constexpr double kUnboundedTurn = 2;
+
+/// The joints of a group's vertices with the sums of their weights, those with the most first.
+std::vector<std::pair<double, uint32_t>> jointSums(const mesh::SourceMesh& vertices,
+                                                   std::span<const uint32_t> group)
+{
+    std::map<uint32_t, double> sums;
+    for (const uint32_t vertex : group)
+        for (size_t set = 0; set < vertices.joint_sets.size(); ++set)
+        {
+            const Float4 w = vertices.weight_sets[set][vertex];
+            const std::array<float, 4> weights{w.x, w.y, w.z, w.w};
+            for (size_t i = 0; i < 4; ++i)
+                if (weights[i] > 0)
+                    sums[vertices.joint_sets[set][vertex].joint[i]] += double{weights[i]};
+        }
+    std::vector<std::pair<double, uint32_t>> ordered;
+    for (const auto& [joint, sum] : sums)
+        ordered.push_back({sum, joint});
+    std::stable_sort(ordered.begin(), ordered.end(),
+                     [](const auto& a, const auto& b) { return a.first > b.first; });
+    return ordered;
+}
+
+/// How far at most a joint takes the group's places from where the main joint has them: a mean over the places.
+double lengthOf(const PreparedMesh& mesh, const GroupMesh& group, uint32_t main, uint32_t joint)
+{
+    if (mesh.motion == nullptr || mesh.motion->skin == nullptr)
+        return 0;
+    const auto departure = mesh.motion->skin->departure(main, joint);
+    if (!departure || !std::isfinite(departure->rotation) || !std::isfinite(departure->shift))
+        return kUnboundedTurn;
+    double sum = 0;
+    for (const uint32_t vertex : group.vertex_of_wedge)
+        sum += hearth::length(widen(mesh.vertices.positions[vertex]) - departure->pivot);
+    const double mean = sum / static_cast<double>(group.vertex_of_wedge.size());
+    return (departure->rotation * mean + departure->shift) / group.scale;
+}
+
+void weighMorphs(const PreparedMesh& mesh, GroupMesh& group)
+{
+    std::vector<std::pair<float, uint32_t>> moves;
+    for (uint32_t target = 0; target < mesh.vertices.morph_targets.size(); ++target)
+    {
+        float most = 0;
+        for (const uint32_t vertex : group.vertex_of_wedge)
+            most = std::max(most, hearth::length(mesh.vertices.morph_targets[target].positions[vertex]));
+        const bool known = mesh.motion != nullptr && target < mesh.motion->most_morph_weights.size();
+        const float weight = known ? mesh.motion->most_morph_weights[target] : 1.0f;
+        if (most * weight > 0)
+            moves.push_back({most * weight, target});
+    }
+    std::stable_sort(moves.begin(), moves.end(),
+                     [](const auto& a, const auto& b) { return a.first > b.first; });
+    moves.resize(std::min(moves.size(), kMostMorphs));
+    for (const auto& [most, target] : moves)
+    {
+        const bool known = mesh.motion != nullptr && target < mesh.motion->most_morph_weights.size();
+        const float weight = known ? mesh.motion->most_morph_weights[target] : 1.0f;
+        group.weights.morphs.push_back({target, static_cast<float>(double{weight} / group.scale)});
+    }
+}
+
+} // namespace
+
+void weighDeformation(const PreparedMesh& mesh, GroupMesh& group)
+{
+    const auto joints = jointSums(mesh.vertices, group.vertex_of_wedge);
+    if (!joints.empty())
+        group.weights.main_joint = joints.front().second;
+    for (size_t i = 1; i < std::min(joints.size(), kMaxJoints + 1); ++i)
+    {
+        const uint32_t joint = joints[i].second;
+        const double length = lengthOf(mesh, group, group.weights.main_joint, joint);
+        group.weights.joints.push_back({joint, static_cast<float>(std::max(length, kLeastLength))});
+    }
+    weighMorphs(mesh, group);
+}
+
+} // namespace hearth::clusters

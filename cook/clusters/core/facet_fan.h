@@ -1,0 +1,96 @@
+// A few facets of a surface, ready for finding the nearest point on them again and again.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "cook/clusters/core/facet.h"
+#include "formats/base/math.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+namespace hearth::clusters
+{
+
+inline constexpr uint32_t kNoFacet = 0xFFFFFFFFu;
+
+/// A point of a facet: (1 - v - w) * corner 0 + v * corner 1 + w * corner 2.
+struct FacetPoint
+{
+    uint32_t facet = kNoFacet;
+    float v = 0, w = 0;
+    float distance2 = 0; ///< from what lies there
+
+    std::array<float, 3> parts() const { return {1 - v - w, v, w}; }
+};
+
+inline Float3 placeOf(const FacetPoint& point, std::span<const Facet> facets)
+{
+    const Facet& facet = facets[point.facet];
+    return facet.a + facet.ab * point.v + facet.ac * point.w;
+}
+
+class FacetFan
+{
+public:
+    /// facets  of the surface
+    /// fan     numbers of some of them, at least one; must outlive the use of the fan
+    void load(std::span<const Facet> facets, std::span<const uint32_t> fan)
+    {
+        fan_ = fan;
+        blocks_.clear();
+        // behind the last, that again
+        for (size_t first = 0; first < fan.size(); first += kLanes)
+        {
+            std::array<const Facet*, kLanes> block;
+            for (size_t i = 0; i < kLanes; ++i)
+                block[i] = &facets[fan[std::min(first + i, fan.size() - 1)]];
+            blocks_.push_back(makeBlock(block));
+        }
+    }
+
+    /// The nearest point on all of the facets, as FacetBlock::nearest has it.
+    FacetPoint nearest(Float3 place) const
+    {
+        Lanes least = allLanes(std::numeric_limits<float>::infinity());
+        Lanes v{}, w{};
+        LaneMask blocks{};
+        for (size_t block = 0; block < blocks_.size(); ++block)
+        {
+            const FacetBlock::Nearest nearest = blocks_[block].nearest(place);
+            const LaneMask nearer = nearest.distance2 < least;
+            least = nearer ? nearest.distance2 : least;
+            v = nearer ? nearest.v : v;
+            w = nearer ? nearest.w : w;
+            blocks = nearer ? LaneMask{} + static_cast<int32_t>(block) : blocks;
+        }
+        size_t lane = 0;
+        for (size_t i = 1; i < kLanes; ++i)
+            if (least[i] < least[lane])
+                lane = i;
+        const size_t found = static_cast<size_t>(blocks[lane]) * kLanes + lane;
+        return {fan_[std::min(found, fan_.size() - 1)], v[lane], w[lane], least[lane]};
+    }
+
+    /// Calls visit(point) with the nearest point on each of the facets.
+    template <typename Visit>
+    void forEachNearest(Float3 place, Visit visit) const
+    {
+        for (size_t block = 0; block < blocks_.size(); ++block)
+        {
+            const FacetBlock::Nearest nearest = blocks_[block].nearest(place);
+            for (size_t i = 0; i < std::min(kLanes, fan_.size() - block * kLanes); ++i)
+                visit(FacetPoint{fan_[block * kLanes + i], nearest.v[i], nearest.w[i], nearest.distance2[i]});
+        }
+    }
+
+private:
+    std::span<const uint32_t> fan_;
+    std::vector<FacetBlock> blocks_;
+};
+
+} // namespace hearth::clusters

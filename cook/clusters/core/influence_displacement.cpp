@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/clusters/core/influence_displacement.h"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <unordered_map>
+
+namespace hearth::clusters
+{
+
+namespace
+{
+
+struct JointChange
+{
+    uint16_t joint;
+    double all = 0;  ///< its weight before
+    double kept = 0; ///< and now
+    double difference() const { return all - kept; }
+};
+
+/// Of one vertex, each joint once.
+class JointChanges
+{
+public:
+    JointChanges(const mesh::SourceMesh& all, const mesh::SourceMesh& kept, size_t vertex)
+    {
+        add(all, vertex, &JointChange::all);
+        add(kept, vertex, &JointChange::kept);
+        normalize(&JointChange::all);
+        normalize(&JointChange::kept);
+    }
+
+    bool lostAny() const
+    {
+        return std::any_of(changes_.begin(), changes_.end(),
+                           [](const JointChange& change) { return change.all > 0 && change.kept == 0; });
+    }
+    const std::vector<JointChange>& list() const { return changes_; }
+
+private:
+    void add(const mesh::SourceMesh& mesh, size_t vertex, double JointChange::*weight)
+    {
+        for (size_t set = 0; set < mesh.joint_sets.size(); ++set)
+        {
+            const Float4 w = mesh.weight_sets[set][vertex];
+            const float weights[4] = {w.x, w.y, w.z, w.w};
+            for (size_t i = 0; i < 4; ++i)
+                if (weights[i] > 0)
+                    of(mesh.joint_sets[set][vertex].joint[i]).*weight += double{weights[i]};
+        }
+    }
+
+    void normalize(double JointChange::*weight)
+    {
+        double sum = 0;
+        for (const JointChange& change : changes_)
+            sum += change.*weight;
+        for (JointChange& change : changes_)
+            change.*weight /= sum;
+    }
+
+    JointChange& of(uint16_t joint)
+    {
+        for (JointChange& change : changes_)
+            if (change.joint == joint)
+                return change;
+        return changes_.emplace_back(JointChange{joint});
+    }
+
+    std::vector<JointChange> changes_;
+};
+
+/// Axis by axis how far morph targets take the vertex from its place.
+Double3 morphReach(const mesh::SourceMesh& mesh, size_t vertex, const MeshMotion& motion)
+{
+    Double3 reach;
+    for (size_t target = 0; target < mesh.morph_targets.size(); ++target)
+    {
+        const double most =
+            target < motion.most_morph_weights.size() ? double{motion.most_morph_weights[target]} : 1.0;
+        const Double3 delta = widen(mesh.morph_targets[target].positions[vertex]);
+        reach = reach + Double3{std::abs(delta.x), std::abs(delta.y), std::abs(delta.z)} * most;
+    }
+    return reach;
+}
+
+/// Bounds of single vertices.
+class VertexDisplacement
+{
+public:
+    enum class Search : uint8_t
+    {
+        quick,
+        tight, ///< at the price of a walk over the hulls of the joints' motions
+    };
+
+    VertexDisplacement(const mesh::SourceMesh& mesh, const MeshMotion& motion) : mesh_(mesh), motion_(motion)
+    {
+    }
+
+    /// Weight goes from joints that lost some to those that gained, on the shortest ways first: any plan gives a bound.
+    std::optional<double> operator()(const JointChanges& changes, size_t vertex, Search search)
+    {
+        struct Way
+        {
+            size_t from, to;
+            double length;
+        };
+        const std::vector<JointChange>& list = changes.list();
+        std::vector<Way> ways;
+        std::vector<double> left;
+        for (const JointChange& change : list)
+            left.push_back(std::abs(change.difference()));
+        for (size_t from = 0; from < list.size(); ++from)
+            for (size_t to = 0; to < list.size(); ++to)
+                if (list[from].difference() > 0 && list[to].difference() < 0)
+                {
+                    const auto length = apart(list, list[from].joint, list[to].joint, vertex, search);
+                    if (!length)
+                        return std::nullopt;
+                    ways.push_back({from, to, *length});
+                }
+        std::stable_sort(ways.begin(), ways.end(),
+                         [](const Way& a, const Way& b) { return a.length < b.length; });
+        double sum = 0;
+        for (const Way& way : ways)
+        {
+            const double sent = std::min(left[way.from], left[way.to]);
+            left[way.from] -= sent;
+            left[way.to] -= sent;
+            sum += sent * way.length;
+        }
+        return sum;
+    }
+
+private:
+    /// How far apart at most two joints put the vertex; over a third one where neither sees the other.
+    std::optional<double> apart(std::span<const JointChange> joints, uint32_t a, uint32_t b, size_t vertex,
+                                Search search)
+    {
+        const std::optional<double> there = seen(a, b, vertex, search), back = seen(b, a, vertex, search);
+        if (there && back)
+            return std::min(*there, *back);
+        if (there || back)
+            return there ? there : back;
+        std::optional<double> least;
+        for (const JointChange& hub : joints)
+        {
+            const auto to_a = seen(hub.joint, a, vertex, search), to_b = seen(hub.joint, b, vertex, search);
+            if (to_a && to_b)
+                least = std::min(least.value_or(*to_a + *to_b), *to_a + *to_b);
+        }
+        return least;
+    }
+
+    /// How far from the vertex `joint` puts it, as `main` sees it. Distance is convex: it is largest at a corner of the hull.
+    std::optional<double> seen(uint32_t main, uint32_t joint, size_t vertex, Search search)
+    {
+        const std::optional<motion::Departure>& departure = departureOf(main, joint);
+        if (!departure)
+            return std::nullopt;
+        const Double3 place = widen(mesh_.positions[vertex]);
+        const double morphed = departure->rotation * length(morphReach(mesh_, vertex, motion_));
+        const double quick = departure->rotation * length(place - departure->pivot) + departure->shift;
+        if (search == Search::quick || main == joint)
+            return quick + morphed;
+        const motion::MatrixSet& set = motion_.skin->relative(main, joint)->set();
+        double far = 0;
+        for (const Affine3d& corner : set.hull)
+            far = std::max(far, length(transformPoint(corner, place) - place));
+        return std::min(quick, far + set.linear_slack * length(place - set.pivot) + set.point_slack) +
+               morphed;
+    }
+
+    const std::optional<motion::Departure>& departureOf(uint32_t main, uint32_t joint)
+    {
+        const auto [entry, is_new] = departures_.try_emplace(uint64_t{main} << 32 | joint);
+        if (is_new)
+            entry->second = main == joint ? motion::Departure{} : motion_.skin->departure(main, joint);
+        return entry->second;
+    }
+
+    const mesh::SourceMesh& mesh_;
+    const MeshMotion& motion_;
+    std::unordered_map<uint64_t, std::optional<motion::Departure>> departures_;
+};
+
+} // namespace
+
+std::optional<double> influenceDisplacement(const mesh::SourceMesh& all, const mesh::SourceMesh& kept,
+                                            const MeshMotion& motion)
+{
+    using Search = VertexDisplacement::Search;
+    struct Candidate
+    {
+        size_t vertex;
+        double quick;
+    };
+    VertexDisplacement displacement(kept, motion);
+    std::vector<Candidate> candidates;
+    for (size_t v = 0; v < kept.vertexCount(); ++v)
+    {
+        const JointChanges changes(all, kept, v);
+        if (!changes.lostAny())
+            continue;
+        const std::optional<double> quick = displacement(changes, v, Search::quick);
+        if (!quick)
+            return std::nullopt;
+        candidates.push_back({v, *quick});
+    }
+    std::stable_sort(candidates.begin(), candidates.end(),
+                     [](const Candidate& a, const Candidate& b) { return a.quick > b.quick; });
+    double most = 0;
+    for (const Candidate& candidate : candidates)
+    {
+        if (candidate.quick <= most)
+            break;
+        const auto tight =
+            displacement(JointChanges(all, kept, candidate.vertex), candidate.vertex, Search::tight);
+        most = std::max(most, std::min(candidate.quick, *tight));
+    }
+    return most;
+}
+
+} // namespace hearth::clusters

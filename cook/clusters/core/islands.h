@@ -1,0 +1,46 @@
+// Connected pieces of a mesh by position, and what small ones mean for splitting.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "cook/clusters/core/cluster.h"
+#include "formats/base/math.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace hearth::clusters
+{
+
+/// Disjoint sets over [0, count): union by smaller index, path halving.
+class DisjointSets
+{
+public:
+    explicit DisjointSets(size_t count);
+    uint32_t find(uint32_t element);
+    void unite(uint32_t a, uint32_t b);
+
+private:
+    std::vector<uint32_t> parent_;
+};
+
+/// The least position (or vertex: whatever the corners are) of each triangle's island.
+/// corners  three for each triangle, all below corner_limit
+std::vector<uint32_t> islandOfTriangles(std::span<const uint32_t> corners, size_t corner_limit);
+
+/// Where the splitter takes triangles to be: at their own centers; but triangles of an island of at most 32 triangles
+/// all move to the island's center, so that a leaf, a pebble or a small chart is not torn apart between clusters.
+/// Islands are by vertex here: what shares no vertex costs nothing to separate.
+///
+/// centers   of the triangles, changed in place
+/// vertices  three for each triangle, all below vertex_count
+void gatherSmallIslands(std::span<Float3> centers, std::span<const uint32_t> vertices, size_t vertex_count);
+
+/// The center of a triangle, without overflow for any finite corners.
+inline Float3 triangleCenter(Float3 a, Float3 b, Float3 c)
+{
+    constexpr float kThird = 1.0f / 3.0f;
+    return a * kThird + b * kThird + c * kThird;
+}
+
+} // namespace hearth::clusters

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/clusters/error/attribute_error.h"
+
+#include "cook/clusters/core/bounds.h"
+#include "cook/clusters/core/cluster.h"
+#include "cook/clusters/surface/surface.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace hearth::clusters
+{
+
+namespace
+{
+
+// Differences of UVs beyond this, in lengths of the group's mesh, are all alike: their squares stay numbers.
+constexpr float kFarthestUv = 1e6f;
+
+float dot(Float2 a, Float2 b)
+{
+    return a.x * b.x + a.y * b.y;
+}
+
+/// NaN becomes the limit as well.
+float limited(float length)
+{
+    return length > -kFarthestUv && length < kFarthestUv ? length : kFarthestUv;
+}
+
+struct Difference
+{
+    Float3 normal;
+    Float2 uv; ///< local lengths
+    float normal2 = 0;
+    float uv2 = 0;
+};
+
+class AttributeMeasure
+{
+public:
+    AttributeMeasure(const GroupMesh& group, const NewSurface& after)
+        : group_(group),
+          after_(after),
+          simplified_(after.simplified),
+          facets_(after.surface.facets),
+          has_normals_(!after.mesh.normals.empty()),
+          has_uvs_(!after.mesh.uvs[0].empty() && group.uv_length > 0),
+          differences_(group.vertex_of_wedge.size())
+    {
+    }
+
+    AttributeStep run()
+    {
+        if (!has_normals_ && !has_uvs_)
+            return {};
+        for (uint32_t wedge = 0; wedge < differences_.size(); ++wedge)
+            if (const FacetPoint& point = after_.points[wedge]; point.facet != kNoFacet)
+                differences_[wedge] = differenceAt(wedge, point);
+        return {meanOfDifferences(), edgeLength()};
+    }
+
+private:
+    /// What the new surface has in place of a wedge's attributes, less these.
+    Difference differenceAt(uint32_t wedge, const FacetPoint& point) const
+    {
+        const uint32_t vertex = group_.vertex_of_wedge[wedge];
+        const mesh::SourceMesh& mesh = after_.mesh;
+        Difference difference;
+        if (has_normals_)
+            difference.normal =
+                normalizeOr(valueAt(point, mesh.normals, after_.made.normals), {}) - mesh.normals[vertex];
+        if (has_uvs_)
+        {
+            const Float2 away = valueAt(point, mesh.uvs[0], after_.made.uvs[0]) - mesh.uvs[0][vertex];
+            difference.uv = {limited(away.x * group_.uv_length), limited(away.y * group_.uv_length)};
+        }
+        difference.normal2 = hearth::dot(difference.normal, difference.normal);
+        difference.uv2 = dot(difference.uv, difference.uv);
+        return difference;
+    }
+
+    /// The new surface's value at a point, of those that the vertices have.
+    template <typename Value>
+    Value valueAt(const FacetPoint& point, const std::vector<Value>& of_mesh,
+                  const std::vector<Value>& of_made) const
+    {
+        const auto corner = [&](size_t k)
+        {
+            const uint32_t vertex = after_.vertex_of_wedge[simplified_.corners[point.facet * 3 + k]];
+            return vertex < kMadeVertex ? of_mesh[vertex] : of_made[vertex - kMadeVertex];
+        };
+        return corner(0) * (1 - point.v - point.w) + corner(1) * point.v + corner(2) * point.w;
+    }
+
+    bool isPruned(size_t triangle) const
+    {
+        const auto gone = [&](size_t corner)
+        { return simplified_.target_of_position[group_.positionAt(corner)] == kPruned; };
+        return simplified_.pruned && (gone(triangle * 3) || gone(triangle * 3 + 1) || gone(triangle * 3 + 2));
+    }
+
+    /// The mean square of what is linear on a triangle is that of its corners and their sum, by 12.
+    AttributeError meanOfDifferences() const
+    {
+        double area = 0, normal2 = 0, uv2 = 0;
+        for (size_t t = 0; t < group_.triangleCount(); ++t)
+        {
+            if (isPruned(t))
+                continue;
+            const Float3 a = group_.positions[group_.positionAt(t * 3)];
+            const auto own = double{length(cross(group_.positions[group_.positionAt(t * 3 + 1)] - a,
+                                                 group_.positions[group_.positionAt(t * 3 + 2)] - a))};
+            const Difference& d0 = differences_[group_.corners[t * 3]];
+            const Difference& d1 = differences_[group_.corners[t * 3 + 1]];
+            const Difference& d2 = differences_[group_.corners[t * 3 + 2]];
+            const Float3 normal = d0.normal + d1.normal + d2.normal;
+            area += own;
+            normal2 += own * double{d0.normal2 + d1.normal2 + d2.normal2 + hearth::dot(normal, normal)};
+            if (!has_uvs_)
+                continue;
+            const Float2 uv = d0.uv + d1.uv + d2.uv;
+            uv2 += own * double{d0.uv2 + d1.uv2 + d2.uv2 + dot(uv, uv)};
+        }
+        if (!(area > 0))
+            return {};
+        return {static_cast<float>(angleOfChord(std::sqrt(normal2 / (12 * area)))),
+                roundUp(std::sqrt(uv2 / (12 * area)) * group_.scale)};
+    }
+
+    float edgeLength() const
+    {
+        double sum = 0;
+        for (const Facet& facet : facets_)
+            sum += double{facet.ab_ab + facet.ac_ac - facet.ab_ac};
+        return roundUp(group_.scale * std::sqrt(sum * 2 / (3 * static_cast<double>(facets_.size()))));
+    }
+
+    const GroupMesh& group_;
+    const NewSurface& after_;
+    const Simplified& simplified_;
+    std::span<const Facet> facets_;
+    bool has_normals_;
+    bool has_uvs_;
+    std::vector<Difference> differences_; ///< for each wedge of the group
+};
+
+} // namespace
+
+AttributeStep measureAttributes(const GroupMesh& group, const NewSurface& after)
+{
+    return AttributeMeasure(group, after).run();
+}
+
+double angleOfChord(double chord)
+{
+    // the sine of half the angle, halved twice: then five terms of the series of asin are exact to 1e-7
+    const auto halve = [](double sine) { return sine / std::sqrt(2 * (1 + std::sqrt(1 - sine * sine))); };
+    const double x = halve(halve(std::min(chord / 2, 1.0)));
+    const double x2 = x * x;
+    return 8 * x * (1 + x2 * (1.0 / 6 + x2 * (3.0 / 40 + x2 * (15.0 / 336 + x2 * (105.0 / 3456)))));
+}
+
+} // namespace hearth::clusters

@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/clusters/error/deformation_metric.h"
+
+#include "formats/base/assert.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hearth::clusters
+{
+
+namespace
+{
+
+/// Joints of a vertex at most: two sets.
+constexpr size_t kMostInfluences = 8;
+
+/// Of the triangles of two points.
+constexpr size_t kMaxPairJoints = 6 * kMostInfluences;
+
+double partOf(const Float4& weights, size_t i)
+{
+    return double{i == 0 ? weights.x : i == 1 ? weights.y : i == 2 ? weights.z : weights.w};
+}
+
+/// By how much two points differ in what one joint moves.
+struct JointDifference
+{
+    uint32_t joint;
+    double weight = 0;
+    Double3 moved; ///< of weight * place
+};
+
+/// The differences for all joints that move a vertex of either point's triangle.
+class JointDifferences
+{
+public:
+    void add(const DeformedPoint& point, double sign)
+    {
+        for (size_t k = 0; k < 3; ++k)
+            for (const auto& influence : point.surface->influences(point.vertices[k]))
+            {
+                JointDifference& difference = of(influence.joint);
+                const double weight = sign * point.parts[k] * influence.weight;
+                difference.weight += weight;
+                difference.moved = difference.moved + point.surface->place(point.vertices[k]) * weight;
+            }
+    }
+
+    std::span<const JointDifference> all() const { return std::span(differences_).first(count_); }
+
+private:
+    JointDifference& of(uint32_t joint)
+    {
+        for (size_t i = 0; i < count_; ++i)
+            if (differences_[i].joint == joint)
+                return differences_[i];
+        HEARTH_ASSERT(count_ < kMaxPairJoints);
+        differences_[count_] = {joint, 0, {}};
+        return differences_[count_++];
+    }
+
+    std::array<JointDifference, kMaxPairJoints> differences_;
+    size_t count_ = 0;
+};
+
+Double3 placeOf(const DeformedPoint& point)
+{
+    Double3 place;
+    for (size_t k = 0; k < 3; ++k)
+        place = place + point.surface->place(point.vertices[k]) * point.parts[k];
+    return place;
+}
+
+/// Sum over the triangle's vertices of part * weight of `joint` * delta of `target`.
+Double3 movedDelta(const DeformedPoint& point, uint32_t joint, size_t target)
+{
+    Double3 sum;
+    for (size_t k = 0; k < 3; ++k)
+        for (const auto& influence : point.surface->influences(point.vertices[k]))
+            if (influence.joint == joint)
+                sum = sum +
+                      point.surface->deltas(point.vertices[k])[target] * (point.parts[k] * influence.weight);
+    return sum;
+}
+
+Double3 deltaOf(const DeformedPoint& point, size_t target)
+{
+    Double3 sum;
+    for (size_t k = 0; k < 3; ++k)
+        sum = sum + point.surface->deltas(point.vertices[k])[target] * point.parts[k];
+    return sum;
+}
+
+} // namespace
+
+void DeformedSurface::add(Float3 place, const mesh::SourceMesh& source, uint32_t vertex, double scale)
+{
+    places_.push_back(widen(place));
+    for (size_t set = 0; set < source.joint_sets.size(); ++set)
+        for (size_t i = 0; i < 4; ++i)
+            if (const double weight = partOf(source.weight_sets[set][vertex], i); weight > 0)
+                influences_.push_back({source.joint_sets[set][vertex].joint[i], weight});
+    first_influence_.push_back(influences_.size());
+    delta_count_ = source.morph_targets.size();
+    for (const mesh::MorphTarget& target : source.morph_targets)
+        deltas_.push_back(widen(target.positions[vertex]) * (1 / scale));
+}
+
+DeformationMetric::DeformationMetric(Double3 center, double scale, const MeshMotion& motion)
+    : center_(center), scale_(scale), motion_(motion)
+{
+}
+
+const DeformationMetric::Departure& DeformationMetric::departure(uint32_t main, uint32_t joint)
+{
+    std::vector<Departure>& row = departures_[main];
+    if (row.size() <= joint)
+        row.resize(joint + size_t{1});
+    Departure& departure = row[joint];
+    if (departure.state != Departure::State::unknown)
+        return departure;
+    departure.state = Departure::State::bounded;
+    if (motion_.skin == nullptr || main == joint)
+        return departure;
+    const std::optional<motion::Departure> found = motion_.skin->departure(main, joint);
+    if (!found || !std::isfinite(found->rotation) || !std::isfinite(found->shift))
+    {
+        departure.state = Departure::State::unbounded;
+        return departure;
+    }
+    departure.pivot = (found->pivot - center_) * (1 / scale_);
+    departure.rotation = found->rotation;
+    departure.shift = found->shift / scale_;
+    return departure;
+}
+
+std::optional<uint32_t> DeformationMetric::mainJoint(const DeformedPoint& point,
+                                                     std::span<const DeformedPoint> others)
+{
+    JointDifferences own;
+    own.add(point, 1);
+    std::vector<JointDifference> candidates(own.all().begin(), own.all().end());
+    if (candidates.empty())
+        return 0u;
+    std::stable_sort(candidates.begin(), candidates.end(),
+                     [](const JointDifference& a, const JointDifference& b) { return a.weight > b.weight; });
+    std::vector<uint32_t> joints;
+    const auto addJoints = [&](const DeformedPoint& of)
+    {
+        for (const uint32_t vertex : of.vertices)
+            for (const auto& influence : of.surface->influences(vertex))
+                if (std::find(joints.begin(), joints.end(), influence.joint) == joints.end())
+                    joints.push_back(influence.joint);
+    };
+    addJoints(point);
+    for (const DeformedPoint& other : others)
+        addJoints(other);
+    const auto boundsAll = [&](uint32_t main)
+    {
+        return std::all_of(joints.begin(), joints.end(),
+                           [&](uint32_t joint)
+                           { return departure(main, joint).state == Departure::State::bounded; });
+    };
+    for (const JointDifference& candidate : candidates)
+        if (boundsAll(candidate.joint))
+            return candidate.joint;
+    for (uint32_t joint = 0; motion_.skin != nullptr && joint < motion_.skin->jointCount(); ++joint)
+        if (boundsAll(joint))
+            return joint;
+    return std::nullopt;
+}
+
+double DeformationMetric::between(const DeformedPoint& a, const DeformedPoint& b, uint32_t main)
+{
+    double sum = length(placeOf(a) - placeOf(b));
+    JointDifferences differences;
+    differences.add(a, 1);
+    differences.add(b, -1);
+    for (const JointDifference& difference : differences.all())
+    {
+        if (difference.joint == main)
+            continue;
+        const Departure& d = departure(main, difference.joint);
+        sum += d.rotation * length(difference.moved - d.pivot * difference.weight) +
+               d.shift * std::abs(difference.weight);
+    }
+    return sum + morphTerm(a, b, main);
+}
+
+double DeformationMetric::morphTerm(const DeformedPoint& a, const DeformedPoint& b, uint32_t main)
+{
+    const size_t targets = a.surface->deltas(a.vertices[0]).size();
+    double sum = 0;
+    for (size_t target = 0; target < targets; ++target)
+    {
+        double difference = length(deltaOf(a, target) - deltaOf(b, target));
+        JointDifferences joints;
+        joints.add(a, 1);
+        joints.add(b, -1);
+        for (const JointDifference& of : joints.all())
+            if (of.joint != main)
+                difference += departure(main, of.joint).rotation *
+                              length(movedDelta(a, of.joint, target) - movedDelta(b, of.joint, target));
+        const double most_weight =
+            target < motion_.most_morph_weights.size() ? double{motion_.most_morph_weights[target]} : 1.0;
+        sum += most_weight * difference;
+    }
+    return sum;
+}
+
+} // namespace hearth::clusters

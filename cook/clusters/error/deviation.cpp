@@ -1,0 +1,319 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/clusters/error/deviation.h"
+
+#include "cook/clusters/core/facet_index.h"
+#include "cook/clusters/surface/nearest_bound.h"
+#include "cook/clusters/surface/surface.h"
+#include "cook/clusters/surface/surface_map.h"
+#include "formats/base/assert.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace hearth::clusters
+{
+
+namespace
+{
+
+// Rounding of a distance between points in [-1, 1]^3: a few times 2^-23, with room.
+constexpr float kRounding = 2e-6f;
+
+// A search that the surfaces' order starts takes so many likely facets.
+constexpr size_t kMaxLikely = 5 * kLanes;
+constexpr size_t kNeighbours = 2 * kLanes;
+
+// A distance below this part of a triangle's size is mostly rounding.
+constexpr float kFlat = 1e-4f;
+
+// Of an error that is carried on, this part may be added to a distance without a closer look.
+constexpr float kSlackOfCarried = kSlack - 1;
+
+/// A short list of facets, each once.
+class Likely
+{
+public:
+    explicit Likely(size_t facet_count) : list_of_facet_(facet_count, 0) {}
+
+    void clear()
+    {
+        ++list_;
+        facets_.clear();
+    }
+
+    void addAround(const Surface& surface, uint32_t position)
+    {
+        for (const uint32_t facet : surface.facets_at.of(position))
+            add(facet);
+    }
+
+    /// Those around the corner where a side starts.
+    void addAround(std::span<const uint32_t> twins, uint32_t start)
+    {
+        uint32_t side = start;
+        do
+        {
+            add(side / 3);
+            side = twins[previousSide(side)];
+        } while (side != kNoSide && side != start);
+        if (side == start)
+            return;
+        for (side = twins[start]; side != kNoSide; side = twins[nextSide(side)])
+            add(side / 3);
+    }
+
+    void add(uint32_t facet)
+    {
+        if (list_of_facet_[facet] == list_ || facets_.size() == kMaxLikely)
+            return;
+        list_of_facet_[facet] = list_;
+        facets_.push_back(facet);
+    }
+
+    std::span<const uint32_t> facets() const { return facets_; }
+
+private:
+    std::vector<uint32_t> list_of_facet_; ///< number of the last list that it was in
+    uint32_t list_ = 0;
+    std::vector<uint32_t> facets_;
+};
+
+/// An upper bound of what a triangle adds up to: the error that is carried, and its distance.
+struct Total
+{
+    float upper;
+    uint32_t triangle;
+    bool before;
+
+    bool operator<(const Total& b) const
+    {
+        return upper != b.upper     ? upper < b.upper
+               : before != b.before ? before < b.before
+                                    : triangle < b.triangle;
+    }
+};
+
+/// Bounds the triangles from before that are gone or changed, and those that are new.
+class GroupMeasure
+{
+public:
+    GroupMeasure(const GroupMesh& group, const Simplified& simplified, const Surface& after,
+                 std::span<const FacetPoint> points)
+        : group_(group),
+          simplified_(simplified),
+          after_(after),
+          positions_before_(positionsOfCorners(group, group.corners)),
+          moved_(movedPositions()),
+          changed_(changedTriangles()),
+          map_(group, simplified, positions_before_, after, points, changed_),
+          index_before_(positions_before_, group.positions),
+          index_after_(after.positions, after.place_of_position),
+          likely_before_(changed_.size()),
+          likely_after_(after.facetCount()),
+          errors_(after.facetCount(), 0)
+    {
+    }
+
+    Deviation run()
+    {
+        for (uint32_t t = 0; t < after_.facetCount(); ++t)
+            if (const uint32_t source = simplified_.source_triangle[t]; changed_[source] == 0)
+                errors_[t] = group_.errors[source];
+        sums_ = map_.sumsOver(group_.errors);
+        settleLargest();
+        for (uint32_t t = 0; t < errors_.size(); ++t)
+        {
+            // what is larger comes from triangles that were searched
+            give(t, std::min(sums_[t], worst_));
+            errors_[t] += kRounding;
+        }
+        return {std::move(errors_), nearest_.loosePieces()};
+    }
+
+private:
+    std::vector<uint8_t> movedPositions() const
+    {
+        std::vector<uint8_t> moved(simplified_.placement.remade);
+        for (uint32_t position = 0; position < moved.size(); ++position)
+            moved[position] =
+                simplified_.target_of_position[position] != position ? uint8_t{1} : moved[position];
+        return moved;
+    }
+
+    std::vector<uint8_t> changedTriangles() const
+    {
+        std::vector<uint8_t> changed(group_.triangleCount(), 1);
+        for (const size_t source : simplified_.source_triangle)
+            changed[source] =
+                static_cast<uint8_t>(moved(source * 3) | moved(source * 3 + 1) | moved(source * 3 + 2));
+        return changed;
+    }
+
+    uint32_t targetOf(size_t corner) const
+    {
+        return simplified_.target_of_position[positions_before_[corner]];
+    }
+
+    uint8_t moved(size_t corner) const { return moved_[positions_before_[corner]]; }
+
+    /// Calls visit(total) for all that changed, as the map has it, and that are not below `least`, which is at least 0.
+    /// Few are: that is the one branch.
+    template <typename Visit>
+    void forEachTotal(const float& least, Visit visit) const
+    {
+        const auto upperOf = [](uint8_t changed, bool known, float sum)
+        {
+            const float upper = known ? sum : kInfinity;
+            return changed != 0 ? upper : -1.0f;
+        };
+        for (uint32_t t = 0; t < changed_.size(); ++t)
+        {
+            const float upper = upperOf(changed_[t], map_.maps(t), group_.errors[t] + map_.farOf(t));
+            if (upper >= least)
+                visit(Total{upper, t, true});
+        }
+        for (uint32_t t = 0; t < sums_.size(); ++t)
+        {
+            const float upper = upperOf(changed_[simplified_.source_triangle[t]], map_.covers(t), sums_[t]);
+            if (upper >= least)
+                visit(Total{upper, t, false});
+        }
+    }
+
+    /// Largest first: once one needs no closer look, neither do the others. The largest of all rules most of them out.
+    void settleLargest()
+    {
+        Total largest{0, 0, false};
+        bool changed = false;
+        forEachTotal(largest.upper,
+                     [&](const Total& total)
+                     {
+                         changed = true;
+                         largest = std::max(largest, total);
+                     });
+        if (!changed)
+            return;
+        settle(largest);
+        std::vector<Total> larger;
+        forEachTotal(worst_,
+                     [&](const Total& total)
+                     {
+                         if (total.upper > worst_ && total < largest)
+                             larger.push_back(total);
+                     });
+        std::make_heap(larger.begin(), larger.end());
+        for (; !larger.empty() && larger.front().upper > worst_; larger.pop_back())
+        {
+            settle(larger.front());
+            std::pop_heap(larger.begin(), larger.end());
+        }
+    }
+
+    void settle(const Total& total)
+    {
+        if (isRounding(total))
+        {
+            worst_ = std::max(worst_, total.upper);
+            return;
+        }
+        total.before ? searchBefore(total.triangle) : searchAfter(total.triangle);
+    }
+
+    /// On a plane there is nothing to search for: all distances are rounding.
+    bool isRounding(const Total& total) const
+    {
+        const Corners corners =
+            total.before ? cornersBefore(total.triangle) : after_.cornersOf(total.triangle);
+        const Float3 e1 = corners[1] - corners[0], e2 = corners[2] - corners[0];
+        const float carried = total.before ? group_.errors[total.triangle] : 0.0f;
+        return total.upper - carried <= kFlat * std::sqrt(std::max(dot(e1, e1), dot(e2, e2)));
+    }
+
+    void give(uint32_t facet, float error) { errors_[facet] = std::max(errors_[facet], error); }
+
+    Corners cornersBefore(size_t t) const
+    {
+        return {group_.positions[positions_before_[t * 3]], group_.positions[positions_before_[t * 3 + 1]],
+                group_.positions[positions_before_[t * 3 + 2]]};
+    }
+
+    void searchBefore(uint32_t t)
+    {
+        const float carried = group_.errors[t];
+        likely_after_.clear();
+        if (map_.maps(t))
+            map_.forEachFacetOf(t, [&](uint32_t facet) { likely_after_.add(facet); });
+        for (size_t corner = size_t{t} * 3; corner < size_t{t} * 3 + 3; ++corner)
+            if (const uint32_t target = targetOf(corner); target != kPruned && moved(corner) != 0)
+                likely_after_.addAround(after_, target);
+        if (likely_after_.facets().empty())
+            addNeighboursInOrder(t);
+        const float total = carried + nearest_.bound(cornersBefore(t), index_after_, likely_after_.facets(),
+                                                     allowance(carried));
+        for (const uint32_t facet : nearest_.used())
+            give(facet, total);
+        worst_ = std::max(worst_, total);
+    }
+
+    void searchAfter(uint32_t t)
+    {
+        float carried = 0;
+        likely_before_.clear();
+        const size_t source = simplified_.source_triangle[t];
+        for (size_t corner = source * 3; corner < source * 3 + 3; ++corner)
+            if (moved(corner) != 0)
+                likely_before_.addAround(map_.twinsBefore(), static_cast<uint32_t>(corner));
+        for (const uint32_t facet : likely_before_.facets())
+            carried = std::max(carried, group_.errors[facet]);
+        const float distance =
+            nearest_.bound(after_.cornersOf(t), index_before_, likely_before_.facets(), allowance(carried));
+        carried = 0;
+        for (const uint32_t facet : nearest_.used())
+            carried = std::max(carried, group_.errors[facet]);
+        give(t, carried + distance);
+        worst_ = std::max(worst_, carried + distance);
+    }
+
+    /// Nothing is gained below the largest total that there is.
+    Allowance allowance(float carried) const { return {worst_ - carried, carried * kSlackOfCarried}; }
+
+    /// New triangles that were near an old one in the clusters' order: a fair guess for those of islands that are gone.
+    void addNeighboursInOrder(size_t source)
+    {
+        const auto& left = simplified_.source_triangle;
+        const auto after =
+            static_cast<size_t>(std::lower_bound(left.begin(), left.end(), source) - left.begin());
+        const size_t last_start = left.size() - std::min(left.size(), kNeighbours);
+        const size_t start = std::min(after - std::min(after, kNeighbours / 2), last_start);
+        for (size_t i = start; i < std::min(start + kNeighbours, left.size()); ++i)
+            likely_after_.add(static_cast<uint32_t>(i));
+    }
+
+    const GroupMesh& group_;
+    const Simplified& simplified_;
+    const Surface& after_;
+    std::vector<uint32_t> positions_before_; ///< three for each triangle
+    std::vector<uint8_t> moved_;             ///< for each position: it is not where it was
+    std::vector<uint8_t> changed_;           ///< for each triangle before: it is not there any more as it was
+    SurfaceMap map_;
+    FacetIndex index_before_;
+    FacetIndex index_after_;
+    std::vector<float> sums_; ///< for each triangle after, of those
+    Likely likely_before_;
+    Likely likely_after_;
+    NearestBound nearest_;
+    float worst_ = 0;           ///< the largest total so far, as far as it was searched
+    std::vector<float> errors_; ///< for each triangle after
+};
+
+} // namespace
+
+Deviation boundDeviation(const GroupMesh& group, const Simplified& simplified, const Surface& after,
+                         std::span<const FacetPoint> points)
+{
+    HEARTH_ASSERT(simplified.triangleCount() > 0);
+    return GroupMeasure(group, simplified, after, points).run();
+}
+
+} // namespace hearth::clusters

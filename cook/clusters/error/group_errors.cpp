@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/clusters/error/group_errors.h"
+
+#include "cook/clusters/core/bounds.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace hearth::clusters
+{
+
+namespace
+{
+
+double square(double x)
+{
+    return x * x;
+}
+
+} // namespace
+
+GroupErrors rootErrors()
+{
+    return {std::numeric_limits<float>::infinity(), 0, {}};
+}
+
+void ErrorsBelow::add(const GroupErrors& errors, uint32_t triangles)
+{
+    largest_.lod = std::max(largest_.lod, errors.lod);
+    largest_.position = std::max(largest_.position, errors.position);
+    largest_.attributes.normal = std::max(largest_.attributes.normal, errors.attributes.normal);
+    largest_.attributes.uv = std::max(largest_.attributes.uv, errors.attributes.uv);
+    normal2_ += triangles * square(double{errors.attributes.normal});
+    uv2_ += triangles * square(double{errors.attributes.uv});
+    triangles_ += triangles;
+}
+
+GroupErrors ErrorsBelow::plus(const Replacement& replacement, const Config& config) const
+{
+    // what each level loses is finer than what the next one does: such waves add up by their squares
+    const double count = std::max(triangles_, 1.0);
+    const AttributeError& step = replacement.attributes.error;
+    const double normal = std::sqrt(normal2_ / count + square(double{step.normal}));
+    const double uv = std::sqrt(uv2_ / count + square(double{step.uv}));
+    constexpr double kHalfTurn{std::numbers::pi_v<float>};
+    return errorsWith({static_cast<float>(std::min(normal, kHalfTurn)), roundUp(uv)}, replacement, config);
+}
+
+GroupErrors ErrorsBelow::orOf(const Replacement& replacement, const Config& config) const
+{
+    return errorsWith(replacement.attributes.error, replacement, config);
+}
+
+GroupErrors ErrorsBelow::errorsWith(const AttributeError& attributes, const Replacement& replacement,
+                                    const Config& config) const
+{
+    GroupErrors errors;
+    errors.attributes = {std::max(attributes.normal, largest_.attributes.normal),
+                         std::max(attributes.uv, largest_.attributes.uv)};
+    const auto distance = double{replacement.distance};
+    errors.position = roundUp(std::max(distance, double{largest_.position}) * kMonotoneSlack);
+    const double wave =
+        double{attributes.normal} * double{replacement.attributes.edge_length} / (2 * std::numbers::pi);
+    const double lod = std::max({distance, double{config.normal_error_weight} * wave,
+                                 double{config.uv_error_weight} * double{attributes.uv}});
+    errors.lod = roundUp(std::max(lod * double{replacement.weight}, double{largest_.lod}) * kMonotoneSlack);
+    return errors;
+}
+
+} // namespace hearth::clusters

@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/clusters/levels/level_plan.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace hearth::clusters
+{
+
+namespace
+{
+
+using formats::kClusterMaxTriangles;
+
+// A target counts as met from here on; what users are promised is 3 %.
+constexpr double kTargetSlack = 0.01;
+
+// Of more groups a cut takes finer ones where there is more to lose. Of few, each is so large a part of the mesh that it
+// cannot: there the groups themselves have to keep more or less.
+constexpr size_t kMostBalancedGroups = 12;
+
+struct GroupShare
+{
+    size_t triangles = 0;
+    LevelStep step;
+};
+
+GroupShare shareOf(const Reduction& reduction, uint32_t level, const ClusterStore& store,
+                   std::span<const uint32_t> members)
+{
+    GroupShare share;
+    std::vector<uint32_t> materials;
+    for (const uint32_t member : members)
+    {
+        share.triangles += store.shapes[member].triangle_count;
+        if (materials.empty() || materials.back() != store.shapes[member].material)
+            materials.push_back(store.shapes[member].material);
+    }
+    share.step = stepOfGroup(reduction, level, materials);
+    return share;
+}
+
+/// Full clusters, up or down, so that over many groups the sum is that of the exact counts; where that would leave a
+/// group as it is, the exact count.
+size_t nearestClusters(double triangles, size_t of)
+{
+    const auto clusters = static_cast<size_t>(std::lround(triangles / kClusterMaxTriangles));
+    const size_t rounded = clusters * kClusterMaxTriangles;
+    return rounded >= 1 && rounded < of ? rounded : std::max<size_t>(1, static_cast<size_t>(triangles));
+}
+
+/// The factor on every group's `keep` with which the groups together keep `wanted` triangles, no group all of its own.
+double spreadFactor(std::span<const GroupShare> shares, double wanted, double largest_part)
+{
+    double low = 0;
+    double high = 1 / double{kSmallestKeep};
+    // far beyond the resolution of a triangle in 2^31
+    constexpr int kHalvings = 60;
+    for (int i = 0; i < kHalvings; ++i)
+    {
+        const double factor = (low + high) / 2;
+        double sum = 0;
+        for (const GroupShare& share : shares)
+            sum += static_cast<double>(share.triangles) *
+                   std::min(largest_part, factor * double{share.step.keep});
+        (sum < wanted ? low : high) = factor;
+    }
+    return high;
+}
+
+GroupGoal goalOf(const GroupShare& share, double part)
+{
+    GroupGoal goal;
+    goal.of = share.triangles;
+    goal.error_weight = share.step.error_weight;
+    goal.keep = share.step.keep;
+    goal.stuck_ratio = static_cast<float>(1 - kLeastProgress * (1 - part));
+    return goal;
+}
+
+/// The next target that is coarser than what there is, or nullptr.
+const LevelTarget* targetAhead(const Reduction& reduction, uint32_t level, uint64_t drawn_below,
+                               uint64_t triangles)
+{
+    const auto found = std::find_if(reduction.targets.begin(), reduction.targets.end(),
+                                    [&](const LevelTarget& target) { return target.level > level; });
+    const bool possible = found != reduction.targets.end() && found->triangles > drawn_below &&
+                          found->triangles - drawn_below < triangles;
+    return possible ? &*found : nullptr;
+}
+
+/// Goals whose sum is that of their exact values.
+void planExactly(LevelPlan& plan, std::span<const GroupShare> shares, double factor, double largest_part)
+{
+    double exact = 0;
+    double handed_out = 0;
+    for (const GroupShare& share : shares)
+    {
+        const double part = std::min(largest_part, factor * double{share.step.keep});
+        GroupGoal goal = goalOf(share, part);
+        goal.exact = true;
+        exact += part * static_cast<double>(share.triangles);
+        goal.triangles = static_cast<size_t>(std::max(1.0, std::round(exact - handed_out)));
+        handed_out += static_cast<double>(goal.triangles);
+        plan.goals.push_back(goal);
+    }
+}
+
+} // namespace
+
+LevelPlan planLevel(const Reduction& reduction, uint32_t level, const ClusterStore& store,
+                    const Groups& groups, uint64_t drawn_below)
+{
+    LevelPlan plan;
+    std::vector<GroupShare> shares;
+    uint64_t triangles = 0;
+    for (size_t g = 0; g < groups.count(); ++g)
+    {
+        shares.push_back(shareOf(reduction, level, store, groups.membersOf(g)));
+        triangles += shares.back().triangles;
+    }
+    const LevelTarget* target = targetAhead(reduction, level, drawn_below, triangles);
+    if (target == nullptr)
+    {
+        for (const GroupShare& share : shares)
+        {
+            plan.goals.push_back(goalOf(share, double{share.step.keep}));
+            const auto kept = static_cast<size_t>(static_cast<float>(share.triangles) * share.step.keep);
+            plan.goals.back().triangles = std::max<size_t>(1, fullClusters(kept));
+            plan.goals.back().may_go_on = true;
+        }
+        plan.balanced = level == 0 && groups.count() <= kMostBalancedGroups;
+        return plan;
+    }
+
+    const uint32_t steps = target->level - level;
+    const auto remaining = static_cast<double>(target->triangles - drawn_below);
+    const double part = std::pow(remaining / static_cast<double>(triangles), 1.0 / steps);
+    const double wanted = part * static_cast<double>(triangles);
+    // no group stands still while others can do its share
+    const double largest_part = std::max(part, double{kLargestKeep});
+    const double factor = spreadFactor(shares, wanted, largest_part);
+    planExactly(plan, shares, factor, largest_part);
+    if (steps == 1)
+    {
+        plan.wanted = target->triangles - drawn_below;
+        plan.largest_part = largest_part;
+    }
+    else
+        for (size_t g = 0; g < shares.size(); ++g)
+            plan.goals[g].triangles =
+                nearestClusters(static_cast<double>(plan.goals[g].triangles), shares[g].triangles);
+    return plan;
+}
+
+bool isStuck(const LevelPlan& plan, std::span<const size_t> kept)
+{
+    double of = 0;
+    double planned = 0;
+    for (const GroupGoal& goal : plan.goals)
+    {
+        of += static_cast<double>(goal.of);
+        planned += static_cast<double>(goal.triangles);
+    }
+    const double left = static_cast<double>(std::accumulate(kept.begin(), kept.end(), size_t{0}));
+    return left > of - kLeastProgress * (of - planned);
+}
+
+bool correctPlan(LevelPlan& plan, std::span<const size_t> kept, std::vector<uint8_t>& changed)
+{
+    const auto wanted = static_cast<double>(plan.wanted);
+    double sum = 0;
+    double stiff = 0;    // kept by groups that cannot go where they should
+    double flexible = 0; // kept by the others
+    changed.assign(kept.size(), 0);
+    for (size_t g = 0; g < kept.size(); ++g)
+    {
+        sum += static_cast<double>(kept[g]);
+        // a collapse takes two triangles, more where faces lie on each other
+        changed[g] = kept[g] <= plan.goals[g].triangles + 4 ? 1 : 0;
+        (changed[g] != 0 ? flexible : stiff) += static_cast<double>(kept[g]);
+    }
+    if (plan.wanted == 0 || std::abs(sum - wanted) <= kTargetSlack * wanted || flexible == 0 ||
+        stiff >= wanted)
+        return false;
+    const double factor = (wanted - stiff) / flexible;
+    for (size_t g = 0; g < kept.size(); ++g)
+    {
+        GroupGoal& goal = plan.goals[g];
+        const double corrected = std::round(factor * static_cast<double>(goal.triangles));
+        if (changed[g] != 0)
+            goal.triangles = static_cast<size_t>(
+                std::clamp(corrected, 1.0, std::max(1.0, plan.largest_part * static_cast<double>(goal.of))));
+    }
+    return true;
+}
+
+} // namespace hearth::clusters

@@ -1,0 +1,352 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/clusters/levels/levels.h"
+
+#include "cook/clusters/core/bounds.h"
+#include "cook/clusters/error/deformed_deviation.h"
+#include "cook/clusters/levels/balance.h"
+#include "cook/clusters/levels/level_plan.h"
+#include "cook/clusters/partition/split.h"
+#include "cook/clusters/surface/surface_bound.h"
+#include "cook/mesh/free_memory.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <tbb/parallel_for.h>
+
+namespace hearth::clusters
+{
+
+using namespace formats;
+
+namespace
+{
+
+/// Contains the members' geometry and the spheres of all groups that they were made from.
+Sphere groupSphere(const Build& build, const Level& level, std::span<const uint32_t> members)
+{
+    // the finer spheres hold the points of the finer groups, and with them all of the members' points
+    std::vector<Sphere> spheres;
+    uint32_t last_refined = kNone;
+    for (const uint32_t member : members)
+        if (const uint32_t refined = level.refined_group[member]; refined != kNone && refined != last_refined)
+        {
+            last_refined = refined;
+            spheres.push_back(build.group(refined).sphere);
+        }
+    std::vector<Float3> points;
+    for (const Sphere& sphere : spheres)
+        points.push_back(sphere.center);
+    if (spheres.empty())
+        for (const uint32_t member : members)
+            for (const uint32_t vertex : level.store.verticesOf(level.store.shapes[member]))
+                points.push_back(build.mesh.vertices.positions[vertex]);
+    const Sphere around_points = sphereOfPoints(points);
+    const Sphere sphere = spheres.empty() ? around_points : sphereOfSpheres(spheres, around_points);
+    return {sphere.center, roundUp(sphere.radius * kMonotoneSlack)};
+}
+
+ErrorsBelow errorsOf(const Build& build, const Level& level, std::span<const uint32_t> members)
+{
+    ErrorsBelow errors(build.mesh.grid.error);
+    for (const uint32_t member : members)
+        if (level.refined_group[member] != kNone)
+            errors.add(build.group(level.refined_group[member]).errors,
+                       level.store.shapes[member].triangle_count);
+    return errors;
+}
+
+/// Pass a stuck group on unchanged, if it has not been tried too often, or a level that was made by hand replaces it.
+void passOn(const Build& build, const Level& level, std::span<const uint32_t> members, BuiltGroup& group)
+{
+    const auto tries =
+        std::min_element(members.begin(), members.end(),
+                         [&](uint32_t a, uint32_t b) { return level.retries[a] < level.retries[b]; });
+    const bool alone = level.store.shapes.size() == members.size();
+    if (build.authored.empty() && (alone || level.retries[*tries] >= build.config.max_retries))
+    {
+        group.stuck = !alone;
+        return;
+    }
+    group.retried = true;
+    group.errors = errorsOf(build, level, members).plus({}, build.config);
+    for (const uint32_t member : members)
+        group.clusters.appendCluster(level.store, level.store.shapes[member]);
+}
+
+size_t trianglesOf(const ClusterStore& store)
+{
+    size_t count = 0;
+    for (const ClusterShape& shape : store.shapes)
+        count += shape.triangle_count;
+    return count;
+}
+
+GroupErrors errorsOfReduced(const Build& build, const Level& level, std::span<const uint32_t> members,
+                            const Reduced& reduced, const GroupGoal& goal)
+{
+    return errorsOf(build, level, members)
+        .plus({reduced.distance, reduced.attributes, goal.error_weight}, build.config);
+}
+
+/// Whether a cut could not tell the group from the source on the grid.
+bool losesNothing(const PreparedMesh& mesh, const GroupErrors& errors)
+{
+    constexpr float kOfGrid = 1.5f;
+    return errors.lod <= kOfGrid * mesh.grid.error;
+}
+
+/// Simplify a group, or decide what to do with one that is stuck: pass it on, or leave it as a root.
+BuiltGroup buildGroup(const Build& build, const Level& level, std::span<const uint32_t> members,
+                      std::span<const uint8_t> locked, const GroupGoal& goal)
+{
+    BuiltGroup group;
+    group.sphere = groupSphere(build, level, members);
+    group.errors = rootErrors();
+    if (level.store.shapes.size() == 1)
+        return group;
+
+    Reduced reduced = reduceGroup(build.mesh, level.store, members, locked, goal, build.config);
+    GroupErrors errors = errorsOfReduced(build, level, members, reduced, goal);
+    const size_t left = fullClusters(trianglesOf(reduced.clusters));
+    if (reduced.progressed && goal.may_go_on && losesNothing(build.mesh, errors) &&
+        left > kClusterMaxTriangles)
+    {
+        GroupGoal further = goal;
+        further.triangles = left - kClusterMaxTriangles;
+        further.stop.reset();
+        Reduced smaller = reduceGroup(build.mesh, level.store, members, locked, further, build.config);
+        const GroupErrors of_smaller = errorsOfReduced(build, level, members, smaller, further);
+        if (smaller.progressed && losesNothing(build.mesh, of_smaller))
+        {
+            reduced = std::move(smaller);
+            errors = of_smaller;
+        }
+    }
+    // an error beyond the floats cannot be stored: what it belongs to is a root
+    if (!reduced.progressed ||
+        std::max(errors.lod, errors.attributes.uv) >= std::numeric_limits<float>::max())
+    {
+        passOn(build, level, members, group);
+        return group;
+    }
+    growToHold(group.sphere, reduced.made.positions);
+    group.errors = errors;
+    group.clusters = std::move(reduced.clusters);
+    group.outcome = std::move(reduced);
+    return group;
+}
+
+/// Triangles that are drawn in place of each group of the level, or that it has itself where it is a root.
+std::vector<size_t> keptTriangles(const Level& level)
+{
+    std::vector<size_t> kept;
+    for (size_t g = 0; g < level.built.size(); ++g)
+    {
+        kept.push_back(trianglesOf(level.built[g].clusters));
+        if (level.built[g].isRoot())
+            for (const uint32_t member : level.groups.membersOf(g))
+                kept.back() += level.store.shapes[member].triangle_count;
+    }
+    return kept;
+}
+
+/// Build the level's groups as the merge coefficient asks; where a target is not met because some groups could not do
+/// their share, the others do more.
+void buildGroups(const Build& build, Level& level, std::span<const uint8_t> locked, LevelPlan plan)
+{
+    // what the first correction asks is met but for what groups cannot do; each costs the level once more
+    constexpr int kMaxCorrections = 3;
+    std::vector<uint8_t> wanted(level.groups.count(), 1);
+    level.built.resize(level.groups.count());
+    for (int correction = 0; correction <= kMaxCorrections; ++correction)
+    {
+        tbb::parallel_for(size_t{0}, level.groups.count(),
+                          [&](size_t g)
+                          {
+                              if (wanted[g] != 0)
+                                  level.built[g] = buildGroup(build, level, level.groups.membersOf(g), locked,
+                                                              plan.goals[g]);
+                          });
+        if (!correctPlan(plan, keptTriangles(level), wanted))
+            return;
+    }
+}
+
+/// Positions of roots can never move again: what lies beside them is drawn together with them.
+void pinRoots(const PreparedMesh& mesh, const Level& level, std::vector<uint8_t>& pinned)
+{
+    for (uint32_t g = 0; g < level.groups.count(); ++g)
+        if (level.built[g].isRoot())
+            for (const uint32_t member : level.groups.membersOf(g))
+                for (const uint32_t vertex : level.store.verticesOf(level.store.shapes[member]))
+                    pinned[mesh.position_of_vertex[vertex]] = 1;
+}
+
+/// Take over the vertices that a group has made: its clusters name them as the mesh does from then on.
+void takeVertices(PreparedMesh& mesh, Reduced& outcome, ClusterStore& clusters)
+{
+    const auto first_vertex = static_cast<uint32_t>(mesh.vertices.vertexCount());
+    for (uint32_t& vertex : clusters.vertices)
+        if (vertex >= kMadeVertex)
+            vertex = vertex - kMadeVertex + first_vertex;
+    appendVertices(mesh.vertices, outcome.made);
+    for (const uint32_t position : outcome.made_positions)
+        mesh.position_of_vertex.push_back(mesh.position_count + position);
+    mesh.position_count += outcome.made_position_count;
+    outcome.made = {};
+    mesh::freeMemory(outcome.made_positions);
+}
+
+/// Collect what replaces the level's groups.
+Level nextLevel(PreparedMesh& mesh, Level& level)
+{
+    Level next;
+    next.first_group = level.first_group + static_cast<uint32_t>(level.groups.count());
+    next.drawn_below = level.drawn_below;
+    for (uint32_t g = 0; g < level.groups.count(); ++g)
+    {
+        BuiltGroup& group = level.built[g];
+        const auto members = level.groups.membersOf(g);
+        for (size_t i = 0; i < group.clusters.shapes.size(); ++i)
+        {
+            next.refined_group.push_back(level.first_group + g);
+            const int tried = group.retried ? std::min(level.retries[members[i]] + 1, 255) : 0;
+            next.retries.push_back(static_cast<uint8_t>(tried));
+        }
+        takeVertices(mesh, group.outcome, group.clusters);
+        next.store.append(group.clusters);
+        group.clusters = {};
+        if (group.isRoot())
+            for (const uint32_t member : members)
+                next.drawn_below += level.store.shapes[member].triangle_count;
+    }
+    mesh::freeMemory(level.store.errors);
+    return next;
+}
+
+/// A sphere around those of all groups and the vertices of the authored level.
+Sphere setSphere(const Build& build, const Level& level, const AuthoredLevel& authored)
+{
+    std::vector<Sphere> spheres;
+    std::vector<Float3> points;
+    for (size_t g = 0; g < level.groups.count(); ++g)
+        spheres.push_back(groupSphere(build, level, level.groups.membersOf(g)));
+    for (const Sphere& sphere : spheres)
+        points.push_back(sphere.center);
+    Sphere sphere = sphereOfSpheres(spheres, sphereOfPoints(points));
+    points.clear();
+    for (const uint32_t vertex : authored.corners)
+        points.push_back(build.mesh.vertices.positions[vertex]);
+    growToHold(sphere, points);
+    return {sphere.center, roundUp(sphere.radius * kMonotoneSlack)};
+}
+
+/// Replace all groups of the level at once by the next authored level, and return that.
+Level switchToAuthored(Build& build, Level& level, const LevelPlan& plan,
+                       std::span<const uint32_t> source_corners)
+{
+    const AuthoredLevel& authored = build.authored.front();
+    const auto& positions = build.mesh.vertices.positions;
+    const auto all = std::span<const uint32_t>(level.groups.members);
+    // what is nearer than the level below makes no difference
+    const float carried = *std::max_element(level.store.errors.begin(), level.store.errors.end());
+    const SurfaceBound bound =
+        boundSurfaces({positions, source_corners}, {positions, authored.corners}, double{carried});
+    const double upper = build.mesh.deforms()
+                             ? boundDeformedSurfaces(build.mesh, source_corners, authored.corners)
+                             : bound.upper;
+    // without a bound the level is as good as never drawn
+    constexpr double kMost = 1e30;
+    const float distance = roundUp(std::min(upper + double{build.mesh.grid.error}, kMost));
+    float weight = 1;
+    for (const GroupGoal& goal : plan.goals)
+        weight = std::max(weight, goal.error_weight);
+
+    BuiltGroup group;
+    group.sphere = setSphere(build, level, authored);
+    group.errors =
+        errorsOf(build, level, all)
+            .orOf({distance, measureAttributes(build.mesh, source_corners, authored), weight}, build.config);
+    group.outcome.loose_pieces = bound.loose_pieces;
+    level.built.assign(level.groups.count(), group);
+    for (uint32_t g = 0; g < level.built.size(); ++g)
+        level.built[g].set_offset = g;
+
+    Level next;
+    next.first_group = level.first_group + static_cast<uint32_t>(level.groups.count());
+    build.mesh.corners = authored.corners;
+    build.mesh.materials = authored.materials;
+    next.store = splitMesh(build.mesh);
+    mesh::freeMemory(build.mesh.corners);
+    mesh::freeMemory(build.mesh.materials);
+    mesh::freeMemory(level.store.errors);
+    next.store.errors.assign(next.store.errors.size(), distance);
+    next.refined_group.assign(next.store.shapes.size(), level.first_group);
+    next.retries.assign(next.store.shapes.size(), 0);
+    build.level_of_authored[authored.authored] = static_cast<uint32_t>(build.levels.size());
+    build.authored = build.authored.subspan(1);
+    return next;
+}
+
+/// Whether the level that the plan makes would have no more triangles than the next authored one.
+bool authoredIsNext(const Build& build, const LevelPlan& plan)
+{
+    uint64_t planned = 0;
+    for (const GroupGoal& goal : plan.goals)
+        planned += goal.triangles;
+    return !build.authored.empty() && planned <= build.authored.front().triangleCount();
+}
+
+/// What replaces the level's groups: what they are simplified to, or a level that was made by hand.
+Level replaceGroups(Build& build, Level& level, std::span<const uint8_t> locked,
+                    std::span<const uint32_t> source_corners)
+{
+    LevelPlan plan = planLevel(build.config.reduction, static_cast<uint32_t>(build.levels.size() - 1),
+                               level.store, level.groups, level.drawn_below);
+    if (authoredIsNext(build, plan))
+        return switchToAuthored(build, level, plan, source_corners);
+    if (plan.balanced)
+        balanceGoals({build.mesh, level.store, level.groups, locked, build.config}, plan.goals);
+    buildGroups(build, level, locked, plan);
+    if (!build.authored.empty() && isStuck(plan, keptTriangles(level)))
+        return switchToAuthored(build, level, plan, source_corners);
+    return nextLevel(build.mesh, level);
+}
+
+} // namespace
+
+void buildLevels(Build& build)
+{
+    // authored levels are measured against the source, and take its place in the mesh
+    const std::vector<uint32_t> source_corners =
+        build.authored.empty() ? std::vector<uint32_t>{} : build.mesh.corners;
+    std::vector<uint8_t> pinned(build.mesh.position_count, 0);
+    std::vector<uint8_t> locked = pinned;
+    Level first;
+    first.store = splitMesh(build.mesh);
+    mesh::freeMemory(build.mesh.corners);
+    mesh::freeMemory(build.mesh.materials);
+    first.refined_group.assign(first.store.shapes.size(), kNone);
+    first.retries.assign(first.store.shapes.size(), 0);
+    build.levels.push_back(std::move(first));
+    while (true)
+    {
+        Level& level = build.levels.back();
+        level.groups = groupClusters(build.mesh, level.store, locked, build.config);
+        locked = lockSharedPositions(build.mesh, level.store, level.groups, pinned);
+        const size_t authored_left = build.authored.size();
+        Level next = replaceGroups(build, level, locked, source_corners);
+        pinRoots(build.mesh, level, pinned);
+        if (build.authored.size() != authored_left)
+            locked.assign(locked.size(), 0);
+        pinned.resize(build.mesh.position_count, 0);
+        locked.resize(build.mesh.position_count, 0);
+        if (next.store.shapes.empty())
+            return;
+        build.levels.push_back(std::move(next));
+    }
+}
+
+} // namespace hearth::clusters

@@ -1,0 +1,66 @@
+// The levels of a hierarchy while they are built, and what builds them.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "cook/clusters/core/cluster.h"
+#include "cook/clusters/core/hierarchy.h"
+#include "cook/clusters/error/group_errors.h"
+#include "cook/clusters/levels/authored_levels.h"
+#include "cook/clusters/levels/reduce.h"
+#include "cook/clusters/partition/grouping.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace hearth::clusters
+{
+
+/// A group of a level that is built. Groups of all levels are numbered on, finest level first.
+struct BuiltGroup
+{
+    Sphere sphere;
+    GroupErrors errors;
+    ClusterStore clusters; ///< what replaces it, until the next level has taken it
+    bool stuck = false;
+    bool retried = false;
+    uint32_t set_offset = 0; ///< formats::GroupRecord::set_offset
+    Reduced outcome;         ///< for the counts
+
+    bool isRoot() const { return std::isinf(errors.lod); }
+};
+
+struct Level
+{
+    ClusterStore store;
+    std::vector<uint32_t> refined_group; ///< for each cluster, number of the group it was made from, or kNone
+    std::vector<uint8_t> retries;        ///< for each cluster, how often it was passed on unchanged
+    Groups groups;
+    uint32_t first_group = 0; ///< number of its first group
+    uint64_t drawn_below = 0; ///< triangles of the roots of finer levels
+    std::vector<BuiltGroup> built;
+};
+
+/// The levels so far, and lookups by group number.
+struct Build
+{
+    PreparedMesh mesh;
+    const Config& config;
+    std::vector<Level> levels;
+    std::span<const AuthoredLevel> authored; ///< those that are to come
+    std::vector<uint32_t> level_of_authored; ///< by number of the authored mesh; kNone: not used
+
+    const BuiltGroup& group(uint32_t number) const
+    {
+        const auto after =
+            std::upper_bound(levels.begin(), levels.end(), number,
+                             [](uint32_t n, const Level& level) { return n < level.first_group; });
+        const Level& level = *(after - 1);
+        return level.built[number - level.first_group];
+    }
+};
+
+/// Group, simplify and split level after level until nothing is left to simplify.
+void buildLevels(Build& build);
+
+} // namespace hearth::clusters

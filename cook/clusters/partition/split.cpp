@@ -1,0 +1,481 @@
+// Surface-area cost as for ray-tracing hierarchies: J. D. MacDonald, K. S. Booth, "Heuristics for ray tracing using
+// space subdivision", 1990; bins: I. Wald, "On fast construction of SAH-based bounding volume hierarchies", 2007.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/clusters/partition/split.h"
+
+#include "cook/clusters/core/islands.h"
+#include "cook/clusters/core/lanes.h"
+#include "formats/base/assert.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <memory>
+
+#include <tbb/parallel_for.h>
+
+namespace hearth::clusters
+{
+
+namespace
+{
+
+using formats::kClusterMaxTriangles;
+using formats::kClusterMaxVertices;
+
+constexpr size_t kBinCount = 32;
+
+// Nodes above this are cut at the median of their longest side: where the top cuts go does not change the clusters
+// measurably, and a histogram of one axis costs a third of the full search.
+constexpr size_t kMedianOnly = 4096;
+
+// Nodes up to this size are taken to be alike all over in how many vertices their triangles share.
+constexpr size_t kEvenNode = 2048;
+
+struct Cut
+{
+    size_t axis = 0;
+    size_t left_count = 0;
+};
+
+/// Gives the vertices of a cluster their numbers 0, 1, ... in order of first use.
+class VertexNumbers
+{
+public:
+    explicit VertexNumbers(uint32_t limit) : limit_(limit) {}
+
+    /// Number of `vertex`, or kClusterMaxVertices if it would be one too many.
+    uint32_t numberOf(uint32_t vertex)
+    {
+        // whether it is new cannot be foretold: it is put behind the last in any case
+        vertices_[count_] = vertex;
+        uint32_t slot = (vertex * 0x9E3779B1u) >> 22;
+        while (vertices_[std::min(numbers_[slot], count_)] != vertex)
+            slot = (slot + 1) % kSlotCount;
+        const uint32_t number = std::min(numbers_[slot], count_);
+        numbers_[slot] = number;
+        count_ += number == count_ ? 1 : 0;
+        return count_ <= limit_ ? number : kClusterMaxVertices;
+    }
+
+    std::span<const uint32_t> vertices() const { return std::span(vertices_).first(count_); }
+
+private:
+    static constexpr uint32_t kSlotCount = 1024; ///< four times what can be in it
+    static constexpr uint32_t kFree = 0xFFFFFFFFu;
+
+    static constexpr std::array<uint32_t, kSlotCount> allFree()
+    {
+        std::array<uint32_t, kSlotCount> slots{};
+        slots.fill(kFree);
+        return slots;
+    }
+
+    std::array<uint32_t, kSlotCount> numbers_ = allFree();
+    std::array<uint32_t, kClusterMaxVertices + 1> vertices_; ///< and one that may be too many
+    uint32_t limit_;
+    uint32_t count_ = 0;
+};
+
+/// Append the items as one cluster; false if they have too many vertices.
+bool appendLeaf(std::span<const SplitItem> items, const SplitTriangles& triangles, ClusterStore& out)
+{
+    VertexNumbers numbers(triangles.vertex_limit);
+    std::array<uint8_t, kClusterMaxTriangles * 3> indices;
+    size_t index_count = 0;
+    for (const SplitItem& item : items)
+        for (size_t k = 0; k < 3; ++k)
+        {
+            const uint32_t number = numbers.numberOf(triangles.corners[size_t{item.triangle} * 3 + k]);
+            if (number == kClusterMaxVertices)
+                return false;
+            indices[index_count++] = static_cast<uint8_t>(number);
+        }
+    const auto vertices = numbers.vertices();
+    out.shapes.push_back({.first_vertex = static_cast<uint32_t>(out.vertices.size()),
+                          .vertex_count = static_cast<uint32_t>(vertices.size()),
+                          .first_index = static_cast<uint32_t>(out.indices.size()),
+                          .triangle_count = static_cast<uint32_t>(items.size()),
+                          .material = triangles.material});
+    out.vertices.insert(out.vertices.end(), vertices.begin(), vertices.end());
+    out.indices.insert(out.indices.end(), indices.begin(),
+                       indices.begin() + static_cast<ptrdiff_t>(index_count));
+    for (const SplitItem& item : items)
+        out.errors.push_back(triangles.errors[item.triangle]);
+    return true;
+}
+
+/// A box in the first three lanes.
+struct LaneBox
+{
+    Lanes min = allLanes(std::numeric_limits<float>::infinity());
+    Lanes max = allLanes(-std::numeric_limits<float>::infinity());
+
+    void add(Lanes point)
+    {
+        min = minimum(min, point);
+        max = maximum(max, point);
+    }
+    void add(const LaneBox& other)
+    {
+        min = minimum(min, other.min);
+        max = maximum(max, other.max);
+    }
+};
+
+/// An item's center in the first three lanes.
+Lanes centerLanes(const SplitItem& item)
+{
+    return Lanes{item.center.x, item.center.y, item.center.z, 0};
+}
+
+LaneBox boxOf(std::span<const SplitItem> items)
+{
+    LaneBox box;
+    for (const SplitItem& item : items)
+        box.add(centerLanes(item));
+    return box;
+}
+
+/// Half the surface of a box that is not empty. Where floats have no number for its sides it is none, and no cut is
+/// better than that at the median.
+double halfArea(const LaneBox& box)
+{
+    const Lanes sides = box.max - box.min;
+    const double x = double{sides[0]}, y = double{sides[1]}, z = double{sides[2]};
+    return x * y + y * z + z * x;
+}
+
+/// Maps coordinates to bins of each axis, safely for any finite range: halves do not overflow.
+class Binning
+{
+public:
+    explicit Binning(const LaneBox& box)
+        : half_low_(box.min * allLanes(0.5f)), half_sides_(box.max * allLanes(0.5f) - half_low_)
+    {
+        // an axis too short for floats has one bin
+        for (size_t axis = 0; axis < 3; ++axis)
+            if (half_sides_[axis] > 1e-35f)
+                scale_[axis] = kBinCount / half_sides_[axis];
+    }
+
+    LaneMask operator()(const SplitItem& item) const
+    {
+        const Lanes bin = (centerLanes(item) * allLanes(0.5f) - half_low_) * scale_;
+        return __builtin_convertvector(minimum(bin, allLanes(kBinCount - 1)), LaneMask);
+    }
+
+    size_t longestAxis() const
+    {
+        const float x = half_sides_[0], y = half_sides_[1], z = half_sides_[2];
+        return x >= y && x >= z ? 0 : y >= z ? 1 : 2;
+    }
+
+private:
+    Lanes half_low_, half_sides_;
+    Lanes scale_{};
+};
+
+/// The multiple of `capacity` nearest to `count` that leaves something on both sides.
+size_t roundToFull(size_t count, size_t total, size_t capacity)
+{
+    const size_t last = (total - 1) / capacity * capacity;
+    return std::clamp((count + capacity / 2) / capacity * capacity, capacity, last);
+}
+
+struct AxisCost
+{
+    double cost;
+    Cut cut;
+};
+
+using BinCounts = std::array<uint32_t, kBinCount>;
+
+struct Bins
+{
+    std::array<LaneBox, kBinCount> boxes;
+    BinCounts counts{};
+};
+
+/// The cheapest bin border along one axis. Counts are rounded to full clusters before they are weighed.
+AxisCost bestCutOfAxis(const Bins& bins, size_t axis, size_t item_count, size_t capacity)
+{
+    std::array<double, kBinCount> right_area{};
+    LaneBox right;
+    for (size_t b = kBinCount; b-- > 1;)
+    {
+        right.add(bins.boxes[b]);
+        right_area[b] = halfArea(right);
+    }
+    AxisCost best{std::numeric_limits<double>::infinity(), {axis, 0}};
+    LaneBox left;
+    size_t left_count = 0;
+    for (size_t b = 0; b + 1 < kBinCount; ++b)
+    {
+        left.add(bins.boxes[b]);
+        left_count += bins.counts[b];
+        if (bins.counts[b] == 0 || left_count == item_count)
+            continue;
+        const size_t cut = roundToFull(left_count, item_count, capacity);
+        const double cost = halfArea(left) * static_cast<double>(cut) +
+                            right_area[b + 1] * static_cast<double>(item_count - cut);
+        if (cost < best.cost)
+            best = {cost, {axis, cut}};
+    }
+    return best;
+}
+
+/// Cuts nodes in two.
+class NodeCutter
+{
+public:
+    /// most_items  of a node
+    explicit NodeCutter(size_t most_items) : aside_(std::make_unique_for_overwrite<SplitItem[]>(most_items))
+    {
+    }
+
+    /// Cut at a multiple of `capacity`. Returns how many items are on the left; they come first.
+    size_t operator()(std::span<SplitItem> items, size_t capacity)
+    {
+        const Binning binning(boxOf(items));
+        Cut cut{binning.longestAxis(), roundToFull(items.size() / 2, items.size(), capacity)};
+        if (items.size() > kMedianOnly)
+            apply(items, cut, binning, countsOf(items, binning, cut.axis));
+        else
+        {
+            const std::array<Bins, 3> bins = binsOf(items, binning);
+            double least = std::numeric_limits<double>::infinity();
+            for (size_t axis = 0; axis < 3; ++axis)
+                if (const AxisCost found = bestCutOfAxis(bins[axis], axis, items.size(), capacity);
+                    found.cost < least)
+                {
+                    least = found.cost;
+                    cut = found.cut;
+                }
+            apply(items, cut, binning, bins[cut.axis].counts);
+        }
+        return cut.left_count;
+    }
+
+private:
+    static BinCounts countsOf(std::span<const SplitItem> items, const Binning& binning, size_t axis)
+    {
+        BinCounts counts{};
+        for (const SplitItem& item : items)
+            ++counts[static_cast<size_t>(binning(item)[axis])];
+        return counts;
+    }
+
+    static std::array<Bins, 3> binsOf(std::span<const SplitItem> items, const Binning& binning)
+    {
+        std::array<Bins, 3> bins;
+        for (const SplitItem& item : items)
+        {
+            const LaneMask bin = binning(item);
+            for (size_t axis = 0; axis < 3; ++axis)
+            {
+                const auto b = static_cast<size_t>(bin[axis]);
+                bins[axis].boxes[b].add(centerLanes(item));
+                ++bins[axis].counts[b];
+            }
+        }
+        return bins;
+    }
+
+    /// Move the items that are first along the axis to the front. Only those in one bin must be compared for that: that of
+    /// the last on the left.
+    void apply(std::span<SplitItem> items, Cut cut, const Binning& binning, const BinCounts& counts)
+    {
+        size_t bin = 0, before = 0;
+        for (; before + counts[bin] < cut.left_count; ++bin)
+            before += counts[bin];
+        // without branches, which could not be foretold: each item goes to all three places, and one of them is kept
+        size_t left = 0, right = 0, middle = items.size();
+        for (const SplitItem item : items)
+        {
+            const auto b = static_cast<size_t>(binning(item)[cut.axis]);
+            items[left] = item;
+            aside_[right] = item;
+            aside_[middle - 1] = item;
+            left += b < bin ? 1 : 0;
+            right += b > bin ? 1 : 0;
+            middle -= b == bin ? 1 : 0;
+        }
+        const auto of_bin = std::span(aside_.get() + middle, items.size() - middle);
+        moveToFront(of_bin, cut.axis, cut.left_count - before);
+        std::copy(of_bin.begin(), of_bin.end(), items.begin() + static_cast<ptrdiff_t>(left));
+        std::copy_n(aside_.get(), right, items.end() - static_cast<ptrdiff_t>(right));
+    }
+
+    /// The same by comparing. Ties go by triangle: one result on every machine.
+    static void moveToFront(std::span<SplitItem> items, size_t axis, size_t count)
+    {
+        const auto order = [&](const SplitItem& a, const SplitItem& b)
+        {
+            const float x = centerLanes(a)[axis], y = centerLanes(b)[axis];
+            return x < y || (x == y && a.triangle < b.triangle);
+        };
+        std::nth_element(items.begin(), items.begin() + static_cast<ptrdiff_t>(count), items.end(), order);
+    }
+
+    std::unique_ptr<SplitItem[]> aside_; ///< items of the right half and of the bin that is cut
+};
+
+/// Triangles that a cluster of these items can have on average before its vertices run out.
+size_t clusterCapacity(std::span<const SplitItem> items, const SplitTriangles& triangles)
+{
+    std::vector<uint32_t> vertices;
+    vertices.reserve(items.size() * 3);
+    for (const SplitItem& item : items)
+        for (size_t k = 0; k < 3; ++k)
+            vertices.push_back(triangles.corners[size_t{item.triangle} * 3 + k]);
+    std::sort(vertices.begin(), vertices.end());
+    const auto unique = static_cast<size_t>(std::unique(vertices.begin(), vertices.end()) - vertices.begin());
+    return std::clamp<size_t>(triangles.vertex_limit * items.size() / unique, 1, kClusterMaxTriangles);
+}
+
+/// Cut `root` into clusters of up to `capacity` triangles, depth first without recursion. A cluster with too many
+/// vertices is halved, or ends the work with false.
+bool splitNode(std::span<SplitItem> root, size_t capacity, bool halve, const SplitTriangles& triangles,
+               NodeCutter& cutNode, ClusterStore& out)
+{
+    std::vector<std::span<SplitItem>> stack{root};
+    while (!stack.empty())
+    {
+        const std::span<SplitItem> items = stack.back();
+        stack.pop_back();
+        size_t part = capacity;
+        if (items.size() <= capacity)
+        {
+            if (appendLeaf(items, triangles, out))
+                continue;
+            if (!halve)
+                return false;
+            part = (items.size() + 1) / 2;
+        }
+        const size_t left = cutNode(items, part);
+        stack.push_back(items.subspan(left));
+        stack.push_back(items.first(left));
+    }
+    return true;
+}
+
+/// Cut a node whose clusters share vertices about evenly: into full clusters if their vertices suffice, else again
+/// into smaller ones of the size for which they do.
+void splitEvenNode(std::span<SplitItem> items, const SplitTriangles& triangles, NodeCutter& cutNode,
+                   ClusterStore& out)
+{
+    const size_t shape_count = out.shapes.size();
+    const size_t vertex_count = out.vertices.size();
+    const size_t index_count = out.indices.size();
+    if (splitNode(items, kClusterMaxTriangles, false, triangles, cutNode, out))
+        return;
+    out.shapes.resize(shape_count);
+    out.vertices.resize(vertex_count);
+    out.indices.resize(index_count);
+    out.errors.resize(index_count / 3);
+    splitNode(items, clusterCapacity(items, triangles), true, triangles, cutNode, out);
+}
+
+/// The top of the tree, a wave of nodes at a time, until they are small enough to be split one per task.
+std::vector<std::span<SplitItem>> splitTop(std::span<SplitItem> items)
+{
+    std::vector<std::span<SplitItem>> nodes{items};
+    for (bool changed = true; changed;)
+    {
+        std::vector<std::array<std::span<SplitItem>, 2>> halves(nodes.size());
+        tbb::parallel_for(size_t{0}, nodes.size(),
+                          [&](size_t i)
+                          {
+                              halves[i] = {nodes[i], {}};
+                              if (nodes[i].size() <= kMedianOnly)
+                                  return;
+                              const size_t left = NodeCutter(nodes[i].size())(nodes[i], kClusterMaxTriangles);
+                              halves[i] = {nodes[i].first(left), nodes[i].subspan(left)};
+                          });
+        changed = false;
+        nodes.clear();
+        for (const auto& [left, right] : halves)
+        {
+            nodes.push_back(left);
+            if (!right.empty())
+                nodes.push_back(right);
+            changed |= !right.empty();
+        }
+    }
+    return nodes;
+}
+
+/// The triangles ordered by material, with their centers.
+std::vector<SplitItem> itemsOf(const PreparedMesh& mesh)
+{
+    std::vector<Float3> centers(mesh.triangleCount());
+    for (size_t t = 0; t < centers.size(); ++t)
+    {
+        const uint32_t* corner = &mesh.corners[t * 3];
+        const auto place = [&](size_t k) { return mesh.vertices.positions[corner[k]]; };
+        centers[t] = triangleCenter(place(0), place(1), place(2));
+    }
+    gatherSmallIslands(centers, mesh.corners, mesh.vertices.vertexCount());
+    std::vector<SplitItem> items(centers.size());
+    for (uint32_t t = 0; t < items.size(); ++t)
+        items[t] = {centers[t], t};
+    const auto materials = std::span(mesh.materials);
+    const bool mixed = std::any_of(materials.begin(), materials.end(),
+                                   [&](uint32_t material) { return material != materials.front(); });
+    if (mixed)
+        std::stable_sort(items.begin(), items.end(),
+                         [&](const SplitItem& a, const SplitItem& b)
+                         { return materials[a.triangle] < materials[b.triangle]; });
+    return items;
+}
+
+} // namespace
+
+void splitIntoClusters(std::span<SplitItem> items, const SplitTriangles& triangles, ClusterStore& out)
+{
+    HEARTH_ASSERT(!items.empty());
+    NodeCutter cutNode(items.size());
+    std::vector<std::span<SplitItem>> stack{items};
+    while (!stack.empty())
+    {
+        const std::span<SplitItem> node = stack.back();
+        stack.pop_back();
+        if (node.size() <= kEvenNode)
+        {
+            splitEvenNode(node, triangles, cutNode, out);
+            continue;
+        }
+        const size_t left = cutNode(node, kClusterMaxTriangles);
+        stack.push_back(node.subspan(left));
+        stack.push_back(node.first(left));
+    }
+}
+
+ClusterStore splitMesh(const PreparedMesh& mesh)
+{
+    std::vector<SplitItem> items = itemsOf(mesh);
+    const std::vector<float> errors(mesh.triangleCount(), mesh.grid.error);
+    ClusterStore out;
+    for (size_t first = 0; first < items.size();)
+    {
+        const uint32_t material = mesh.materials[items[first].triangle];
+        size_t last = first;
+        while (last < items.size() && mesh.materials[items[last].triangle] == material)
+            ++last;
+        const auto nodes = splitTop(std::span(items).subspan(first, last - first));
+        const SplitTriangles triangles{mesh.corners, errors, material, clusterVertexLimit(mesh)};
+        std::vector<ClusterStore> parts(nodes.size());
+        tbb::parallel_for(size_t{0}, nodes.size(),
+                          [&](size_t i) { splitIntoClusters(nodes[i], triangles, parts[i]); });
+        for (ClusterStore& part : parts)
+        {
+            out.append(part);
+            part = {};
+        }
+        first = last;
+    }
+    return out;
+}
+
+} // namespace hearth::clusters

@@ -1,0 +1,339 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/clusters/program/profile.h"
+
+#include "cook/tools/toml.h"
+#include "formats/base/suggest.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fmt/format.h>
+#include <fstream>
+#include <iterator>
+#include <limits>
+
+namespace hearth::clusters
+{
+
+namespace
+{
+
+using tools::TomlNode;
+
+/// Where in the file a value stands, for messages.
+struct Place
+{
+    const std::string& file;
+    std::string key;
+
+    Place at(std::string_view name) const
+    {
+        return {file, key.empty() ? std::string(name) : key + "." + std::string(name)};
+    }
+    Place at(size_t index) const { return {file, fmt::format("{}[{}]", key, index)}; }
+
+    Error wrong(Issue issue, const TomlNode& node, std::string detail) const
+    {
+        return {issue, file, fmt::format("line {}, {}", node.line, key), std::move(detail)};
+    }
+};
+
+using Keys = std::vector<std::string>;
+
+/// Errors: profile_value where the node is no table, profile_key where it has a key beside `known`.
+Result<const TomlNode*> tableAt(const TomlNode& node, const Place& place, const Keys& known)
+{
+    if (!node.isTable())
+        return place.wrong(Issue::profile_value, node, "must be a table");
+    for (const TomlNode& member : node.children)
+    {
+        if (std::find(known.begin(), known.end(), member.key) != known.end())
+            continue;
+        const std::string nearest = nearestMatch(member.key, known);
+        return place.at(member.key)
+            .wrong(Issue::profile_key, member,
+                   nearest.empty() ? "this key is not known"
+                                   : fmt::format("this key is not known: did you mean '{}'?", nearest));
+    }
+    return &node;
+}
+
+Result<const TomlNode*> arrayAt(const TomlNode& node, const Place& place)
+{
+    if (!node.isArray() || node.children.empty())
+        return place.wrong(Issue::profile_value, node, "must be an array of at least one table");
+    return &node;
+}
+
+/// The member's number, or `otherwise` where it is not there. errors: profile_value.
+Result<float> numberAt(const TomlNode& table, std::string_view name, const Place& place, float low,
+                       float high, float otherwise)
+{
+    const TomlNode* node = table.find(name);
+    if (node == nullptr)
+        return otherwise;
+    const auto value = static_cast<float>(node->asNumber().value_or(NAN));
+    if (value >= low && value <= high)
+        return value;
+    return place.at(name).wrong(Issue::profile_value, *node,
+                                fmt::format("must be a number from {:g} to {:g}", low, high));
+}
+
+Result<uint32_t> countAt(const TomlNode& table, std::string_view name, const Place& place)
+{
+    const TomlNode* node = table.find(name);
+    const TomlNode& culprit = node == nullptr ? table : *node;
+    constexpr int64_t kMost = std::numeric_limits<int32_t>::max();
+    if (node != nullptr && node->isWhole() && node->whole >= 1 && node->whole <= kMost)
+        return static_cast<uint32_t>(node->whole);
+    return place.at(name).wrong(Issue::profile_value, culprit, "must be a whole number from 1 on");
+}
+
+Result<std::string> patternAt(const TomlNode& table, const Place& place)
+{
+    const TomlNode* node = table.find("name");
+    if (node != nullptr && node->isText() && !node->text.empty())
+        return node->text;
+    return place.at("name").wrong(Issue::profile_value, node == nullptr ? table : *node,
+                                  "must be a text: the name that the rule is for, with * and ? as wildcards");
+}
+
+Result<LevelCurve> curveAt(const TomlNode& node, const Place& place)
+{
+    HEARTH_ASSIGN_OR_RETURN(const TomlNode* array, arrayAt(node, place));
+    LevelCurve curve;
+    for (size_t i = 0; i < array->children.size(); ++i)
+    {
+        const Place at = place.at(i);
+        HEARTH_ASSIGN_OR_RETURN(const TomlNode* table,
+                                tableAt(array->children[i], at, {"keep", "error_weight"}));
+        LevelStep step;
+        HEARTH_ASSIGN_OR_RETURN(step.keep,
+                                numberAt(*table, "keep", at, kSmallestKeep, kLargestKeep, step.keep));
+        HEARTH_ASSIGN_OR_RETURN(step.error_weight, numberAt(*table, "error_weight", at, 1,
+                                                            kLargestErrorWeight, step.error_weight));
+        curve.push_back(step);
+    }
+    return curve;
+}
+
+Result<std::vector<LevelTarget>> targetsAt(const TomlNode& node, const Place& place)
+{
+    HEARTH_ASSIGN_OR_RETURN(const TomlNode* array, arrayAt(node, place));
+    std::vector<LevelTarget> targets;
+    for (size_t i = 0; i < array->children.size(); ++i)
+    {
+        const Place at = place.at(i);
+        HEARTH_ASSIGN_OR_RETURN(const TomlNode* table,
+                                tableAt(array->children[i], at, {"level", "triangles"}));
+        LevelTarget target;
+        HEARTH_ASSIGN_OR_RETURN(target.level, countAt(*table, "level", at));
+        HEARTH_ASSIGN_OR_RETURN(target.triangles, countAt(*table, "triangles", at));
+        if (!targets.empty() &&
+            (target.level <= targets.back().level || target.triangles >= targets.back().triangles))
+            return at.wrong(Issue::profile_value, *table,
+                            "must have a higher level and fewer triangles than the target before");
+        targets.push_back(target);
+    }
+    return targets;
+}
+
+/// The member's number, if it is there. errors: profile_value.
+Result<std::optional<float>> weightAt(const TomlNode& table, std::string_view name, const Place& place)
+{
+    constexpr float kMost = 1e6f;
+    if (table.find(name) == nullptr)
+        return std::optional<float>();
+    HEARTH_ASSIGN_OR_RETURN(const float weight, numberAt(table, name, place, 0, kMost, 0));
+    return std::optional(weight);
+}
+
+/// A key with two legal numbers.
+Result<std::optional<uint32_t>> choiceAt(const TomlNode& table, const char* key, int64_t one, int64_t other,
+                                         const Place& place)
+{
+    const TomlNode* node = table.find(key);
+    if (node == nullptr)
+        return std::optional<uint32_t>();
+    if (!node->isWhole() || (node->whole != one && node->whole != other))
+        return place.at(key).wrong(Issue::profile_value, *node, fmt::format("must be {} or {}", one, other));
+    return std::optional(static_cast<uint32_t>(node->whole));
+}
+
+Result<MeshSettings> settingsAt(const TomlNode& table, const Place& place)
+{
+    MeshSettings settings;
+    HEARTH_ASSIGN_OR_RETURN(settings.normal_bits, choiceAt(table, "normal_bits", 8, 16, place));
+    HEARTH_ASSIGN_OR_RETURN(settings.influences, choiceAt(table, "influences", 4, 8, place));
+    HEARTH_ASSIGN_OR_RETURN(settings.normal_error_weight, weightAt(table, "normal_error_weight", place));
+    HEARTH_ASSIGN_OR_RETURN(settings.uv_error_weight, weightAt(table, "uv_error_weight", place));
+    return settings;
+}
+
+/// The keys of settingsAt beside others.
+Keys withSettings(Keys keys)
+{
+    keys.insert(keys.end(), {"normal_bits", "normal_error_weight", "uv_error_weight", "influences"});
+    return keys;
+}
+
+Result<MeshRule> meshRuleAt(const TomlNode& node, const Place& place)
+{
+    HEARTH_ASSIGN_OR_RETURN(const TomlNode* table,
+                            tableAt(node, place, withSettings({"name", "levels", "targets"})));
+    MeshRule rule;
+    HEARTH_ASSIGN_OR_RETURN(rule.name, patternAt(*table, place));
+    HEARTH_ASSIGN_OR_RETURN(rule.settings, settingsAt(*table, place));
+    if (const TomlNode* levels = table->find("levels"))
+    {
+        HEARTH_ASSIGN_OR_RETURN(rule.levels, curveAt(*levels, place.at("levels")));
+    }
+    if (const TomlNode* targets = table->find("targets"))
+    {
+        HEARTH_ASSIGN_OR_RETURN(rule.targets, targetsAt(*targets, place.at("targets")));
+    }
+    return rule;
+}
+
+Result<MaterialRule> materialRuleAt(const TomlNode& node, const Place& place)
+{
+    HEARTH_ASSIGN_OR_RETURN(const TomlNode* table, tableAt(node, place, {"name", "levels"}));
+    MaterialRule rule;
+    HEARTH_ASSIGN_OR_RETURN(rule.name, patternAt(*table, place));
+    const TomlNode* levels = table->find("levels");
+    if (levels == nullptr)
+        return place.at("levels").wrong(Issue::profile_value, node, "a rule for materials needs levels");
+    HEARTH_ASSIGN_OR_RETURN(rule.levels, curveAt(*levels, place.at("levels")));
+    return rule;
+}
+
+/// One rule for each table of the array `name`, if that is there.
+template <typename Rule>
+Status readRules(const TomlNode& table, std::string_view name, const Place& place,
+                 Result<Rule> (*readRule)(const TomlNode&, const Place&), std::vector<Rule>& rules)
+{
+    const TomlNode* node = table.find(name);
+    if (node == nullptr)
+        return success();
+    HEARTH_ASSIGN_OR_RETURN(const TomlNode* array, arrayAt(*node, place.at(name)));
+    for (size_t i = 0; i < array->children.size(); ++i)
+    {
+        HEARTH_ASSIGN_OR_RETURN(Rule rule, readRule(array->children[i], place.at(name).at(i)));
+        rules.push_back(std::move(rule));
+    }
+    return success();
+}
+
+Result<Profile> profileOf(const TomlNode& root, const std::string& path)
+{
+    // the other tables are for other cookers, and hearth reads what a profile inherits
+    HEARTH_TRY(tableAt(root, {path, ""},
+                       {"animation", "bricks", "clusters", "import", "inherits", "textures", "visibility"}));
+    Profile profile;
+    const TomlNode* node = root.find("clusters");
+    if (node == nullptr)
+        return profile;
+    const Place place{path, "clusters"};
+    HEARTH_ASSIGN_OR_RETURN(const TomlNode* table,
+                            tableAt(*node, place, withSettings({"levels", "mesh", "material"})));
+    HEARTH_ASSIGN_OR_RETURN(profile.settings, settingsAt(*table, place));
+    if (const TomlNode* levels = table->find("levels"))
+    {
+        HEARTH_ASSIGN_OR_RETURN(profile.levels, curveAt(*levels, place.at("levels")));
+    }
+    HEARTH_TRY(readRules(*table, "mesh", place, meshRuleAt, profile.meshes));
+    HEARTH_TRY(readRules(*table, "material", place, materialRuleAt, profile.materials));
+    return profile;
+}
+
+} // namespace
+
+Result<Profile> readProfile(const std::string& path)
+{
+    std::error_code error;
+    std::ifstream file(path, std::ios::binary);
+    if (!file.is_open() || std::filesystem::is_directory(path, error))
+        return Error{Issue::input_missing, path, "", "the profile cannot be read"};
+    return parseProfile(std::string(std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()),
+                        path);
+}
+
+Result<Profile> parseProfile(std::string_view text, const std::string& name)
+{
+    tools::TomlFault fault;
+    const std::optional<TomlNode> root = tools::parseToml(text, fault);
+    if (!root)
+        return Error{Issue::profile_syntax, name, fmt::format("line {}", fault.line), fault.text};
+    return profileOf(*root, name);
+}
+
+namespace
+{
+
+void apply(const MeshSettings& settings, Config& config)
+{
+    config.normal_bits = settings.normal_bits.value_or(config.normal_bits);
+    config.normal_error_weight = settings.normal_error_weight.value_or(config.normal_error_weight);
+    config.uv_error_weight = settings.uv_error_weight.value_or(config.uv_error_weight);
+    config.influences = settings.influences.value_or(config.influences);
+}
+
+} // namespace
+
+Config configOf(const Profile& profile, std::string_view mesh_name,
+                std::span<const std::string> material_names)
+{
+    Config config;
+    apply(profile.settings, config);
+    Reduction& reduction = config.reduction;
+    reduction.curve = profile.levels;
+    const auto rule = std::find_if(profile.meshes.begin(), profile.meshes.end(),
+                                   [&](const MeshRule& r) { return matchesPattern(r.name, mesh_name); });
+    if (rule != profile.meshes.end())
+    {
+        apply(rule->settings, config);
+        reduction.curve = rule->levels.value_or(profile.levels);
+        reduction.targets = rule->targets;
+    }
+    for (uint32_t m = 0; m < material_names.size(); ++m)
+    {
+        const auto own =
+            std::find_if(profile.materials.begin(), profile.materials.end(),
+                         [&](const MaterialRule& r) { return matchesPattern(r.name, material_names[m]); });
+        if (own != profile.materials.end())
+            reduction.curve_of_material[m] = own->levels;
+    }
+    return config;
+}
+
+bool matchesPattern(std::string_view pattern, std::string_view text)
+{
+    // after a mismatch, the last * takes one character more: earlier ones need not be tried again
+    size_t p = 0;
+    size_t t = 0;
+    size_t star = std::string_view::npos;
+    size_t star_end = 0;
+    while (t < text.size())
+    {
+        if (p < pattern.size() && pattern[p] == '*')
+        {
+            star = p++;
+            star_end = t;
+        }
+        else if (p < pattern.size() && (pattern[p] == '?' || pattern[p] == text[t]))
+        {
+            ++p;
+            ++t;
+        }
+        else if (star != std::string_view::npos)
+        {
+            p = star + 1;
+            t = ++star_end;
+        }
+        else
+            return false;
+    }
+    return pattern.find_first_not_of('*', p) == std::string_view::npos;
+}
+
+} // namespace hearth::clusters

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/clusters/program/source_part.h"
+
+#include "cook/tools/child_processes.h"
+#include "formats/base/temp_directory.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <cstring>
+#include <memory>
+
+namespace hearth::clusters
+{
+
+using namespace formats;
+
+namespace
+{
+
+constexpr int kInterrupted = 130;
+
+SourcePart failed(const Error& error)
+{
+    std::fprintf(stderr, "%s\n", formatMessage(error).c_str());
+    return {std::nullopt, exitCode(error)};
+}
+
+SourcePart opened(const std::string& path)
+{
+    Result<ContainerReader> reader = ContainerReader::open(path, Check::structure);
+    if (!reader.ok())
+        return failed(reader.error());
+    return {std::move(reader).value(), 0};
+}
+
+/// Whether the file starts as a container; a file that cannot be read is left to hearth-import, whose message says why.
+bool isContainer(const std::string& path)
+{
+    struct Close
+    {
+        void operator()(std::FILE* file) const { std::fclose(file); }
+    };
+    const std::unique_ptr<std::FILE, Close> file(std::fopen(path.c_str(), "rb"));
+    // the first four bytes: a damaged container is for the container's reader to refuse
+    std::array<uint8_t, 4> start{};
+    return file && std::fread(start.data(), start.size(), 1, file.get()) == 1 &&
+           std::equal(start.begin(), start.end(), kMagic);
+}
+
+/// Pass on what hearth-import said, in words of the source, and how it ended.
+int passOn(const tools::ChildEnd& end, const std::string& source, const std::string& part)
+{
+    std::string messages = end.messages;
+    for (size_t at = messages.find(part); at != std::string::npos; at = messages.find(part, at))
+    {
+        messages.replace(at, part.size(), source);
+        at += source.size();
+    }
+    std::fwrite(messages.data(), 1, messages.size(), stderr);
+    if (end.signal == 0)
+        return end.exit_code;
+    return failed({Issue::child_failed, source, "",
+                   std::string("hearth-import was ended by a signal: ") + ::strsignal(end.signal)})
+        .exit_code;
+}
+
+SourcePart importSource(const std::string& source, const ImportArguments& arguments,
+                        const std::string& output)
+{
+    // first, so that it goes last: signals wait until the folder is gone
+    tools::ChildProcesses children;
+    const auto folder = TempDirectory::create(temporaryOr(parentFolder(output)), output);
+    if (!folder.ok())
+        return failed(folder.error());
+    const std::string part = folder->path() + "/import.part";
+    std::vector<std::string> command{tools::programFolder() + "/hearth-import", source, "-o", part};
+    for (const std::string& lod : arguments.lods)
+        command.insert(command.end(), {"--lod", lod});
+    if (!arguments.profile.empty())
+        command.insert(command.end(), {"--profile", arguments.profile});
+    for (const std::string& setting : arguments.settings)
+        command.insert(command.end(), {"--set", setting});
+    const auto child = children.start(command);
+    if (!child.ok())
+        return failed(child.error());
+    const std::optional<tools::ChildEnd> end = children.wait();
+    if (!end)
+        return {std::nullopt, kInterrupted};
+    if (const int code = passOn(*end, source, part); code != 0)
+        return {std::nullopt, code};
+    return opened(part);
+}
+
+} // namespace
+
+SourcePart openSourcePart(const std::string& path, const ImportArguments& arguments,
+                          const std::string& output)
+{
+    if (!isContainer(path))
+        return importSource(path, arguments, output);
+    if (!arguments.lods.empty())
+        return failed(
+            {Issue::usage, path, "", "is an import part: --lod is for hearth-import, which wrote it"});
+    return opened(path);
+}
+
+} // namespace hearth::clusters

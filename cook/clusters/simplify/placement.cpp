@@ -1,0 +1,205 @@
+// Elimination of the attributes from the quadric: H. Hoppe, "New quadric metric for simplifying meshes with appearance
+// attributes", 1999.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/clusters/simplify/placement.h"
+
+#include "cook/clusters/simplify/turning.h"
+#include "cook/mesh/grid.h"
+
+#include <cmath>
+#include <optional>
+
+namespace hearth::clusters
+{
+
+namespace
+{
+
+// The farthest a position goes, in parts of its longest edge.
+constexpr float kFarthest = 1.0f;
+
+constexpr int kMaxHalvings = 2;
+
+/// Solves A x = -b for a symmetric positive definite A.
+std::optional<Float3> solve(const PositionQuadric& q)
+{
+    const double a00 = q.diagonal_c[0], a11 = q.diagonal_c[1], a22 = q.diagonal_c[2];
+    const double a01 = q.mixed[0], a02 = q.mixed[1], a12 = q.mixed[2];
+    const double b0 = q.b[0], b1 = q.b[1], b2 = q.b[2];
+    const double c00 = a11 * a22 - a12 * a12, c01 = a02 * a12 - a01 * a22, c02 = a01 * a12 - a02 * a11;
+    const double c11 = a00 * a22 - a02 * a02, c12 = a01 * a02 - a00 * a12, c22 = a00 * a11 - a01 * a01;
+    const double det = a00 * c00 + a01 * c01 + a02 * c02;
+    const double trace = a00 + a11 + a22;
+    if (!(a00 > 0) || !(c22 > 0) || !(det > 1e-12 * trace * trace * trace))
+        return std::nullopt;
+    const double x = -(c00 * b0 + c01 * b1 + c02 * b2) / det;
+    const double y = -(c01 * b0 + c11 * b1 + c12 * b2) / det;
+    const double z = -(c02 * b0 + c12 * b1 + c22 * b2) / det;
+    return Float3{static_cast<float>(x), static_cast<float>(y), static_cast<float>(z)};
+}
+
+class Placer
+{
+public:
+    Placer(const GroupMesh& group, StarMesh& mesh, const Quadrics& quadrics)
+        : group_(group),
+          mesh_(mesh),
+          quadrics_(quadrics),
+          result_{group.positions, std::vector<Float3>(group.positions.size()),
+                  std::vector<uint8_t>(group.positions.size(), 0), group.attributes}
+    {
+    }
+
+    Placement run(std::span<const uint8_t> movable)
+    {
+        for (uint32_t p = 0; p < movable.size(); ++p)
+            if (movable[p] != 0 && mesh_.degree(p) > 0)
+                place(p);
+        return std::move(result_);
+    }
+
+private:
+    void place(uint32_t position)
+    {
+        if (!gatherWedges(position))
+            return;
+        PositionQuadric quadric = quadrics_.position[position];
+        for (const uint32_t wedge : wedges_)
+            eliminateAttributes(wedge, quadric);
+        const std::optional<Float3> best = solve(quadric);
+        Float3 offset = best ? *best : Float3{};
+        const float longest = longestEdge(position);
+        if (!(dot(offset, offset) <= kFarthest * kFarthest * longest * longest))
+            offset = {};
+        result_.object_places[position] = objectPlace(group_, group_.positions[position]);
+        for (int halvings = 0; halvings <= kMaxHalvings; ++halvings, offset = offset * 0.5f)
+        {
+            const Float3 object_place = objectPlace(group_, group_.positions[position] + offset);
+            const Float3 place = localPlace(group_, object_place);
+            if (turnsOver(position, place))
+                continue;
+            result_.places[position] = place;
+            result_.object_places[position] = object_place;
+            break;
+        }
+        for (const uint32_t wedge : wedges_)
+            solveAttributes(wedge, result_.places[position] - group_.positions[position]);
+        result_.remade[position] = 1;
+    }
+
+    /// Returns false at an open border: it keeps its place, the next mesh may lie against it.
+    bool gatherWedges(uint32_t position)
+    {
+        if (mesh_.gatherFan(position))
+        {
+            wedges_.assign(1, mesh_.fanWedge());
+            return true;
+        }
+        mesh_.gather(position);
+        const auto ring = mesh_.ring();
+        wedges_.assign(mesh_.wedges().begin(), mesh_.wedges().end());
+        return std::all_of(ring.begin(), ring.end(),
+                           [&](const Spoke& spoke) { return spoke.regular(mesh_.layers()); });
+    }
+
+    float longestEdge(uint32_t position) const
+    {
+        float longest2 = 0;
+        for (const Corner corner : mesh_.star(position))
+        {
+            // around a closed star, each neighbour comes next once
+            const Float3 along =
+                result_.places[mesh_.positionAt(nextCorner(corner))] - group_.positions[position];
+            longest2 = std::max(longest2, dot(along, along));
+        }
+        return std::sqrt(longest2);
+    }
+
+    /// What the quadric is when the wedge takes the attributes that are best wherever it goes.
+    void eliminateAttributes(uint32_t wedge, PositionQuadric& quadric) const
+    {
+        const Lanes inverse = allLanes(inverseOr0(quadrics_.wedge_weight[wedge]));
+        PlaneSums sums;
+        LaneVector of_b{};
+        for (uint32_t r = 0; r < group_.attribute_rows; ++r)
+        {
+            const AttributeGradients& g = quadrics_.gradients[size_t{wedge} * group_.attribute_rows + r];
+            const LaneVector scaled = g.gradient * inverse;
+            sums.add(g.gradient, scaled);
+            of_b = of_b + scaled * g.offset;
+        }
+        PositionQuadric gain;
+        sums.addTo(gain);
+        gain.b = sumsOfLanes(of_b);
+        quadric.diagonal_c -= gain.diagonal_c;
+        quadric.mixed -= gain.mixed;
+        quadric.b -= gain.b;
+    }
+
+    void solveAttributes(uint32_t wedge, Float3 offset)
+    {
+        const Lanes inverse = allLanes(inverseOr0(quadrics_.wedge_weight[wedge]));
+        const LaneVector moved = allLanes(offset);
+        for (uint32_t r = 0; r < group_.attribute_rows; ++r)
+        {
+            const AttributeGradients& g = quadrics_.gradients[size_t{wedge} * group_.attribute_rows + r];
+            result_.attributes[size_t{wedge} * group_.attribute_rows + r] +=
+                (dot(g.gradient, moved) + g.offset) * inverse;
+        }
+    }
+
+    bool turnsOver(uint32_t position, Float3 place) const
+    {
+        for (const Corner corner : mesh_.star(position))
+            if (turnsTriangle(result_.places[mesh_.positionAt(nextCorner(corner))],
+                              result_.places[mesh_.positionAt(previousCorner(corner))],
+                              result_.places[position], place))
+                return true;
+        return false;
+    }
+
+    const GroupMesh& group_;
+    StarMesh& mesh_;
+    const Quadrics& quadrics_;
+    Placement result_;
+    std::vector<uint32_t> wedges_; ///< at the position that is placed
+};
+
+} // namespace
+
+Float3 objectPlace(const GroupMesh& group, Float3 local)
+{
+    Float3 place;
+    for (int axis = 0; axis < 3; ++axis)
+        place[axis] = mesh::snap(group.center[axis] + group.scale * local[axis], group.grid_step);
+    return place;
+}
+
+Float3 localPlace(const GroupMesh& group, Float3 object)
+{
+    Float3 place;
+    for (int axis = 0; axis < 3; ++axis)
+        place[axis] = static_cast<float>((object[axis] - group.center[axis]) / group.scale);
+    return place;
+}
+
+Placement placeOptimally(const GroupMesh& group, StarMesh& mesh, const Quadrics& quadrics,
+                         std::span<const uint8_t> movable)
+{
+    return Placer(group, mesh, quadrics).run(movable);
+}
+
+void growIslands(const GroupMesh& group, const Growth& growth, Placement& placement)
+{
+    for (size_t i = 0; i < growth.positions.size(); ++i)
+    {
+        const uint32_t position = growth.positions[i];
+        const Float3 center = growth.centers[i];
+        placement.object_places[position] =
+            objectPlace(group, center + (placement.places[position] - center) * growth.factor);
+        placement.places[position] = localPlace(group, placement.object_places[position]);
+        placement.remade[position] = 1;
+    }
+}
+
+} // namespace hearth::clusters

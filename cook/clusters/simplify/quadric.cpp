@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/clusters/simplify/quadric.h"
+
+namespace hearth::clusters
+{
+
+namespace
+{
+
+/// Gradient of a function on a triangle with the given differences along its two edges from corner 0.
+struct GradientBasis
+{
+    Float3 of_e1;
+    Float3 of_e2;
+};
+
+GradientBasis gradientBasis(Float3 e1, Float3 e2)
+{
+    const float d11 = dot(e1, e1);
+    const float d12 = dot(e1, e2);
+    const float d22 = dot(e2, e2);
+    const float det = d11 * d22 - d12 * d12;
+    // needles have no useful gradient
+    if (!(det > 1e-6f * d11 * d22))
+        return {};
+    return {(e1 * d22 - e2 * d12) / det, (e2 * d11 - e1 * d12) / det};
+}
+
+void addTriangle(Quadrics& quadrics, const GroupMesh& group, size_t first_corner)
+{
+    uint32_t wedge[3];
+    uint32_t position[3];
+    bool free[3];
+    for (size_t k = 0; k < 3; ++k)
+    {
+        wedge[k] = group.corners[first_corner + k];
+        position[k] = group.position_of_wedge[wedge[k]];
+        free[k] = group.locked[position[k]] == 0;
+    }
+    const Float3 e1 = group.positions[position[1]] - group.positions[position[0]];
+    const Float3 e2 = group.positions[position[2]] - group.positions[position[0]];
+    const Float3 normal = cross(e1, e2);
+    const float twice_area = length(normal);
+    if (!(twice_area > 0))
+        return;
+    // a third of the area to each corner
+    const float weight = twice_area / 6.0f;
+    PositionQuadric quadric;
+    quadric.addPlane(normal / twice_area, weight);
+
+    const GradientBasis basis = gradientBasis(e1, e2);
+    const LaneVector of_e1 = allLanes(basis.of_e1);
+    const LaneVector of_e2 = allLanes(basis.of_e2);
+    const uint32_t rows = group.attribute_rows;
+    PlaneSums planes;
+    for (uint32_t r = 0; r < rows; ++r)
+    {
+        const Lanes s0 = group.attributesOf(wedge[0])[r];
+        const Lanes s1 = group.attributesOf(wedge[1])[r];
+        const Lanes s2 = group.attributesOf(wedge[2])[r];
+        const LaneVector gradient = of_e1 * (s1 - s0) + of_e2 * (s2 - s0);
+        const LaneVector weighted = gradient * allLanes(weight);
+        planes.add(gradient, weighted);
+        for (size_t k = 0; k < 3; ++k)
+            if (free[k])
+            {
+                LaneVector& sum = quadrics.gradients[size_t{wedge[k]} * rows + r].gradient;
+                sum = sum + weighted;
+            }
+    }
+    planes.addTo(quadric);
+    const float spread = kSpread * weight;
+    quadric.diagonal_c += Lanes{spread, spread, spread, 0};
+    for (size_t k = 0; k < 3; ++k)
+        if (free[k])
+        {
+            quadrics.wedge_weight[wedge[k]] += weight;
+            quadrics.position[position[k]].add(quadric);
+        }
+}
+
+} // namespace
+
+void Quadrics::move(const GroupMesh& group, uint32_t from, uint32_t to, std::span<const WedgeMove> moves)
+{
+    const Float3 t = group.positions[to] - group.positions[from];
+    const LaneVector t_lanes = allLanes(t);
+    const uint32_t rows = group.attribute_rows;
+    PositionQuadric moved = position[from];
+    Lanes moved_c{};
+    LaneVector moved_b{};
+    for (const WedgeMove& wedge : moves)
+    {
+        const float weight = wedge_weight[wedge.from];
+        wedge_weight[wedge.to] += weight;
+        for (uint32_t r = 0; r < rows; ++r)
+        {
+            const Lanes delta = group.attributesOf(wedge.to)[r] - group.attributesOf(wedge.from)[r];
+            const AttributeGradients g = gradients[size_t{wedge.from} * rows + r];
+            AttributeGradients& goal = gradients[size_t{wedge.to} * rows + r];
+            moved_c += delta * (weight * delta - 2 * g.offset);
+            moved_b = moved_b - g.gradient * delta;
+            goal.gradient = goal.gradient + g.gradient;
+            goal.offset += g.offset + dot(g.gradient, t_lanes) - weight * delta;
+        }
+    }
+    moved.diagonal_c[3] += sumOfLanes(moved_c);
+    moved.b += sumsOfLanes(moved_b);
+    position[to].addMoved(moved, t);
+}
+
+Quadrics initialQuadrics(const GroupMesh& group)
+{
+    Quadrics quadrics;
+    quadrics.position.resize(group.positions.size());
+    quadrics.wedge_weight.resize(group.vertex_of_wedge.size());
+    quadrics.gradients.resize(group.vertex_of_wedge.size() * group.attribute_rows);
+    for (size_t corner = 0; corner < group.corners.size(); corner += 3)
+        addTriangle(quadrics, group, corner);
+    return quadrics;
+}
+
+PositionQuadric edgeQuadric(Float3 along, Float3 side, float factor)
+{
+    PositionQuadric quadric;
+    const float length2 = dot(along, along);
+    if (!(length2 > 0))
+        return quadric;
+    const Float3 upright = side - along * (dot(side, along) / length2);
+    const float height = length(upright);
+    if (height > 0)
+        quadric.addPlane(upright / height, factor * length2);
+    return quadric;
+}
+
+} // namespace hearth::clusters

@@ -1,0 +1,277 @@
+// Link condition: T. K. Dey, H. Edelsbrunner, S. Guha, D. V. Nekhayev, "Topology preserving edge contraction", 1999.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/clusters/simplify/star_mesh.h"
+
+#include "cook/clusters/core/set_hash.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace hearth::clusters
+{
+
+StarMesh::StarMesh(const GroupMesh& group)
+    : position_of_corner_(group.triangleCount() * 4),
+      wedge_of_corner_(group.triangleCount() * 4),
+      alive_(group.triangleCount(), 1),
+      alive_count_(group.triangleCount()),
+      stars_(group.positions.size()),
+      hash_of_wedge_(group.vertex_of_wedge.size()),
+      mark_(group.positions.size(), 0)
+{
+    for (uint32_t w = 0; w < hash_of_wedge_.size(); ++w)
+        hash_of_wedge_[w] = hashOf(w);
+    for (uint32_t t = 0; t < alive_.size(); ++t)
+        for (uint32_t k = 0; k < 3; ++k)
+        {
+            const uint32_t wedge = group.corners[size_t{t} * 3 + k];
+            const uint32_t position = group.position_of_wedge[wedge];
+            wedge_of_corner_[t * 4 + k] = wedge;
+            position_of_corner_[t * 4 + k] = position;
+            ++stars_[position].alive;
+        }
+    uint32_t first = 0;
+    for (Star& star : stars_)
+    {
+        star.first = first;
+        first += star.alive;
+    }
+    // a collapse appends the star that it makes: about six triangles for two that go
+    star_items_.reserve(group.corners.size() * 3);
+    star_items_.resize(group.corners.size());
+    for (uint32_t t = 0; t < alive_.size(); ++t)
+        for (const Corner corner : cornersOf(t))
+        {
+            Star& star = stars_[position_of_corner_[corner]];
+            star_items_[star.first + star.count++] = corner;
+        }
+}
+
+std::vector<uint32_t> StarMesh::aliveTriangles() const
+{
+    std::vector<uint32_t> triangles(alive_.size());
+    size_t count = 0;
+    for (uint32_t t = 0; t < alive_.size(); ++t)
+    {
+        triangles[count] = t;
+        count += alive_[t];
+    }
+    triangles.resize(count);
+    return triangles;
+}
+
+std::span<const Corner> StarMesh::star(uint32_t position)
+{
+    Star& star = stars_[position];
+    Corner* items = star_items_.data() + star.first;
+    if (star.count != star.alive)
+    {
+        uint32_t kept = 0;
+        for (uint32_t i = 0; i < star.count; ++i)
+        {
+            items[kept] = items[i];
+            kept += alive_[triangleOf(items[i])];
+        }
+        star.count = kept;
+    }
+    return {items, star.count};
+}
+
+void StarMesh::clearGathered()
+{
+    mark_value_ += static_cast<uint32_t>(ring_.size()) + fan_size_ + 1;
+    if (mark_value_ > std::numeric_limits<uint32_t>::max() / 2)
+    {
+        std::fill(mark_.begin(), mark_.end(), 0u);
+        mark_value_ = 1;
+    }
+    ring_.clear();
+    fan_size_ = 0;
+}
+
+bool StarMesh::gatherFan(uint32_t center)
+{
+    clearGathered();
+    const auto corners = star(center);
+    if (corners.empty())
+        return false;
+    if (fan_.size() < corners.size())
+        fan_.resize(corners.size() * 2);
+    fan_wedge_ = wedge_of_corner_[corners.front()];
+    // the wedges that triangles run to are those that triangles come from: then the sums of their hashes are equal
+    uint64_t difference = 0;
+    bool plain = true;
+    FanEnd* end = fan_.data();
+    uint32_t mark = mark_value_;
+    for (const Corner corner : corners)
+    {
+        const Corner next = nextCorner(corner);
+        *end = {position_of_corner_[next], wedge_of_corner_[next]};
+        uint32_t& mark_of_end = mark_[end->position];
+        // marks of other positions are smaller
+        plain &= wedge_of_corner_[corner] == fan_wedge_ && mark_of_end < mark_value_;
+        difference += hash_of_wedge_[end->wedge] - hash_of_wedge_[wedge_of_corner_[previousCorner(corner)]];
+        mark_of_end = mark++;
+        ++end;
+    }
+    fan_size_ = static_cast<uint32_t>(corners.size());
+    if (plain && difference == 0)
+        return true;
+    clearGathered();
+    return false;
+}
+
+void StarMesh::gather(uint32_t center)
+{
+    clearGathered();
+    wedges_.clear();
+    const auto spokeOf = [&](uint32_t position) -> Spoke&
+    {
+        const uint32_t place = mark_[position] - mark_value_;
+        if (place < ring_.size())
+            return ring_[place];
+        mark_[position] = mark_value_ + static_cast<uint32_t>(ring_.size());
+        return ring_.emplace_back(Spoke{.position = position});
+    };
+    for (const Corner corner : star(center))
+    {
+        const Corner next = nextCorner(corner);
+        const Corner previous = previousCorner(corner);
+        const uint32_t wedge = wedge_of_corner_[corner];
+        Spoke& out = spokeOf(position_of_corner_[next]);
+        ++out.out_count;
+        out.out = {wedge, wedge_of_corner_[next]};
+        Spoke& in = spokeOf(position_of_corner_[previous]);
+        ++in.in_count;
+        in.in = {wedge, wedge_of_corner_[previous]};
+        if (std::find(wedges_.begin(), wedges_.end(), wedge) == wedges_.end())
+            wedges_.push_back(wedge);
+    }
+    layers_ = std::numeric_limits<uint32_t>::max();
+    for (const Spoke& spoke : ring_)
+        layers_ = std::min(layers_, std::max(spoke.out_count, spoke.in_count));
+}
+
+/// The same around a plain fan: no branch but the last depends on what the stars are like.
+bool StarMesh::linkHoldsInFan(uint32_t from, uint32_t to)
+{
+    const uint32_t size = fan_size_;
+    const auto star_from = star(from);
+    const auto star_to = star(to);
+    // one triangle runs from here to there, and one back
+    uint32_t tip_out = 0, tip_in = 0;
+    for (const Corner corner : star_from)
+    {
+        const uint32_t next = position_of_corner_[nextCorner(corner)];
+        const uint32_t previous = position_of_corner_[previousCorner(corner)];
+        tip_out = next == to ? previous : tip_out;
+        tip_in = previous == to ? next : tip_in;
+    }
+    // the tips are the only common neighbours
+    uint32_t others = 0;
+    for (const Corner corner : star_to)
+        for (const uint32_t p :
+             {position_of_corner_[nextCorner(corner)], position_of_corner_[previousCorner(corner)]})
+            others += static_cast<uint32_t>(mark_[p] >= mark_value_) & static_cast<uint32_t>(p != tip_out) &
+                      static_cast<uint32_t>(p != tip_in);
+    if (others != 0 || star_to.size() <= 2 || size <= 2 || degree(tip_out) <= 1 || degree(tip_in) <= 1)
+        return false;
+    // the third triangle of a fan of three may meet one that is there already
+    return size > 3 ||
+           std::none_of(star_to.begin(), star_to.end(),
+                        [&](Corner corner)
+                        { return has(triangleOf(corner), tip_out) && has(triangleOf(corner), tip_in); });
+}
+
+bool StarMesh::linkHolds(uint32_t from, uint32_t to)
+{
+    if (plain())
+        return linkHoldsInFan(from, to);
+    const auto star_from = star(from);
+    const auto star_to = star(to);
+    uint32_t common = 0;
+    tips_.clear();
+    for (const Corner corner : star_from)
+    {
+        const uint32_t next = position_of_corner_[nextCorner(corner)];
+        const uint32_t previous = position_of_corner_[previousCorner(corner)];
+        if (next != to && previous != to)
+            continue;
+        ++common;
+        if (const uint32_t tip = next == to ? previous : next; !isTip(tip))
+            tips_.push_back(tip);
+    }
+    if (common == 0 || common == star_from.size() || common == star_to.size())
+        return false;
+
+    // the tips of the common triangles are the only common neighbours
+    for (const Corner corner : star_to)
+        for (const Corner far : {nextCorner(corner), previousCorner(corner)})
+            if (const uint32_t p = position_of_corner_[far]; gathered(p) && !isTip(p))
+                return false;
+    for (const uint32_t tip : tips_)
+        if (degree(tip) <= 1)
+            return false;
+
+    // a moved triangle with its far edge between two tips may meet one that is there already
+    for (const Corner corner : star_from)
+    {
+        const uint32_t a = position_of_corner_[nextCorner(corner)];
+        const uint32_t b = position_of_corner_[previousCorner(corner)];
+        if (a == to || b == to || !isTip(a) || !isTip(b))
+            continue;
+        for (const Corner other : star_to)
+            if (has(triangleOf(other), a) && has(triangleOf(other), b))
+                return false;
+    }
+    return true;
+}
+
+void StarMesh::collapse(uint32_t from, uint32_t to, std::span<const WedgeMove> moves)
+{
+    // which triangles go cannot be foretold: they are listed without a branch
+    const auto star_from = star(from);
+    removed_.resize(star_from.size());
+    size_t removed_count = 0;
+    for (const Corner corner : star_from)
+    {
+        removed_[removed_count] = triangleOf(corner);
+        removed_count += has(triangleOf(corner), to) ? 1u : 0u;
+    }
+    for (size_t i = 0; i < removed_count; ++i)
+        remove(removed_[i]);
+    const size_t first = star_items_.size();
+    star_items_.resize(first + stars_[to].count + stars_[from].count);
+    Corner* end = star_items_.data() + first;
+    const auto copyStar = [&](const Star& star)
+    {
+        for (uint32_t i = star.first; i < star.first + star.count; ++i)
+        {
+            *end = star_items_[i];
+            end += alive_[triangleOf(*end)];
+        }
+    };
+    copyStar(stars_[to]);
+    const Corner* const moved = end;
+    copyStar(stars_[from]);
+    for (const Corner corner : std::span(moved, end))
+    {
+        uint32_t& wedge = wedge_of_corner_[corner];
+        position_of_corner_[corner] = to;
+        wedge = std::find_if(moves.begin(), moves.end(), [&](WedgeMove m) { return m.from == wedge; })->to;
+    }
+    const auto count = static_cast<uint32_t>(end - star_items_.data() - static_cast<ptrdiff_t>(first));
+    star_items_.resize(first + count);
+    stars_[to] = {static_cast<uint32_t>(first), count, count};
+    stars_[from] = {};
+}
+
+void StarMesh::remove(uint32_t triangle)
+{
+    alive_[triangle] = 0;
+    --alive_count_;
+    for (const Corner corner : cornersOf(triangle))
+        --stars_[position_of_corner_[corner]].alive;
+}
+
+} // namespace hearth::clusters

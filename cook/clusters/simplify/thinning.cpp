@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/clusters/simplify/thinning.h"
+
+#include "cook/clusters/core/islands.h"
+#include "cook/clusters/simplify/simplify.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hearth::clusters
+{
+
+namespace
+{
+
+// Twice the area is as much as half of the islands need; more would show.
+constexpr float kMostGrowth = 1.6f;
+
+// Less growth than this is not worth new vertices.
+constexpr float kLeastGrowth = 1.01f;
+
+struct Island
+{
+    Box3 box;
+    bool locked = false;
+    uint32_t order = 0; ///< among equals
+    std::vector<uint32_t> triangles;
+
+    int sizeClass() const { return std::ilogb(std::max(length(box.max - box.min), 1e-30f)); }
+};
+
+std::vector<Island> looseIslands(const GroupMesh& group, const StarMesh& mesh)
+{
+    std::vector<uint32_t> triangles;
+    std::vector<uint32_t> positions;
+    for (uint32_t t = 0; t < mesh.triangleLimit(); ++t)
+        if (mesh.alive(t))
+        {
+            triangles.push_back(t);
+            for (const Corner corner : StarMesh::cornersOf(t))
+                positions.push_back(mesh.positionAt(corner));
+        }
+    const std::vector<uint32_t> island_of = islandOfTriangles(positions, group.positions.size());
+    std::vector<Island> islands(group.positions.size());
+    for (size_t i = 0; i < triangles.size(); ++i)
+    {
+        Island& island = islands[island_of[i]];
+        island.triangles.push_back(triangles[i]);
+        for (size_t k = 0; k < 3; ++k)
+        {
+            island.box.add(group.positions[positions[i * 3 + k]]);
+            island.locked |= group.locked[positions[i * 3 + k]] != 0;
+        }
+    }
+    std::erase_if(islands, [](const Island& island) { return island.triangles.empty() || island.locked; });
+    return islands;
+}
+
+uint32_t reversedBits(uint32_t x)
+{
+    uint32_t reversed = 0;
+    for (int bit = 0; bit < 32; ++bit)
+        reversed |= (x >> bit & 1) << (31 - bit);
+    return reversed;
+}
+
+/// Those that go first in front.
+void orderForRemoval(std::vector<Island>& islands)
+{
+    for (uint32_t i = 0; i < islands.size(); ++i)
+        islands[i].order = reversedBits(i);
+    std::sort(islands.begin(), islands.end(),
+              [](const Island& a, const Island& b)
+              {
+                  const int size_a = a.sizeClass(), size_b = b.sizeClass();
+                  return size_a != size_b ? size_a < size_b : a.order < b.order;
+              });
+}
+
+/// 0 for those that do not grow.
+double areaOf(const GroupMesh& group, const StarMesh& mesh, const Island& island)
+{
+    double area = 0;
+    if (island.triangles.size() > kMaxGrownTriangles)
+        return area;
+    for (const uint32_t t : island.triangles)
+    {
+        const auto corners = StarMesh::cornersOf(t);
+        const Float3 a = group.positions[mesh.positionAt(corners[0])];
+        const Float3 b = group.positions[mesh.positionAt(corners[1])];
+        const Float3 c = group.positions[mesh.positionAt(corners[2])];
+        area += double{length(cross(b - a, c - a))};
+    }
+    return area;
+}
+
+void addGrowth(const StarMesh& mesh, const Island& island, std::vector<uint8_t>& known, Growth& growth)
+{
+    for (const uint32_t t : island.triangles)
+        for (const Corner corner : StarMesh::cornersOf(t))
+        {
+            const uint32_t position = mesh.positionAt(corner);
+            if (known[position] != 0)
+                continue;
+            known[position] = 1;
+            growth.positions.push_back(position);
+            growth.centers.push_back((island.box.min + island.box.max) * 0.5f);
+        }
+}
+
+} // namespace
+
+Thinning thinIslands(const GroupMesh& group, StarMesh& mesh, size_t target_triangles,
+                     std::vector<uint32_t>& target_of_position)
+{
+    Thinning thinning;
+    std::vector<Island> islands = looseIslands(group, mesh);
+    orderForRemoval(islands);
+    double area = 0;
+    for (const Island& island : islands)
+        area += areaOf(group, mesh, island);
+    double area_left = area;
+    size_t gone = 0;
+    while (gone < islands.size() && mesh.aliveCount() > target_triangles &&
+           mesh.aliveCount() > islands[gone].triangles.size())
+    {
+        const Island& island = islands[gone++];
+        area_left -= areaOf(group, mesh, island);
+        for (const uint32_t t : island.triangles)
+        {
+            for (const Corner corner : StarMesh::cornersOf(t))
+                target_of_position[mesh.positionAt(corner)] = kPruned;
+            mesh.remove(t);
+        }
+    }
+    thinning.pruned = gone > 0;
+    if (!thinning.pruned || !(area_left > 0))
+        return thinning;
+    thinning.growth.factor = std::min(static_cast<float>(std::sqrt(area / area_left)), kMostGrowth);
+    std::vector<uint8_t> known(group.positions.size(), 0);
+    for (size_t i = gone; i < islands.size() && thinning.growth.factor > kLeastGrowth; ++i)
+        if (islands[i].triangles.size() <= kMaxGrownTriangles)
+            addGrowth(mesh, islands[i], known, thinning.growth);
+    return thinning;
+}
+
+} // namespace hearth::clusters

@@ -1,0 +1,56 @@
+// Which wedges of its target the wedges of a position take when it collapses. See cook/clusters/README.md, "Simplifying".
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "cook/clusters/core/group_mesh.h"
+#include "cook/clusters/simplify/star_mesh.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace hearth::clusters
+{
+
+/// For the position that is gathered in a star mesh.
+class WedgeMap
+{
+public:
+    WedgeMap(const GroupMesh& group, StarMesh& mesh) : group_(group), mesh_(mesh) {}
+
+    bool permissive = false; ///< wedges may be left without a way
+
+    /// Find where the wedges go if the position collapses along the spoke; false if one of them has no way that keeps
+    /// the attributes together.
+    bool mapAlong(uint32_t from, const Spoke& spoke);
+
+    /// The same for any neighbour, and false for other positions.
+    bool mapTo(uint32_t from, uint32_t to);
+
+    /// Let wedges without a way take the nearest attributes, in the chart that wedges of their own chart go to, if any.
+    void mapRest(uint32_t to);
+
+    std::span<const WedgeMove> moves() const { return moves_; }
+    bool has(uint32_t wedge) const
+    {
+        return std::any_of(moves_.begin(), moves_.end(), [&](WedgeMove m) { return m.from == wedge; });
+    }
+    bool complete() const { return mesh_.plain() || moves_.size() == mesh_.wedges().size(); }
+
+    /// Whether the wedges of the position are of three charts or more.
+    bool moreChartsThanTwo() const;
+
+private:
+    bool mapWedges(const Spoke& spoke);
+    bool mapLayers(uint32_t from, uint32_t to);
+    uint32_t chartOf(uint32_t wedge) const { return group_.chart_of_wedge[wedge]; }
+    const WedgeMove* moveOfChart(uint32_t wedge) const;
+
+    const GroupMesh& group_;
+    StarMesh& mesh_;
+    std::vector<WedgeMove> moves_;
+    std::vector<uint32_t> goals_; ///< scratch
+};
+
+} // namespace hearth::clusters

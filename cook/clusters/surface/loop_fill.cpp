@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/clusters/surface/loop_fill.h"
+
+#include <algorithm>
+
+namespace hearth::clusters
+{
+
+void LoopFill::makeRoom()
+{
+    if (chord_count_ == chords_.size())
+        chords_.resize(2 * chords_.size());
+    if (count_ == kMaxCrossings)
+    {
+        overflow_ = true;
+        count_ = 1;
+    }
+}
+
+void LoopFill::addChord(const Crossing& from, float to)
+{
+    chords_[chord_count_++] = {from.leaving, to - from.t};
+    if (chord_count_ == chords_.size())
+        makeRoom();
+}
+
+bool LoopFill::close()
+{
+    if (!overflow_)
+    {
+        // number 0 is not needed any more
+        std::copy(crossings_.begin() + 1, crossings_.begin() + static_cast<ptrdiff_t>(count_),
+                  crossings_.begin());
+        --count_;
+        reduce();
+        while (count_ > 0 && (closeRing() || pushOver()))
+        {
+        }
+        if (count_ == 0)
+        {
+            crossings_[0] = {};
+            return true;
+        }
+    }
+    crossings_[0] = {};
+    drop();
+    return false;
+}
+
+/// Whether the way goes on around the corner at its left after a crossing; else around that at its right, or it comes
+/// back.
+bool LoopFill::turnsLeft(size_t i) const
+{
+    return crossings_[(i + 1) % count_].leaving == previousSide(crossings_[i].entering);
+}
+
+/// The side of the facet that is entered which starts at the corner to the left or right of where it is entered.
+uint32_t LoopFill::cornerAt(const Crossing& crossing, bool left) const
+{
+    return left ? crossing.entering : nextSide(crossing.entering);
+}
+
+/// Cut where the way comes back over a side.
+void LoopFill::reduce()
+{
+    size_t kept = 0;
+    for (size_t i = 0; i < count_; ++i)
+        if (kept > 0 && crossings_[kept - 1].entering == crossings_[i].leaving)
+            addChord(crossings_[--kept], 1 - crossings_[i].t);
+        else
+            crossings_[kept++] = crossings_[i];
+    // and where its end meets its beginning
+    size_t first = 0;
+    for (; kept > first + 1 && crossings_[kept - 1].entering == crossings_[first].leaving; ++first)
+        addChord(crossings_[--kept], 1 - crossings_[first].t);
+    std::copy(crossings_.begin() + static_cast<ptrdiff_t>(first),
+              crossings_.begin() + static_cast<ptrdiff_t>(kept), crossings_.begin());
+    count_ = kept - first;
+}
+
+/// If the way goes once around one corner, that is all that it goes around.
+bool LoopFill::closeRing()
+{
+    const bool left = turnsLeft(0);
+    for (size_t i = 0; i < count_; ++i)
+    {
+        const uint32_t entering = crossings_[i].entering;
+        const uint32_t next = crossings_[(i + 1) % count_].leaving;
+        if (next != (left ? previousSide(entering) : nextSide(entering)) ||
+            (i > 0 && entering / 3 == crossings_[0].entering / 3))
+            return false;
+    }
+    inner_.push_back(cornerAt(crossings_[0], left));
+    for (size_t i = 0; i < count_; ++i)
+        addChord(crossings_[i], left ? 1.0f : 0.0f);
+    count_ = 0;
+    return true;
+}
+
+/// Draw the way over a corner that it goes around for the most part, so that it becomes shorter.
+bool LoopFill::pushOver()
+{
+    for (size_t start = 0; start < count_; ++start)
+    {
+        const bool left = turnsLeft(start);
+        if (turnsLeft(start == 0 ? count_ - 1 : start - 1) == left)
+            continue;
+        size_t run = 1;
+        while (run < count_ && turnsLeft((start + run) % count_) == left)
+            ++run;
+        if (run + 1 > count_)
+            continue;
+        // the sides to cross on the other way around the corner
+        const uint32_t goal = crossings_[(start + run) % count_].entering / 3;
+        std::array<uint32_t, kMaxCrossings> sides;
+        size_t found = 0;
+        const uint32_t behind = crossings_[start].leaving;
+        uint32_t at = left ? nextSide(behind) : behind; // starts at the corner
+        while (at / 3 != goal && found < run)
+        {
+            const uint32_t side = left ? at : previousSide(at);
+            if (twins_[side] == kNoSide)
+                break;
+            sides[found++] = side;
+            at = left ? nextSide(twins_[side]) : twins_[side];
+        }
+        if (at / 3 != goal)
+            continue;
+        std::rotate(crossings_.begin(), crossings_.begin() + static_cast<ptrdiff_t>(start),
+                    crossings_.begin() + static_cast<ptrdiff_t>(count_));
+        replaceRun(run, left, {sides.data(), found});
+        return true;
+    }
+    return false;
+}
+
+/// After as many crossings as `run` the way turns to the left or to the right, around one corner; it shall cross the
+/// given sides instead, at that corner.
+void LoopFill::replaceRun(size_t run, bool left, std::span<const uint32_t> sides)
+{
+    inner_.push_back(cornerAt(crossings_[0], left));
+    for (size_t i = 0; i <= run; ++i)
+        addChord(crossings_[i], left ? 1.0f : 0.0f);
+    for (size_t i = 0; i < sides.size(); ++i)
+        crossings_[i] = {sides[i], twins_[sides[i]], left ? 0.0f : 1.0f};
+    const auto rest = crossings_.begin() + static_cast<ptrdiff_t>(run) + 1;
+    std::copy(rest, crossings_.begin() + static_cast<ptrdiff_t>(count_),
+              crossings_.begin() + static_cast<ptrdiff_t>(sides.size()));
+    count_ -= run + 1 - sides.size();
+    reduce();
+}
+
+} // namespace hearth::clusters

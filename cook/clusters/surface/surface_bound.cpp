@@ -1,0 +1,298 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/clusters/surface/surface_bound.h"
+
+#include "cook/clusters/surface/surface_tree.h"
+#include "formats/base/assert.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <tbb/parallel_for.h>
+
+namespace hearth::clusters
+{
+
+namespace
+{
+
+// Bounds are searched for until they are this close to what is there.
+constexpr double kSearchSlack = 1.1;
+
+// A triangle is searched in at most so many pieces. On surfaces that lie apart by a thousandth of their size, one
+// triangle that spans all of the other surface takes about a million.
+constexpr size_t kMaxPieces = size_t{1} << 22;
+
+// Triangles that are searched side by side know the distances that were found before, not those of each other: so the
+// result does not depend on the threads.
+constexpr size_t kBlock = 4096;
+
+// Points that are looked at before, to know what a large distance is: corners, and so many centers where the triangles
+// are fewer, at most 1024 a triangle.
+constexpr size_t kFirstPoints = 65536;
+constexpr size_t kMaxHalvings = 10;
+
+// Corners that are looked at one after the other: each knows what is near the one before.
+constexpr size_t kRun = 256;
+
+// Rounding of a distance, as part of the coordinates: a few times 2^-53, with room.
+constexpr double kBoundRounding = 1e-14;
+
+constexpr uint32_t kNoTriangle = 0xFFFFFFFFu;
+
+/// A part of a triangle: a triangle itself.
+struct Piece
+{
+    Corners3 corners;
+    uint32_t near = 0;             ///< a triangle of the other surface that lies beside it
+    uint32_t cut_by = kNoTriangle; ///< the one that it was cut along
+};
+
+/// What one triangle found.
+struct Found
+{
+    double upper = 0;
+    double sure = 0;
+    uint64_t loose_pieces = 0;
+};
+
+Double3 centerOf(const Corners3& c)
+{
+    return (c[0] + c[1] + c[2]) * (1.0 / 3);
+}
+
+/// The whole piece lies within it of its center.
+double radiusOf(const Corners3& c, Double3 center)
+{
+    double radius2 = 0;
+    for (const Double3 corner : c)
+        radius2 = std::max(radius2, dot(corner - center, corner - center));
+    return std::sqrt(radius2);
+}
+
+/// No point of the piece is farther from the triangle than its corners: the distance to a convex set is convex.
+double farthestCorner(const Corners3& piece, const Corners3& triangle)
+{
+    return std::sqrt(std::max(
+        {distance2(piece[0], triangle), distance2(piece[1], triangle), distance2(piece[2], triangle)}));
+}
+
+/// Append the halves of the longest edge.
+void halve(const Piece& piece, std::vector<Piece>& pieces)
+{
+    const Corners3& c = piece.corners;
+    size_t longest = 0;
+    double longest2 = 0;
+    for (size_t k = 0; k < 3; ++k)
+    {
+        const Double3 edge = c[(k + 1) % 3] - c[k];
+        if (dot(edge, edge) > longest2)
+        {
+            longest = k;
+            longest2 = dot(edge, edge);
+        }
+    }
+    const Double3 p = c[longest], q = c[(longest + 1) % 3], apex = c[(longest + 2) % 3];
+    const Double3 middle = (p + q) * 0.5;
+    pieces.push_back({{p, middle, apex}, piece.near, piece.cut_by});
+    pieces.push_back({{middle, q, apex}, piece.near, piece.cut_by});
+}
+
+using Polygon = std::vector<Double3>; ///< flat and convex
+
+/// Cut along the line where `height`, which grows linearly, is 0.
+template <typename Height>
+void cut(const Polygon& polygon, const Height& height, Polygon& below, Polygon& above)
+{
+    below.clear();
+    above.clear();
+    for (size_t i = 0; i < polygon.size(); ++i)
+    {
+        const Double3 p = polygon[i], q = polygon[(i + 1) % polygon.size()];
+        const double at_p = height(p), at_q = height(q);
+        if (at_p <= 0)
+            below.push_back(p);
+        if (at_p >= 0)
+            above.push_back(p);
+        if ((at_p < 0 && at_q > 0) || (at_p > 0 && at_q < 0))
+        {
+            const Double3 between = p + (q - p) * (at_p / (at_p - at_q));
+            below.push_back(between);
+            above.push_back(between);
+        }
+    }
+}
+
+/// Append the triangles of a fan.
+void addFan(const Polygon& polygon, uint32_t near, uint32_t cut_by, std::vector<Piece>& pieces)
+{
+    for (size_t i = 2; i < polygon.size(); ++i)
+        pieces.push_back({{polygon[0], polygon[i - 1], polygon[i]}, near, cut_by});
+}
+
+/// Cut a piece along the border of a triangle that it lies over, in the direction of its plane: on a plane, that makes
+/// the common refinement of both surfaces, where halves would never lie over one triangle alone.
+void cutAlong(const Piece& piece, const Corners3& border, std::vector<Piece>& pieces)
+{
+    Polygon inside(piece.corners.begin(), piece.corners.end());
+    Polygon outside;
+    Polygon rest;
+    const Double3 normal = cross(border[1] - border[0], border[2] - border[0]);
+    for (size_t k = 0; k < 3 && !inside.empty(); ++k)
+    {
+        const Double3 outward = cross(border[(k + 1) % 3] - border[k], normal);
+        cut(
+            inside, [&](Double3 p) { return dot(p - border[k], outward); }, rest, outside);
+        addFan(outside, piece.near, piece.near, pieces);
+        inside.swap(rest);
+    }
+    addFan(inside, piece.near, piece.near, pieces);
+}
+
+/// Whether cutting along a triangle gains more than halving does.
+bool worthCutting(const Piece& piece, double radius, const Corners3& triangle)
+{
+    return piece.cut_by != piece.near && radius <= 2 * radiusOf(triangle, centerOf(triangle));
+}
+
+/// Bound the distance of one triangle's points to a surface. Branch and bound: a piece is done where it lies within
+/// the allowed distance of one triangle, or so close around its center that no point of it can be farther; else it
+/// is cut.
+///
+/// known   a distance that is there elsewhere, or that is good enough
+Found boundTriangle(const Corners3& triangle, const SurfaceTree& other, double known)
+{
+    Found found;
+    std::vector<Piece> open{{triangle}};
+    for (size_t pieces = 1; !open.empty(); ++pieces)
+    {
+        Piece piece = open.back();
+        open.pop_back();
+        const Double3 center = centerOf(piece.corners);
+        const double radius = radiusOf(piece.corners, center);
+        const double stop = std::max(0.0, kSearchSlack * std::max(known, found.sure) - radius);
+        const SurfaceTree::Nearest nearest = other.nearest(center, stop * stop, piece.near);
+        const double distance = std::sqrt(nearest.distance2);
+        piece.near = nearest.triangle;
+        // a search that stopped says only that the center is within the allowed distance
+        if (distance > stop)
+            found.sure = std::max(found.sure, distance);
+        const Corners3 near = other.triangle(nearest.triangle);
+        const double upper = std::min(distance + radius, farthestCorner(piece.corners, near));
+        const bool done = upper <= kSearchSlack * std::max(known, found.sure);
+        if (done || pieces >= kMaxPieces)
+        {
+            found.upper = std::max(found.upper, upper);
+            found.loose_pieces += done ? 0 : 1;
+        }
+        else if (worthCutting(piece, radius, near))
+            cutAlong(piece, near, open);
+        else
+            halve(piece, open);
+    }
+    return found;
+}
+
+/// The largest distance of the surface's corners: where surfaces lie farthest apart, there is one more often than not.
+double distanceOfCorners(const SurfaceView& from, const SurfaceTree& to)
+{
+    std::vector<uint32_t> corners(from.triangles.begin(), from.triangles.end());
+    std::sort(corners.begin(), corners.end());
+    corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
+    std::vector<double> farthest2((corners.size() + kRun - 1) / kRun, 0);
+    tbb::parallel_for(size_t{0}, farthest2.size(),
+                      [&](size_t run)
+                      {
+                          uint32_t near = 0;
+                          for (size_t i = run * kRun; i < std::min(corners.size(), (run + 1) * kRun); ++i)
+                          {
+                              const auto nearest =
+                                  to.nearest(widen(from.positions[corners[i]]), farthest2[run], near);
+                              near = nearest.triangle;
+                              farthest2[run] = std::max(farthest2[run], nearest.distance2);
+                          }
+                      });
+    return std::sqrt(*std::max_element(farthest2.begin(), farthest2.end()));
+}
+
+/// The largest distance of the centers of the surface's triangles, where they are few of those of their parts.
+double distanceOfCenters(const SurfaceTree& from, size_t triangle_count, const SurfaceTree& to)
+{
+    size_t halvings = 0;
+    while (halvings < kMaxHalvings && (triangle_count << (halvings + 1)) <= kFirstPoints)
+        ++halvings;
+    std::vector<double> farthest2(triangle_count, 0);
+    tbb::parallel_for(size_t{0}, triangle_count,
+                      [&](size_t t)
+                      {
+                          std::vector<Piece> pieces{{from.triangle(static_cast<uint32_t>(t))}};
+                          for (size_t i = 0; i < halvings; ++i)
+                          {
+                              std::vector<Piece> finer;
+                              for (const Piece& piece : pieces)
+                                  halve(piece, finer);
+                              pieces = std::move(finer);
+                          }
+                          uint32_t near = 0;
+                          for (const Piece& piece : pieces)
+                          {
+                              const auto nearest = to.nearest(centerOf(piece.corners), farthest2[t], near);
+                              near = nearest.triangle;
+                              farthest2[t] = std::max(farthest2[t], nearest.distance2);
+                          }
+                      });
+    return std::sqrt(*std::max_element(farthest2.begin(), farthest2.end()));
+}
+
+/// Bound the distance of all points of one surface to the other one.
+void addSide(const SurfaceView& surface, const SurfaceTree& from, const SurfaceTree& to, double enough,
+             SurfaceBound& bound)
+{
+    const size_t triangle_count = surface.triangles.size() / 3;
+    bound.sure =
+        std::max({bound.sure, distanceOfCorners(surface, to), distanceOfCenters(from, triangle_count, to)});
+    std::vector<Found> found(std::min(triangle_count, kBlock));
+    for (size_t first = 0; first < triangle_count; first += kBlock)
+    {
+        const size_t count = std::min(triangle_count - first, kBlock);
+        const double known = std::max(enough, bound.sure);
+        tbb::parallel_for(size_t{0}, count,
+                          [&](size_t i) {
+                              found[i] =
+                                  boundTriangle(from.triangle(static_cast<uint32_t>(first + i)), to, known);
+                          });
+        for (size_t i = 0; i < count; ++i)
+        {
+            bound.upper = std::max(bound.upper, found[i].upper);
+            bound.sure = std::max(bound.sure, found[i].sure);
+            bound.loose_pieces += found[i].loose_pieces;
+        }
+    }
+}
+
+double largestCoordinate(const SurfaceView& surface)
+{
+    double largest = 0;
+    for (const uint32_t position : surface.triangles)
+        for (int axis = 0; axis < 3; ++axis)
+            largest = std::max(largest, std::abs(double{surface.positions[position][axis]}));
+    return largest;
+}
+
+} // namespace
+
+SurfaceBound boundSurfaces(const SurfaceView& a, const SurfaceView& b, double enough)
+{
+    HEARTH_ASSERT(!a.triangles.empty() && !b.triangles.empty() && enough >= 0);
+    const double coordinates = std::max(largestCoordinate(a), largestCoordinate(b));
+    // distances below this cannot be told from 0 in floats, in which the surfaces are given
+    const double least = std::max(enough, coordinates * 1e-6);
+    const SurfaceTree tree_a(a);
+    const SurfaceTree tree_b(b);
+    SurfaceBound bound;
+    addSide(a, tree_a, tree_b, least, bound);
+    addSide(b, tree_b, tree_a, least, bound);
+    bound.upper += coordinates * kBoundRounding;
+    return bound;
+}
+
+} // namespace hearth::clusters

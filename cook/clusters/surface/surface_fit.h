@@ -1,0 +1,18 @@
+// What collapses and quadrics leave, fitted to the surface that it stands for. See cook/clusters/README.md, "Fitting".
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "cook/clusters/core/group_mesh.h"
+#include "cook/clusters/simplify/simplify.h"
+#include "cook/clusters/surface/surface.h"
+#include "cook/clusters/surface/surface_points.h"
+
+namespace hearth::clusters
+{
+
+/// Move the remade positions, on the mesh's grid, and change their attributes, so that the triangles of the group lie
+/// nearer to the new surface in the sense of least squares. No triangle turns over.
+/// after, points  of `simplified`; they go with it
+void fitToGroup(const GroupMesh& group, Simplified& simplified, Surface& after, SurfacePoints& points);
+
+} // namespace hearth::clusters

@@ -1,0 +1,100 @@
+// A continuous map from the surface before a simplification to that after it. See cook/clusters/README.md, "Error".
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "cook/clusters/core/group_mesh.h"
+#include "cook/clusters/simplify/simplify.h"
+#include "cook/clusters/surface/loop_fill.h"
+#include "cook/clusters/surface/side_ways.h"
+#include "cook/clusters/surface/surface.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace hearth::clusters
+{
+
+/// Each triangle before is cut into pieces that lie in one facet after each. Their corners are corners of triangles,
+/// crossings of their sides' ways and points that lie at positions after. No point of a piece is farther from where it
+/// lies than the farthest of the piece's corners.
+class SurfaceMap
+{
+public:
+    /// positions_before  three for each triangle before
+    /// points            where positions lie on the surface after
+    /// wanted            for each triangle before: whether it is mapped; others are still there as they were
+    SurfaceMap(const GroupMesh& group, const Simplified& simplified,
+               std::span<const uint32_t> positions_before, const Surface& after,
+               std::span<const FacetPoint> points, std::span<const uint8_t> wanted);
+
+    std::span<const uint32_t> twinsBefore() const { return twins_; }
+
+    bool maps(size_t triangle) const { return far_[triangle] >= 0; }
+
+    /// No point of a triangle before that is mapped is farther from where it lies.
+    float farOf(size_t triangle) const { return far_[triangle]; }
+
+    /// Whether each point of a facet after is that of some triangle before.
+    bool covers(size_t facet) const { return covered_[facet] != 0; }
+
+    /// For each facet after the largest sum of what a mapped triangle carries and how far a corner of its pieces there
+    /// is.
+    /// carried  for each triangle before
+    std::vector<float> sumsOver(std::span<const float> carried) const;
+
+    /// Calls visit(facet) for those that a mapped triangle's border comes through.
+    template <typename Visit>
+    void forEachFacetOf(uint32_t triangle, Visit visit) const
+    {
+        for (uint32_t side = triangle * 3; side < triangle * 3 + 3; ++side)
+        {
+            const Way& way = ways_.wayOf(std::min(side, twins_[side]));
+            visit(way.from);
+            for (const Crossing& crossing : ways_.crossingsOf(way))
+                visit(crossing.entering() / 3);
+        }
+    }
+
+private:
+    /// A corner of a triangle's pieces that lies at a position after, in all facets around it.
+    struct Inner
+    {
+        uint32_t triangle;
+        uint32_t position;
+        float far;
+    };
+
+    /// A facet that the border of a triangle passes through on the spot, where a corner lies at a position after.
+    struct Passed
+    {
+        uint32_t triangle;
+        uint32_t facet;
+        float far;
+    };
+
+    void findWays(std::span<const uint8_t> wanted);
+    bool mapTriangle(uint32_t t);
+    void follow(const Way& way, bool backwards);
+    bool turn(uint32_t t, const Image& image, uint32_t from, uint32_t to);
+    void addInner(uint32_t triangle, uint32_t position, float far);
+    void findCovered();
+    void openAlong(uint32_t side);
+    void openBetween(uint32_t facet, InFacet a, InFacet b);
+
+    const GroupMesh& group_;
+    std::span<const uint32_t> positions_;
+    const Surface& after_;
+    std::vector<uint32_t> twins_; ///< of sides before
+    SideWays ways_;
+    LoopFill fill_;
+    std::vector<float> far_; ///< for each triangle before; less than 0 if it is not mapped
+    std::vector<Inner> inner_;
+    std::vector<Passed> passed_;
+    std::vector<uint8_t> telling_; ///< for each side after: it is covered once, and says so of its facet
+    std::vector<uint8_t> open_;    ///< for each facet after: parts may be covered more often than others
+    std::vector<uint8_t> covered_;
+};
+
+} // namespace hearth::clusters

@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/clusters/surface/surface_points.h"
+
+#include "cook/clusters/core/islands.h"
+
+#include <algorithm>
+#include <limits>
+#include <span>
+#include <utility>
+
+namespace hearth::clusters
+{
+
+namespace
+{
+
+class PointFinder
+{
+public:
+    PointFinder(const GroupMesh& group, const Simplified& simplified, const Surface& after)
+        : group_(group), simplified_(simplified), after_(after)
+    {
+        points_.of_position.resize(group.positions.size());
+        points_.of_wedge.resize(group.vertex_of_wedge.size());
+    }
+
+    SurfacePoints run()
+    {
+        findSeams();
+        findGoals();
+        const Chains wedges(goals_.size(), points_.of_wedge.size(),
+                            [&](uint32_t wedge) { return goals_[group_.position_of_wedge[wedge]]; });
+        if (!simplified_.pruned && !simplified_.merged)
+            points_.of_middle.resize(group_.triangleCount());
+        if (!points_.of_middle.empty())
+            for (uint32_t t = 0; t < simplified_.triangleCount(); ++t)
+                takeOwnFacet(simplified_.source_triangle[t], t);
+        const Chains triangles(goals_.size(), points_.of_middle.size(),
+                               [&](uint32_t triangle) {
+                                   return points_.of_middle[triangle].facet != kNoFacet ? kNone
+                                                                                        : firstGoal(triangle);
+                               });
+        for (uint32_t goal = 0; goal < goals_.size(); ++goal)
+        {
+            if ((wedges.isEmpty(goal) && triangles.isEmpty(goal)) || after_.facets_at.of(goal).empty())
+                continue;
+            fan_.load(after_.facets, after_.facets_at.of(goal));
+            wedges.forEach(goal, [&](uint32_t wedge) { locate(wedge, points_.on_seam[goal] != 0); });
+            triangles.forEach(goal, [&](uint32_t triangle)
+                              { points_.of_middle[triangle] = fan_.nearest(middleOf(triangle)); });
+        }
+        return std::move(points_);
+    }
+
+private:
+    static constexpr uint32_t kNone = 0xFFFFFFFFu;
+
+    /// Items by a key, in chains.
+    class Chains
+    {
+    public:
+        /// keyOf(item) is kNone for those that are in no chain
+        template <typename KeyOf>
+        Chains(size_t key_count, size_t item_count, KeyOf keyOf)
+            : head_(key_count, kNone), behind_(item_count)
+        {
+            for (uint32_t item = 0; item < item_count; ++item)
+                if (const uint32_t key = keyOf(item); key != kNone)
+                    behind_[item] = std::exchange(head_[key], item);
+        }
+
+        bool isEmpty(uint32_t key) const { return head_[key] == kNone; }
+
+        template <typename Visit>
+        void forEach(uint32_t key, Visit visit) const
+        {
+            for (uint32_t item = head_[key]; item != kNone; item = behind_[item])
+                visit(item);
+        }
+
+    private:
+        std::vector<uint32_t> head_;
+        std::vector<uint32_t> behind_;
+    };
+
+    void findGoals()
+    {
+        static_assert(kPruned == kNone);
+        goals_.resize(group_.positions.size());
+        for (uint32_t position = 0; position < goals_.size(); ++position)
+        {
+            const uint32_t target = simplified_.target_of_position[position];
+            const bool stayed = position == target, remade = simplified_.placement.remade[position] != 0;
+            const bool unchanged = stayed & !remade;
+            goals_[position] = unchanged ? kNone : target;
+        }
+    }
+
+    uint32_t firstGoal(uint32_t triangle) const
+    {
+        const uint32_t* wedges = &group_.corners[size_t{triangle} * 3];
+        const uint32_t goal0 = goals_[group_.position_of_wedge[wedges[0]]];
+        const uint32_t goal1 = goals_[group_.position_of_wedge[wedges[1]]];
+        return goal0 != kNone ? goal0 : goal1 != kNone ? goal1 : goals_[group_.position_of_wedge[wedges[2]]];
+    }
+
+    /// Most middles of triangles that are left lie above what they have become.
+    void takeOwnFacet(uint32_t triangle, uint32_t number)
+    {
+        const Facet& facet = after_.facets[number];
+        const Float3 away = middleOf(triangle) - facet.a;
+        const float ab_ap = dot(facet.ab, away), ac_ap = dot(facet.ac, away);
+        const float v = (facet.ac_ac * ab_ap - facet.ab_ac * ac_ap) * facet.inverse_det;
+        const float w = (facet.ab_ab * ac_ap - facet.ab_ac * ab_ap) * facet.inverse_det;
+        if (v > 0 && w > 0 && v + w < 1)
+            points_.of_middle[triangle] = {number, v, w, 0};
+    }
+
+    Float3 middleOf(uint32_t triangle) const
+    {
+        const size_t corner = size_t{triangle} * 3;
+        return triangleCenter(group_.positions[group_.positionAt(corner)],
+                              group_.positions[group_.positionAt(corner + 1)],
+                              group_.positions[group_.positionAt(corner + 2)]);
+    }
+
+    void findSeams()
+    {
+        points_.on_seam.assign(group_.positions.size(), 0);
+        if (group_.positions.size() == group_.vertex_of_wedge.size())
+            return;
+        std::vector<uint32_t> wedge_at(group_.positions.size(), kNone);
+        for (const uint32_t wedge : simplified_.corners)
+        {
+            uint32_t& first = wedge_at[group_.position_of_wedge[wedge]];
+            if (first == kNone)
+                first = wedge;
+            else if (first != wedge)
+                points_.on_seam[group_.position_of_wedge[wedge]] = 1;
+        }
+    }
+
+    void locate(uint32_t wedge, bool on_seam)
+    {
+        FacetPoint& nearest = points_.of_position[group_.position_of_wedge[wedge]];
+        if (nearest.facet == kNoFacet)
+            nearest = fan_.nearest(group_.positions[group_.position_of_wedge[wedge]]);
+        // inside a chart all of the fan goes on from facet to facet
+        points_.of_wedge[wedge] = on_seam ? likeliestPoint(wedge) : nearest;
+    }
+
+    /// The nearest point on each of the facets, and of these the nearest one with regard to the attributes as well: at a
+    /// seam, that is on the wedge's own side.
+    FacetPoint likeliestPoint(uint32_t wedge) const
+    {
+        FacetPoint best;
+        float least = std::numeric_limits<float>::infinity();
+        fan_.forEachNearest(group_.positions[group_.position_of_wedge[wedge]],
+                            [&](const FacetPoint& point)
+                            {
+                                const float cost = point.distance2 + attributeDistance2(wedge, point);
+                                // the first stands for those whose distances are no numbers
+                                if (cost < least || best.facet == kNoFacet)
+                                {
+                                    least = std::min(least, cost);
+                                    best = point;
+                                }
+                            });
+        return best;
+    }
+
+    float attributeDistance2(uint32_t wedge, const FacetPoint& point) const
+    {
+        const Lanes* before = group_.attributesOf(wedge);
+        const Lanes* rows[3];
+        for (size_t k = 0; k < 3; ++k)
+            rows[k] = simplified_.placement.attributes.data() +
+                      size_t{simplified_.corners[point.facet * 3 + k]} * group_.attribute_rows;
+        const Lanes v = allLanes(point.v), w = allLanes(point.w), u = allLanes(1 - point.v - point.w);
+        Lanes sum{};
+        for (size_t row = 0; row < group_.attribute_rows; ++row)
+        {
+            const Lanes away = rows[0][row] * u + rows[1][row] * v + rows[2][row] * w - before[row];
+            sum += away * away;
+        }
+        return sumOfLanes(sum);
+    }
+
+    const GroupMesh& group_;
+    const Simplified& simplified_;
+    const Surface& after_;
+    SurfacePoints points_;
+    std::vector<uint32_t> goals_; ///< for each position that went or moved, where it went; others: kNone
+    FacetFan fan_;                ///< around one position
+};
+
+} // namespace
+
+SurfacePoints findPoints(const GroupMesh& group, const Simplified& simplified, const Surface& after)
+{
+    return PointFinder(group, simplified, after).run();
+}
+
+} // namespace hearth::clusters

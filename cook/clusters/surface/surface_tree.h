@@ -1,0 +1,54 @@
+// The nearest triangle of a whole surface: a tree of boxes.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "cook/clusters/surface/surface_bound.h"
+#include "formats/base/double3.h"
+
+#include <array>
+#include <vector>
+
+namespace hearth::clusters
+{
+
+/// In double precision: what is measured is compared with numbers ten thousand times smaller than coordinates.
+using Corners3 = std::array<Double3, 3>;
+
+/// Squared distance of a point to a triangle, needles included: never too small but for rounding.
+double distance2(Double3 point, const Corners3& triangle);
+
+class SurfaceTree
+{
+public:
+    explicit SurfaceTree(const SurfaceView& surface);
+
+    struct Nearest
+    {
+        uint32_t triangle = 0;
+        double distance2 = 0;
+    };
+
+    /// The triangle nearest to a point; or, as soon as one is found, any whose squared distance is at most `enough2`.
+    /// hint  a triangle that is probably near
+    Nearest nearest(Double3 point, double enough2, uint32_t hint) const;
+
+    Corners3 triangle(uint32_t index) const;
+
+private:
+    /// A leaf has `count` triangles; a node has its first child behind it and its second at `second`.
+    struct Node
+    {
+        Box3 box;
+        uint32_t first = 0;
+        uint32_t count = 0;
+        uint32_t second = 0;
+    };
+
+    void build(uint32_t first, uint32_t count);
+
+    SurfaceView surface_;
+    std::vector<uint32_t> order_; ///< triangles, leaf by leaf
+    std::vector<Node> nodes_;
+};
+
+} // namespace hearth::clusters

@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/visibility/fit/level_fit.h"
+
+#include "cook/visibility/mesh/closest_point.h"
+#include "formats/base/assert.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include <tbb/parallel_for.h>
+
+namespace hearth::visibility
+{
+
+namespace
+{
+
+// Samples that are looked up one after another; each starts where the one before was found.
+constexpr size_t kVerticesPerTask = 256;
+
+constexpr double kReach = 0.05;
+
+/// Of the samples: where they are, and which way their triangles face.
+struct SamplePoints
+{
+    std::vector<Float3> positions;
+    std::vector<Float3> normals; ///< not of length 1
+    std::vector<float> weights;
+    double diagonal = 0;
+};
+
+SamplePoints pointsOf(const MeshView& mesh, std::span<const SurfaceSample> samples)
+{
+    SamplePoints points;
+    points.positions.resize(samples.size());
+    points.normals.resize(samples.size());
+    points.weights.resize(samples.size());
+    tbb::parallel_for(size_t{0}, samples.size(),
+                      [&](size_t i)
+                      {
+                          const SurfaceSample& sample = samples[i];
+                          const uint32_t* corners = mesh.indices.data() + size_t{sample.triangle} * 3;
+                          const Float3 a = mesh.positions[corners[0]];
+                          const Float3 ab = mesh.positions[corners[1]] - a,
+                                       ac = mesh.positions[corners[2]] - a;
+                          points.positions[i] = a + ab * sample.u + ac * sample.v;
+                          points.normals[i] = cross(ab, ac);
+                          points.weights[i] = sample.weight;
+                      });
+    Box3 box;
+    for (const Float3 p : points.positions)
+        box.add(p);
+    points.diagonal = box.empty() ? 0 : double{length(box.max - box.min)};
+    return points;
+}
+
+/// The chosen samples on the proxy of a coarser level.
+std::vector<SurfaceSample> transfer(const SamplePoints& points, const SampleChoice& choice,
+                                    const Proxy& proxy, double reach)
+{
+    const ClosestPoint surface(proxy.view(), proxy.indices.size() / 3);
+    std::vector<SurfaceSample> result(choice.samples.size());
+    tbb::parallel_for(
+        size_t{0}, (result.size() + kVerticesPerTask - 1) / kVerticesPerTask,
+        [&](size_t block)
+        {
+            uint32_t hint = kNowhere;
+            for (size_t i = block * kVerticesPerTask;
+                 i < std::min(result.size(), (block + 1) * kVerticesPerTask); ++i)
+            {
+                const uint32_t sample = choice.samples[i];
+                const ClosestPoint::Found found =
+                    surface.find(points.positions[sample], points.normals[sample], reach * reach, hint);
+                result[i] = {found.triangle, found.u, found.v, choice.areas[i], points.weights[sample]};
+                if (found.triangle != kNowhere)
+                    hint = found.triangle;
+            }
+        });
+    return result;
+}
+
+/// What the proxy's vertices must be so that those of the level are what the finer level's are.
+struct Held
+{
+    std::vector<uint8_t> is_held;
+    std::vector<Moments> moments;
+};
+
+Held heldOf(const LevelMesh& level, const Proxy& proxy, std::span<const Moments> finer)
+{
+    Held held{std::vector<uint8_t>(proxy.positions.size(), 0), std::vector<Moments>(proxy.positions.size())};
+    for (size_t v = 0; v < level.finer_vertex.size(); ++v)
+    {
+        const Binding& binding = proxy.bindings[v];
+        const bool is_one = binding.vertices[0] != kNowhere && binding.vertices[0] == binding.vertices[1];
+        if (level.finer_vertex[v] == kNowhere || !is_one || held.is_held[binding.vertices[0]] != 0)
+            continue;
+        held.is_held[binding.vertices[0]] = 1;
+        held.moments[binding.vertices[0]] = finer[level.finer_vertex[v]];
+    }
+    return held;
+}
+
+LevelFit fitLevel(const LevelMesh& level, const Proxy& proxy, std::span<const SurfaceSample> samples,
+                  std::span<const Moments> values, const FitSettings& settings,
+                  std::span<const Moments> finer)
+{
+    const Held held = heldOf(level, proxy, finer);
+    FitResult fit = fitVertices(proxy, samples, values, settings, {held.is_held, held.moments});
+    LevelFit result{valuesOfSource(proxy, fit.moments, level.mesh.normals), fit.statistics, proxy.statistics,
+                    static_cast<uint32_t>(samples.size())};
+    // several vertices of a level may be one vertex of its proxy, of which the finer level had two
+    for (size_t v = 0; v < level.finer_vertex.size(); ++v)
+        if (level.finer_vertex[v] != kNowhere)
+            result.moments[v] = finer[level.finer_vertex[v]];
+    return result;
+}
+
+} // namespace
+
+SampleChoice chooseSamples(std::span<const SurfaceSample> samples, size_t count)
+{
+    SampleChoice choice;
+    if (samples.size() <= count)
+    {
+        choice.samples.resize(samples.size());
+        std::iota(choice.samples.begin(), choice.samples.end(), 0u);
+        for (const SurfaceSample& sample : samples)
+            choice.areas.push_back(sample.area);
+        return choice;
+    }
+    double total = 0;
+    for (const SurfaceSample& sample : samples)
+        total += sample.area;
+    const double step = total / static_cast<double>(count);
+    double passed = 0;
+    size_t next = 0;
+    for (uint32_t i = 0; i < samples.size(); ++i)
+    {
+        passed += samples[i].area;
+        const size_t before = next;
+        while (next < count && (static_cast<double>(next) + 0.5) * step < passed)
+            ++next;
+        if (next == before)
+            continue;
+        choice.samples.push_back(i);
+        choice.areas.push_back(static_cast<float>(static_cast<double>(next - before) * step));
+    }
+    return choice;
+}
+
+std::vector<LevelFit> fitLevels(std::span<const LevelMesh> levels, std::span<const SurfaceSample> samples,
+                                std::span<const Moments> values, const LevelFitSettings& settings)
+{
+    HEARTH_ASSERT(!levels.empty() && levels[0].finer_vertex.empty() && samples.size() == values.size());
+    std::vector<LevelFit> fits;
+    const Proxy finest = makeProxy(levels[0].mesh, settings.proxy);
+    fits.push_back(fitLevel(levels[0], finest, samplesOnProxy(finest, levels[0].mesh, samples), values,
+                            settings.fit, {}));
+    const SamplePoints points = pointsOf(levels[0].mesh, samples);
+    for (const LevelMesh& level : levels.subspan(1))
+    {
+        HEARTH_ASSERT(level.finer_vertex.empty() || level.finer_vertex.size() == level.mesh.positions.size());
+        const Proxy proxy = makeProxy(level.mesh, settings.proxy);
+        const double coarser = static_cast<double>(proxy.positions.size()) /
+                               static_cast<double>(std::max<size_t>(1, finest.positions.size()));
+        FitSettings fit = settings.fit;
+        fit.alpha *= std::clamp(coarser * coarser, settings.least_alpha, 1.0);
+        const SampleChoice choice =
+            chooseSamples(samples, proxy.positions.size() * settings.samples_per_vertex);
+        const double reach = level.reach > 0 ? double{level.reach} : points.diagonal * kReach;
+        std::vector<Moments> chosen;
+        chosen.reserve(choice.samples.size());
+        for (const uint32_t sample : choice.samples)
+            chosen.push_back(values[sample]);
+        fits.push_back(
+            fitLevel(level, proxy, transfer(points, choice, proxy, reach), chosen, fit, fits.back().moments));
+    }
+    return fits;
+}
+
+} // namespace hearth::visibility

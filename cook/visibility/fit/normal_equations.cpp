@@ -1,0 +1,302 @@
+// Least squares vertex baking: L. Kavan, A. W. Bargteil, P.-P. Sloan, "Least squares vertex baking", 2011. Differs:
+// the regulariser as one row for each edge, weighted by (A1 + A2)^2, and the mass sampled like the right-hand side.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/visibility/fit/normal_equations.h"
+
+#include "formats/base/assert.h"
+#include "formats/base/double3.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace hearth::visibility
+{
+
+namespace
+{
+
+// Of the determinant that a triangle's mass would have if it were sampled everywhere. With less, corners would follow
+// the noise of samples that lie in a row, and the solver would take hundreds of iterations for models of loose
+// triangles.
+constexpr double kPoor = 0.3;
+
+double areaOf(std::span<const Float3> positions, const uint32_t* corners)
+{
+    const Double3 a = widen(positions[corners[0]]);
+    return length(cross(widen(positions[corners[1]]) - a, widen(positions[corners[2]]) - a)) / 2;
+}
+
+/// What the samples of one triangle add up to.
+struct TriangleSums
+{
+    double mass[6] = {0, 0, 0, 0, 0, 0}; ///< corners 00, 11, 22, 01, 12, 20
+    Block4 right[3];
+    double area = 0;                                                 ///< of the samples
+    double whole = 0;                                                ///< as if all of them counted
+    double corner_areas[3] = {0, 0, 0}, corner_whole[3] = {0, 0, 0}; ///< shared out to the corners
+
+    /// How much of the triangle counts.
+    double share() const { return whole > 0 ? area / whole : 1; }
+};
+
+std::vector<TriangleSums> sumSamples(size_t triangle_count, std::span<const SurfaceSample> samples,
+                                     std::span<const Moments> values)
+{
+    std::vector<TriangleSums> sums(triangle_count);
+    for (size_t i = 0; i < samples.size(); ++i)
+    {
+        const SurfaceSample& sample = samples[i];
+        if (sample.triangle == kNowhere)
+            continue;
+        TriangleSums& sum = sums[sample.triangle];
+        const double u = sample.u, v = sample.v, whole = sample.area, area = whole * double{sample.weight};
+        sum.area += area;
+        sum.whole += whole;
+        const double weights[3] = {1 - u - v, u, v};
+        const Block4 value = blockOf(values[i]);
+        for (size_t k = 0; k < 3; ++k)
+        {
+            sum.mass[k] += weights[k] * weights[k] * area;
+            sum.mass[3 + k] += weights[k] * weights[(k + 1) % 3] * area;
+            sum.right[k].addScaled(value, weights[k] * area);
+            sum.corner_areas[k] += weights[k] * area;
+            sum.corner_whole[k] += weights[k] * whole;
+        }
+    }
+    return sums;
+}
+
+/// Which entries the matrix has: vertices of one triangle, and those opposite to each other across an edge.
+SparseMatrix patternOf(const Proxy& proxy)
+{
+    const size_t rows = proxy.positions.size();
+    std::vector<uint32_t> next(rows + 1, 0);
+    // every pair twice, once for each row; pairs along an edge come from each triangle that has it
+    const auto forPairs = [&](const auto& use)
+    {
+        for (size_t t = 0; t < proxy.indices.size(); t += 3)
+            for (size_t k = 0; k < 3; ++k)
+                use(proxy.indices[t + k], proxy.indices[t + (k + 1) % 3]);
+        for (const InteriorEdge& edge : proxy.edges)
+            use(edge.k, edge.l);
+    };
+    std::vector<uint32_t> first(rows + 1, 0);
+    for (size_t row = 0; row < rows; ++row)
+        first[row + 1] = 1; // the diagonal
+    forPairs(
+        [&](uint32_t a, uint32_t b)
+        {
+            ++first[a + 1];
+            ++first[b + 1];
+        });
+    std::partial_sum(first.begin(), first.end(), first.begin());
+    std::vector<uint32_t> entries(first.back());
+    std::copy(first.begin(), first.end(), next.begin());
+    for (uint32_t row = 0; row < rows; ++row)
+        entries[next[row]++] = row;
+    forPairs(
+        [&](uint32_t a, uint32_t b)
+        {
+            entries[next[a]++] = b;
+            entries[next[b]++] = a;
+        });
+    SparseMatrix matrix;
+    matrix.row_start.push_back(0);
+    matrix.columns.reserve(entries.size());
+    for (size_t row = 0; row < rows; ++row)
+    {
+        const auto begin = entries.begin() + first[row], end = entries.begin() + first[row + 1];
+        std::sort(begin, end);
+        matrix.columns.insert(matrix.columns.end(), begin, std::unique(begin, end));
+        matrix.row_start.push_back(static_cast<uint32_t>(matrix.columns.size()));
+    }
+    matrix.values.assign(matrix.columns.size(), 0);
+    return matrix;
+}
+
+double& entry(SparseMatrix& matrix, uint32_t row, uint32_t column)
+{
+    const auto begin = matrix.columns.begin() + matrix.row_start[row];
+    const auto end = matrix.columns.begin() + matrix.row_start[row + 1];
+    const auto found = std::find(begin, end, column); // a dozen: faster than by halves
+    return matrix.values[static_cast<size_t>(found - matrix.columns.begin())];
+}
+
+void addSymmetric(SparseMatrix& matrix, uint32_t a, uint32_t b, double value)
+{
+    entry(matrix, a, b) += value;
+    entry(matrix, b, a) +=
+        value; // twice on the diagonal, where a triangle names a vertex twice: both products are its
+}
+
+void addMass(NormalEquations& system, const Proxy& proxy, const std::vector<TriangleSums>& sums)
+{
+    for (size_t t = 0; t < sums.size(); ++t)
+    {
+        const uint32_t* corners = proxy.indices.data() + t * 3;
+        const double* mass = sums[t].mass;
+        for (size_t k = 0; k < 3; ++k)
+        {
+            entry(system.matrix, corners[k], corners[k]) += mass[k];
+            addSymmetric(system.matrix, corners[k], corners[(k + 1) % 3], mass[3 + k]);
+            system.right[corners[k]].addScaled(sums[t].right[k], 1);
+            system.mass[corners[k]] += mass[k] + mass[3 + k] + mass[3 + (k + 2) % 3];
+        }
+    }
+}
+
+/// What is to be multiplied with a row so that no square of it is more than `stiffness` times its vertex' area.
+double softening(const std::array<double, 4>& jump, const std::array<uint32_t, 4>& vertices,
+                 std::span<const double> areas, double stiffness)
+{
+    double factor = 1;
+    for (size_t i = 0; i < 4; ++i)
+        if (const double square = jump[i] * jump[i], most = stiffness * areas[vertices[i]]; square > most)
+            factor = std::min(factor, std::sqrt(most / square));
+    return factor;
+}
+
+/// A third of the area of its triangles.
+std::vector<double> areasOfVertices(const Proxy& proxy)
+{
+    std::vector<double> areas(proxy.positions.size(), 0);
+    for (size_t t = 0; t < proxy.indices.size(); t += 3)
+    {
+        const double third = areaOf(proxy.positions, &proxy.indices[t]) / 3;
+        for (size_t k = 0; k < 3; ++k)
+            areas[proxy.indices[t + k]] += third;
+    }
+    return areas;
+}
+
+/// How much of what lies around each vertex counts.
+std::vector<double> sharesOfVertices(const Proxy& proxy, const std::vector<TriangleSums>& sums)
+{
+    std::vector<double> area(proxy.positions.size(), 0), whole(area.size(), 0);
+    for (size_t t = 0; t < sums.size(); ++t)
+        for (size_t k = 0; k < 3; ++k)
+        {
+            area[proxy.indices[t * 3 + k]] += sums[t].corner_areas[k];
+            whole[proxy.indices[t * 3 + k]] += sums[t].corner_whole[k];
+        }
+    for (size_t v = 0; v < area.size(); ++v)
+        area[v] = whole[v] > 0 ? area[v] / whole[v] : 1;
+    return area;
+}
+
+/// Jumps count no more than what lies around their vertices: a vertex that hardly counts would have nothing but jumps, which
+/// take hundreds of iterations, and would pass on what it has.
+void addJumps(NormalEquations& system, const Proxy& proxy, std::span<const double> areas,
+              std::span<const double> shares, double alpha, double stiffness)
+{
+    for (const InteriorEdge& edge : proxy.edges)
+    {
+        std::array<double, 4> jump = gradientJump(proxy.positions, edge);
+        const std::array<uint32_t, 4> vertices{edge.a, edge.b, edge.k, edge.l};
+        double share = 1;
+        for (const uint32_t vertex : vertices)
+            share = std::min(share, shares[vertex]);
+        const double factor = softening(jump, vertices, areas, stiffness) * std::sqrt(share);
+        for (double& part : jump)
+            part *= factor;
+        for (size_t i = 0; i < 4; ++i)
+        {
+            entry(system.matrix, vertices[i], vertices[i]) += alpha * jump[i] * jump[i];
+            for (size_t j = i + 1; j < 4; ++j)
+                addSymmetric(system.matrix, vertices[i], vertices[j], alpha * jump[i] * jump[j]);
+        }
+    }
+}
+
+/// 1 where the samples say nothing about differences within the triangle, 0 where they say enough: by their mass'
+/// determinant over that of the mass of the whole area, which is (A / 12)^3 times that of ((2, 1, 1), (1, 2, 1), (1,
+/// 1, 2)).
+double poverty(const TriangleSums& sums, double area)
+{
+    const double* m = sums.mass;
+    const double determinant = m[0] * m[1] * m[2] + 2 * m[3] * m[4] * m[5] - m[0] * m[4] * m[4] -
+                               m[1] * m[5] * m[5] - m[2] * m[3] * m[3];
+    const double twelfth = area / 12, whole = 4 * twelfth * twelfth * twelfth;
+    return whole > 0 ? std::clamp(1 - determinant / (kPoor * whole), 0.0, 1.0) : 0;
+}
+
+/// share * area * poverty times the sum over the sides of the triangle of (u_i - u_j)^2.
+void addMembrane(NormalEquations& system, const Proxy& proxy, const std::vector<TriangleSums>& sums,
+                 double share)
+{
+    for (size_t t = 0; t < sums.size(); ++t)
+    {
+        const uint32_t* corners = &proxy.indices[t * 3];
+        const double area = areaOf(proxy.positions, corners) * sums[t].share();
+        const double weight = share * area * poverty(sums[t], area);
+        if (!(weight > 0))
+            continue;
+        for (size_t k = 0; k < 3; ++k)
+        {
+            const uint32_t a = corners[k], b = corners[(k + 1) % 3];
+            if (a == b)
+                continue;
+            entry(system.matrix, a, a) += weight;
+            entry(system.matrix, b, b) += weight;
+            addSymmetric(system.matrix, a, b, -weight);
+        }
+    }
+}
+
+std::vector<uint32_t> islandsOf(const Proxy& proxy)
+{
+    std::vector<uint32_t> island(proxy.positions.size());
+    std::iota(island.begin(), island.end(), 0u);
+    const auto find = [&](uint32_t v)
+    {
+        while (island[v] != v)
+            v = island[v] = island[island[v]];
+        return v;
+    };
+    for (size_t t = 0; t < proxy.indices.size(); t += 3)
+        for (size_t k = 1; k < 3; ++k)
+        {
+            const uint32_t a = find(proxy.indices[t]), b = find(proxy.indices[t + k]);
+            island[std::max(a, b)] = std::min(a, b);
+        }
+    for (uint32_t v = 0; v < island.size(); ++v)
+        island[v] = find(v);
+    return island;
+}
+
+} // namespace
+
+std::array<double, 4> gradientJump(std::span<const Float3> positions, const InteriorEdge& edge)
+{
+    const Double3 a = widen(positions[edge.a]);
+    const Double3 along = widen(positions[edge.b]) - a;
+    const Double3 to_k = widen(positions[edge.k]) - a, to_l = widen(positions[edge.l]) - a;
+    const double length2 = dot(along, along);
+    const double double_k = length(cross(along, to_k)), double_l = length(cross(along, to_l));
+    if (!(length2 > 0) || !(double_k > 0) || !(double_l > 0))
+        return {0, 0, 0, 0};
+    // u_k minus u at the foot of k on the edge, by the height 2 A / L; the gradients agree along the edge
+    const double weight = (double_k + double_l) / 2 * std::sqrt(length2);
+    const double k = weight / double_k, l = weight / double_l;
+    const double foot_k = dot(to_k, along) / length2, foot_l = dot(to_l, along) / length2;
+    return {-k * (1 - foot_k) - l * (1 - foot_l), -k * foot_k - l * foot_l, k, l};
+}
+
+NormalEquations assemble(const Proxy& proxy, std::span<const SurfaceSample> samples,
+                         std::span<const Moments> values, const FitSettings& settings)
+{
+    HEARTH_ASSERT(samples.size() == values.size());
+    const std::vector<TriangleSums> sums = sumSamples(proxy.indices.size() / 3, samples, values);
+    NormalEquations system;
+    system.matrix = patternOf(proxy);
+    system.right.resize(proxy.positions.size());
+    system.mass.assign(proxy.positions.size(), 0);
+    addMass(system, proxy, sums);
+    addJumps(system, proxy, areasOfVertices(proxy), sharesOfVertices(proxy, sums), settings.alpha,
+             settings.stiffness);
+    addMembrane(system, proxy, sums, settings.membrane);
+    system.island = islandsOf(proxy);
+    return system;
+}
+
+} // namespace hearth::visibility

@@ -1,0 +1,352 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/visibility/mesh/proxy.h"
+
+#include "cook/visibility/mesh/closest_point.h"
+#include "cook/visibility/mesh/moment_clamp.h"
+#include "cook/visibility/mesh/vertex_weld.h"
+#include "formats/base/assert.h"
+
+#include <algorithm>
+#include <limits>
+#include <optional>
+
+#include <tbb/parallel_for.h>
+
+namespace hearth::visibility
+{
+
+namespace
+{
+
+// How far a vertex may lie from the rest of the surface, in thinnesses of the longest edge of its triangles, to be
+// taken for a point of it: a corner of a sliver that was dropped lies within one of its other two.
+constexpr double kBeside = 10;
+
+// Samples that are looked up one after another; each starts where the one before was found.
+constexpr size_t kSamplesPerTask = 256;
+
+constexpr double kEverywhere = std::numeric_limits<double>::infinity();
+
+double sizeOf(std::span<const Float3> positions)
+{
+    Box3 box;
+    for (const Float3 p : positions)
+        box.add(p);
+    double size = 0;
+    for (int axis = 0; axis < 3 && !box.empty(); ++axis)
+        size = std::max({size, double{box.max[axis]} - box.min[axis], std::abs(double{box.min[axis]}),
+                         std::abs(double{box.max[axis]})});
+    return size;
+}
+
+/// The source with its vertices welded: the same arrays, of which only the first of equal ones are named.
+struct Welded
+{
+    std::vector<uint32_t> first; ///< for each vertex
+    std::vector<uint32_t> indices;
+};
+
+Welded weld(const MeshView& source, const ProxySettings& settings)
+{
+    Welded welded;
+    welded.first = proxyVertices(source, settings);
+    welded.indices.reserve(source.indices.size());
+    for (const uint32_t vertex : source.indices)
+        welded.indices.push_back(welded.first[vertex]);
+    return welded;
+}
+
+double longestEdge(const MeshView& mesh, size_t triangle)
+{
+    double longest = 0;
+    for (size_t k = 0; k < 3; ++k)
+        longest = std::max<double>(longest, length(mesh.positions[mesh.indices[triangle * 3 + k]] -
+                                                   mesh.positions[mesh.indices[triangle * 3 + (k + 1) % 3]]));
+    return longest;
+}
+
+bool hasArea(const MeshView& mesh, size_t triangle)
+{
+    const Float3* p = mesh.positions.data();
+    const uint32_t* corner = mesh.indices.data() + triangle * 3;
+    return length(cross(widen(p[corner[1]]) - widen(p[corner[0]]),
+                        widen(p[corner[2]]) - widen(p[corner[0]]))) > 0;
+}
+
+/// Builds a proxy from the triangles that were cleaned. Vertices are those of the source until compact().
+class Builder
+{
+public:
+    Builder(const MeshView& source, const Welded& welded, CleanTriangles clean, double thinness)
+        : source_(source),
+          welded_(welded),
+          clean_(std::move(clean)),
+          thinness_(thinness),
+          used_(source.positions.size(), false),
+          bindings_(source.positions.size())
+    {
+        proxy_.smooth_count = clean_.indices.size() / 3;
+        proxy_.thinness = thinness;
+        proxy_.statistics.thin = clean_.statistics;
+        for (const uint32_t vertex : clean_.indices)
+            used_[vertex] = true;
+    }
+
+    Proxy build()
+    {
+        const std::vector<double> reach = reachOfVertices();
+        bindBeside(reach);
+        keepLoose();
+        bindRest();
+        compact();
+        return std::move(proxy_);
+    }
+
+private:
+    /// What a vertex of the source is before the proxy's own numbers.
+    uint32_t imageOf(uint32_t vertex) const { return clean_.vertex_of_vertex[welded_.first[vertex]]; }
+
+    /// For each vertex the longest edge of the triangles with area that it had but that are gone.
+    std::vector<double> reachOfVertices() const
+    {
+        std::vector<double> reach(source_.positions.size(), 0);
+        for (size_t t = 0; t < source_.triangleCount(); ++t)
+        {
+            if (clean_.kept_of_source[t] != kNowhere || !hasArea(source_, t))
+                continue;
+            const double longest = longestEdge(source_, t);
+            for (size_t k = 0; k < 3; ++k)
+            {
+                double& of_vertex = reach[imageOf(source_.indices[t * 3 + k])];
+                of_vertex = std::max(of_vertex, longest);
+            }
+        }
+        return reach;
+    }
+
+    /// Vertices that have lost all their triangles to points of the others where these are near.
+    void bindBeside(const std::vector<double>& reach)
+    {
+        const MeshView smooth{source_.positions, source_.normals, clean_.indices};
+        std::optional<ClosestPoint> surface;
+        for (uint32_t v = 0; v < used_.size(); ++v)
+        {
+            if (!(reach[v] > 0) || used_[v])
+                continue;
+            if (!surface)
+                surface.emplace(smooth, proxy_.smooth_count);
+            bind(v, *surface, reach[v] * thinness_ * kBeside, smooth);
+        }
+    }
+
+    /// What no triangle with area names is anywhere: to the nearest point, however far.
+    void bindRest()
+    {
+        const MeshView all{source_.positions, source_.normals, clean_.indices};
+        std::optional<ClosestPoint> surface;
+        for (uint32_t v = 0; v < used_.size(); ++v)
+        {
+            if (used_[v] || imageOf(v) != v || bindings_[v].vertices[0] != kNowhere)
+                continue;
+            if (!surface)
+                surface.emplace(all, clean_.indices.size() / 3);
+            bind(v, *surface, kEverywhere, all);
+        }
+    }
+
+    void bind(uint32_t vertex, const ClosestPoint& surface, double limit, const MeshView& mesh)
+    {
+        const Float3 p = source_.positions[vertex];
+        ClosestPoint::Found found = surface.find(p, source_.normals[vertex], limit * limit, kNowhere);
+        if (found.triangle == kNowhere && limit == kEverywhere)
+            found = surface.find(p, {}, kEverywhere, kNowhere);
+        if (found.triangle == kNowhere)
+            return;
+        const uint32_t* corners = mesh.indices.data() + size_t{found.triangle} * 3;
+        bindings_[vertex] = {{corners[0], corners[1], corners[2]},
+                             {(1 - found.u) - found.v, found.u, found.v}};
+    }
+
+    /// Triangles that are gone, but of which a vertex is neither on another nor beside one.
+    void keepLoose()
+    {
+        proxy_.triangle_of_source = clean_.kept_of_source;
+        std::vector<bool> named = used_;
+        for (size_t t = 0; t < source_.triangleCount(); ++t)
+        {
+            if (clean_.kept_of_source[t] != kNowhere || !hasArea(source_, t))
+                continue;
+            std::array<uint32_t, 3> corners;
+            bool loose = false;
+            for (size_t k = 0; k < 3; ++k)
+            {
+                corners[k] = imageOf(source_.indices[t * 3 + k]);
+                loose |= !used_[corners[k]] && bindings_[corners[k]].vertices[0] == kNowhere;
+            }
+            if (!loose)
+                continue;
+            proxy_.triangle_of_source[t] = static_cast<uint32_t>(clean_.indices.size() / 3);
+            ++proxy_.statistics.loose;
+            for (const uint32_t corner : corners)
+            {
+                named[corner] = true;
+                bindings_[corner] = {};
+                clean_.indices.push_back(corner);
+            }
+        }
+        used_ = std::move(named);
+    }
+
+    void compact()
+    {
+        std::vector<uint32_t> number(used_.size(), kNowhere);
+        for (uint32_t v = 0; v < used_.size(); ++v)
+            if (used_[v])
+            {
+                number[v] = static_cast<uint32_t>(proxy_.positions.size());
+                proxy_.positions.push_back(source_.positions[v]);
+                proxy_.normals.push_back(source_.normals[v]);
+            }
+        for (const uint32_t vertex : clean_.indices)
+            proxy_.indices.push_back(number[vertex]);
+        const std::span<const uint32_t> smooth(proxy_.indices.data(), proxy_.smooth_count * 3);
+        proxy_.edges = interiorEdges(smooth, proxy_.positions.size());
+        proxy_.bindings.resize(used_.size());
+        proxy_.statistics.source_vertices = static_cast<uint32_t>(used_.size());
+        for (uint32_t v = 0; v < used_.size(); ++v)
+        {
+            const uint32_t image = imageOf(v);
+            proxy_.statistics.welded += welded_.first[v] != v;
+            Binding& binding = proxy_.bindings[v];
+            if (used_[image])
+                binding.vertices.fill(number[image]);
+            else if (bindings_[image].vertices[0] != kNowhere)
+            {
+                for (size_t k = 0; k < 3; ++k)
+                    binding.vertices[k] = number[bindings_[image].vertices[k]];
+                binding.weights = bindings_[image].weights;
+                ++proxy_.statistics.nearest;
+            }
+        }
+    }
+
+    const MeshView& source_;
+    const Welded& welded_;
+    CleanTriangles clean_;
+    double thinness_;
+    std::vector<bool> used_; ///< by a triangle of the proxy
+    std::vector<Binding> bindings_;
+    Proxy proxy_;
+};
+
+} // namespace
+
+std::vector<uint32_t> proxyVertices(const MeshView& source, const ProxySettings& settings)
+{
+    const double tolerance = sizeOf(source.positions) * settings.position_tolerance;
+    return weldVertices(source.positions, source.normals, tolerance, settings.normal_tolerance);
+}
+
+Proxy makeProxy(const MeshView& source, const ProxySettings& settings)
+{
+    HEARTH_ASSERT(source.normals.size() == source.positions.size());
+    const Welded welded = weld(source, settings);
+    CleanTriangles clean = removeThinTriangles(source.positions, welded.indices, settings.thinness);
+    return Builder(source, welded, std::move(clean), settings.thinness).build();
+}
+
+namespace
+{
+
+/// A sample on a triangle of the proxy whose corners are those of its own, perhaps in another order.
+SurfaceSample turned(const SurfaceSample& sample, const std::array<uint32_t, 3>& own, uint32_t triangle,
+                     const uint32_t* corners)
+{
+    SurfaceSample result = sample;
+    result.triangle = triangle;
+    if (own[0] == corners[0] && own[1] == corners[1] && own[2] == corners[2])
+        return result;
+    std::array<float, 3> weights{};
+    const std::array<float, 3> own_weights{(1 - sample.u) - sample.v, sample.u, sample.v};
+    for (size_t k = 0; k < 3; ++k)
+        for (size_t j = 0; j < 3; ++j)
+            if (corners[k] == own[j])
+                weights[k] = own_weights[j];
+    result.u = weights[1];
+    result.v = weights[2];
+    return result;
+}
+
+} // namespace
+
+std::vector<SurfaceSample> samplesOnProxy(const Proxy& proxy, const MeshView& source,
+                                          std::span<const SurfaceSample> samples)
+{
+    const auto gone = [&](const SurfaceSample& sample)
+    { return proxy.triangle_of_source[sample.triangle] == kNowhere; };
+    std::optional<ClosestPoint> surface;
+    if (std::any_of(samples.begin(), samples.end(), gone))
+        surface.emplace(proxy.view(), proxy.smooth_count);
+    std::vector<SurfaceSample> result(samples.size());
+    const auto place = [&](const SurfaceSample& sample, uint32_t hint)
+    {
+        const uint32_t* corners = source.indices.data() + size_t{sample.triangle} * 3;
+        if (const uint32_t triangle = proxy.triangle_of_source[sample.triangle]; triangle != kNowhere)
+        {
+            std::array<uint32_t, 3> own;
+            for (size_t k = 0; k < 3; ++k)
+                own[k] = proxy.bindings[corners[k]].vertices[0];
+            return turned(sample, own, triangle, proxy.indices.data() + size_t{triangle} * 3);
+        }
+        const Float3 a = source.positions[corners[0]];
+        const Float3 ab = source.positions[corners[1]] - a, ac = source.positions[corners[2]] - a;
+        const double reach = longestEdge(source, sample.triangle) * proxy.thinness * kBeside;
+        const ClosestPoint::Found found =
+            surface->find(a + ab * sample.u + ac * sample.v, cross(ab, ac), reach * reach, hint);
+        return SurfaceSample{found.triangle, found.u, found.v, sample.area, sample.weight};
+    };
+    tbb::parallel_for(size_t{0}, (samples.size() + kSamplesPerTask - 1) / kSamplesPerTask,
+                      [&](size_t block)
+                      {
+                          uint32_t hint = kNowhere;
+                          const size_t end = std::min(samples.size(), (block + 1) * kSamplesPerTask);
+                          for (size_t i = block * kSamplesPerTask; i < end; ++i)
+                          {
+                              result[i] = place(samples[i], hint);
+                              if (gone(samples[i]) && result[i].triangle != kNowhere)
+                                  hint = result[i].triangle;
+                          }
+                      });
+    return result;
+}
+
+std::vector<Moments> valuesOfSource(const Proxy& proxy, std::span<const Moments> values,
+                                    std::span<const Float3> source_normals)
+{
+    HEARTH_ASSERT(values.size() == proxy.positions.size() && source_normals.size() == proxy.bindings.size());
+    std::vector<Moments> result(proxy.bindings.size());
+    for (size_t v = 0; v < result.size(); ++v)
+    {
+        const Binding& binding = proxy.bindings[v];
+        if (binding.vertices[0] == kNowhere)
+        {
+            result[v] = openHemisphere(source_normals[v]);
+            continue;
+        }
+        // not as a sum: 1 * x + 0 * x would change a sign of zero
+        if (binding.weights[0] == 1)
+        {
+            result[v] = values[binding.vertices[0]];
+            continue;
+        }
+        for (size_t k = 0; k < 3; ++k)
+        {
+            const Moments& of_corner = values[binding.vertices[k]];
+            result[v].m0 += binding.weights[k] * of_corner.m0;
+            result[v].m1 += of_corner.m1 * binding.weights[k];
+        }
+    }
+    return result;
+}
+
+} // namespace hearth::visibility

@@ -1,0 +1,267 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/visibility/mesh/thin_triangles.h"
+
+#include "cook/visibility/mesh/interior_edges.h"
+#include "cook/visibility/mesh/mesh_view.h"
+#include "formats/base/double3.h"
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+
+namespace hearth::visibility
+{
+
+namespace
+{
+
+using CornerIndices = std::array<uint32_t, 3>;
+
+// A flip or a collapse makes work for the neighbours; of meshes seen, the worst were done after four rounds.
+constexpr int kRounds = 16;
+
+// An edge of a thin triangle, by its longest: shorter ones are collapsed. In thinnesses: a corner that is as far
+// along the longest edge from its end would leave a thin triangle behind if it were flipped.
+constexpr double kShort = 4;
+
+struct Shape
+{
+    double ratio;    ///< height by longest edge
+    double shortest; ///< by the longest
+    int opposite;    ///< corner that is opposite to the longest edge
+    int short_side;  ///< corner that is opposite to the shortest edge
+};
+
+Shape shapeOf(std::span<const Float3> positions, const CornerIndices& corners)
+{
+    std::array<double, 3> length2;
+    const std::array<Double3, 3> p{widen(positions[corners[0]]), widen(positions[corners[1]]),
+                                   widen(positions[corners[2]])};
+    for (size_t k = 0; k < 3; ++k)
+    {
+        const Double3 edge = p[(k + 2) % 3] - p[(k + 1) % 3];
+        length2[k] = dot(edge, edge);
+    }
+    const auto longest = std::max_element(length2.begin(), length2.end());
+    const auto shortest = std::min_element(length2.begin(), length2.end());
+    if (!(*longest > 0))
+        return {0, 0, 0, 0};
+    return {length(cross(p[1] - p[0], p[2] - p[0])) / *longest, std::sqrt(*shortest / *longest),
+            static_cast<int>(longest - length2.begin()), static_cast<int>(shortest - length2.begin())};
+}
+
+bool isDegenerate(const CornerIndices& c)
+{
+    return c[0] == c[1] || c[1] == c[2] || c[2] == c[0];
+}
+
+/// The triangles while they change; those that are gone have the same corner three times.
+class Cleaner
+{
+public:
+    Cleaner(std::span<const Float3> positions, std::span<const uint32_t> indices, double thinness)
+        : positions_(positions),
+          thinness_(thinness),
+          corners_(indices.size() / 3),
+          flipped_(corners_.size(), false),
+          busy_(positions.size(), 0)
+    {
+        for (size_t t = 0; t < corners_.size(); ++t)
+            corners_[t] = {indices[t * 3], indices[t * 3 + 1], indices[t * 3 + 2]};
+        result_.vertex_of_vertex.resize(positions.size());
+        std::iota(result_.vertex_of_vertex.begin(), result_.vertex_of_vertex.end(), 0u);
+        result_.kept_of_source.assign(corners_.size(), kNowhere);
+    }
+
+    CleanTriangles clean()
+    {
+        gather();
+        result_.statistics.degenerate = static_cast<uint32_t>(corners_.size() - live_.size() - duplicates_);
+        result_.statistics.duplicate = duplicates_;
+        for (int round = 0; round < kRounds && thinness_ > 0 && improve(); ++round)
+            gather();
+        dropThin();
+        finish();
+        return std::move(result_);
+    }
+
+private:
+    /// live_: the triangles with three different corners, one of each set of three.
+    void gather()
+    {
+        // vertices go to lower ones, which here already know where they went
+        for (uint32_t& vertex : result_.vertex_of_vertex)
+            vertex = result_.vertex_of_vertex[vertex];
+        for (CornerIndices& corners : corners_)
+            for (uint32_t& vertex : corners)
+                vertex = result_.vertex_of_vertex[vertex];
+        struct Key
+        {
+            CornerIndices sorted;
+            uint32_t triangle;
+        };
+        std::vector<Key> keys;
+        keys.reserve(corners_.size());
+        for (uint32_t t = 0; t < corners_.size(); ++t)
+        {
+            if (isDegenerate(corners_[t]))
+                continue;
+            CornerIndices sorted = corners_[t];
+            std::sort(sorted.begin(), sorted.end());
+            keys.push_back({sorted, t});
+        }
+        std::sort(keys.begin(), keys.end(),
+                  [](const Key& a, const Key& b)
+                  { return a.sorted != b.sorted ? a.sorted < b.sorted : a.triangle < b.triangle; });
+        live_.clear();
+        twin_.assign(corners_.size(), kNowhere);
+        duplicates_ = 0;
+        uint32_t first = kNowhere;
+        for (size_t i = 0; i < keys.size(); ++i)
+        {
+            if (i == 0 || keys[i].sorted != keys[i - 1].sorted)
+            {
+                first = keys[i].triangle;
+                live_.push_back(first);
+            }
+            else
+                ++duplicates_;
+            twin_[keys[i].triangle] = first;
+        }
+        std::sort(live_.begin(), live_.end());
+    }
+
+    /// One round of collapses and flips that do not meet; false if there was none.
+    bool improve()
+    {
+        ++round_;
+        bool changed = false, edges_known = false;
+        for (const uint32_t triangle : live_)
+        {
+            const Shape shape = shapeOf(positions_, corners_[triangle]);
+            if (shape.ratio >= thinness_)
+                continue;
+            if (shape.shortest <= kShort * thinness_)
+            {
+                changed |= collapse(triangle, shape);
+                continue;
+            }
+            if (!edges_known)
+                findEdges();
+            edges_known = true;
+            changed |= flip(triangle, shape);
+        }
+        return changed;
+    }
+
+    bool takeAll(std::initializer_list<uint32_t> vertices)
+    {
+        for (const uint32_t vertex : vertices)
+            if (busy_[vertex] == round_)
+                return false;
+        for (const uint32_t vertex : vertices)
+            busy_[vertex] = round_;
+        return true;
+    }
+
+    bool collapse(uint32_t triangle, const Shape& shape)
+    {
+        const CornerIndices& corners = corners_[triangle];
+        const auto [low, high] = std::minmax(corners[static_cast<size_t>(shape.short_side + 1) % 3],
+                                             corners[static_cast<size_t>(shape.short_side + 2) % 3]);
+        if (!takeAll({low, high}))
+            return false;
+        result_.vertex_of_vertex[high] = low;
+        ++result_.statistics.collapsed;
+        return true;
+    }
+
+    /// The edges of the live triangles as they are at the start of the round.
+    void findEdges()
+    {
+        std::vector<uint32_t> indices;
+        indices.reserve(live_.size() * 3);
+        for (const uint32_t triangle : live_)
+            indices.insert(indices.end(), corners_[triangle].begin(), corners_[triangle].end());
+        edges_ = interiorEdges(indices, positions_.size());
+    }
+
+    /// The triangle across the edge that is opposite to a corner, and its third corner.
+    std::pair<uint32_t, uint32_t> across(uint32_t triangle, uint32_t a, uint32_t b) const
+    {
+        const auto [low, high] = std::minmax(a, b);
+        const auto edge = std::lower_bound(edges_.begin(), edges_.end(), std::pair(low, high),
+                                           [](const InteriorEdge& e, const std::pair<uint32_t, uint32_t>& key)
+                                           { return std::pair(e.a, e.b) < key; });
+        if (edge == edges_.end() || edge->a != low || edge->b != high)
+            return {kNowhere, kNowhere};
+        const bool first = live_[edge->triangles[0]] == triangle;
+        return {live_[edge->triangles[first ? 1 : 0]], first ? edge->l : edge->k};
+    }
+
+    bool flip(uint32_t triangle, const Shape& shape)
+    {
+        const CornerIndices corners = corners_[triangle];
+        const auto k = static_cast<size_t>(shape.opposite);
+        const uint32_t p = corners[k], a = corners[(k + 1) % 3], b = corners[(k + 2) % 3];
+        const auto [other, c] = across(triangle, a, b);
+        if (other == kNowhere || c == p)
+            return false;
+        const CornerIndices one{a, c, p}, two{c, b, p};
+        const double before = std::min(shape.ratio, shapeOf(positions_, corners_[other]).ratio);
+        const double after = std::min(shapeOf(positions_, one).ratio, shapeOf(positions_, two).ratio);
+        if (!(after > before) || !takeAll({a, b, c, p}))
+            return false;
+        corners_[triangle] = one;
+        corners_[other] = two;
+        flipped_[triangle] = flipped_[other] = true;
+        ++result_.statistics.flipped;
+        return true;
+    }
+
+    void dropThin()
+    {
+        const auto thin = [&](uint32_t triangle)
+        { return thinness_ > 0 && shapeOf(positions_, corners_[triangle]).ratio < thinness_; };
+        const auto end = std::remove_if(live_.begin(), live_.end(), thin);
+        result_.statistics.dropped = static_cast<uint32_t>(live_.end() - end);
+        live_.erase(end, live_.end());
+    }
+
+    void finish()
+    {
+        std::vector<uint32_t> kept_of_triangle(corners_.size(), kNowhere);
+        for (const uint32_t triangle : live_)
+        {
+            kept_of_triangle[triangle] = static_cast<uint32_t>(result_.source.size());
+            result_.source.push_back(flipped_[triangle] ? kNowhere : triangle);
+            result_.indices.insert(result_.indices.end(), corners_[triangle].begin(),
+                                   corners_[triangle].end());
+        }
+        for (size_t t = 0; t < corners_.size(); ++t)
+            if (twin_[t] != kNowhere && !flipped_[t])
+                result_.kept_of_source[t] = kept_of_triangle[twin_[t]];
+    }
+
+    std::span<const Float3> positions_;
+    double thinness_;
+    std::vector<CornerIndices> corners_;
+    std::vector<bool> flipped_;
+    std::vector<uint32_t> live_;
+    std::vector<uint32_t> twin_; ///< the live triangle with the same corners, of all that have three
+    uint32_t duplicates_ = 0;
+    std::vector<InteriorEdge> edges_; ///< their triangles count the live ones
+    std::vector<uint32_t> busy_;      ///< the last round that a vertex took part in
+    uint32_t round_ = 0;
+    CleanTriangles result_;
+};
+
+} // namespace
+
+CleanTriangles removeThinTriangles(std::span<const Float3> positions, std::span<const uint32_t> indices,
+                                   double thinness)
+{
+    return Cleaner(positions, indices, thinness).clean();
+}
+
+} // namespace hearth::visibility

@@ -1,0 +1,173 @@
+// A hash grid in six dimensions: three of the position, three of the normal. A vertex lies in one cell and looks into
+// all that its tolerances touch, mostly that one.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/visibility/mesh/vertex_weld.h"
+
+#include <array>
+#include <bit>
+#include <cmath>
+
+namespace hearth::visibility
+{
+
+namespace
+{
+
+constexpr uint32_t kNone = 0xFFFFFFFFu;
+
+// In tolerances: larger cells are looked into less often beside the own one, but hold more that is too far away.
+constexpr double kCell = 5;
+
+using Cell = std::array<int64_t, 6>;
+
+uint64_t hashOf(const Cell& cell)
+{
+    uint64_t hash = 0;
+    for (const int64_t part : cell)
+    {
+        // finaliser of splitmix64 (S. Vigna)
+        hash = (hash ^ static_cast<uint64_t>(part)) + 0x9E3779B97F4A7C15u;
+        hash = (hash ^ (hash >> 30)) * 0xBF58476D1CE4E5B9u;
+        hash = (hash ^ (hash >> 27)) * 0x94D049BB133111EBu;
+        hash ^= hash >> 31;
+    }
+    return hash;
+}
+
+class Welder
+{
+public:
+    Welder(std::span<const Float3> positions, std::span<const Float3> normals, double position_tolerance,
+           double normal_tolerance)
+        : positions_(positions),
+          normals_(normals),
+          position_tolerance_(position_tolerance),
+          normal_tolerance_(normal_tolerance),
+          first_(positions.size()),
+          next_(positions.size(), kNone),
+          heads_(std::bit_ceil(positions.size() * 2 + 1), kNone)
+    {
+    }
+
+    std::vector<uint32_t> weld()
+    {
+        for (uint32_t vertex = 0; vertex < first_.size(); ++vertex)
+        {
+            first_[vertex] = vertex;
+            const Cell own = cellAt(vertex, 0);
+            // what equals another in every bit is one with it and need not be looked at again: a thousand triangles
+            // that meet in one vertex each with its own copy are no work
+            if (const uint32_t equal = equalIn(own, vertex); equal != kNone)
+            {
+                unite(vertex, equal);
+                continue;
+            }
+            uniteWithNeighbours(vertex);
+            uint32_t& head = headOf(own);
+            next_[vertex] = head;
+            head = vertex;
+        }
+        for (uint32_t vertex = 0; vertex < first_.size(); ++vertex)
+            first_[vertex] = find(vertex);
+        return std::move(first_);
+    }
+
+private:
+    double coordinate(uint32_t vertex, size_t axis) const
+    {
+        return axis < 3 ? positions_[vertex][static_cast<int>(axis)]
+                        : normals_[vertex][static_cast<int>(axis) - 3];
+    }
+
+    double toleranceOf(size_t axis) const { return axis < 3 ? position_tolerance_ : normal_tolerance_; }
+
+    /// The cell of a vertex that is moved by `tolerances` in every axis.
+    Cell cellAt(uint32_t vertex, double tolerances) const
+    {
+        Cell cell;
+        for (size_t axis = 0; axis < 6; ++axis)
+        {
+            const double x = coordinate(vertex, axis), tolerance = toleranceOf(axis);
+            // without a tolerance the coordinate itself is the cell; + 0.0: of the two zeros one
+            cell[axis] =
+                tolerance > 0
+                    ? static_cast<int64_t>(std::floor((x + tolerances * tolerance) / (kCell * tolerance)))
+                    : std::bit_cast<int64_t>(x + 0.0);
+        }
+        return cell;
+    }
+
+    uint32_t& headOf(const Cell& cell) { return heads_[hashOf(cell) & (heads_.size() - 1)]; }
+
+    uint32_t equalIn(const Cell& cell, uint32_t vertex)
+    {
+        for (uint32_t other = headOf(cell); other != kNone; other = next_[other])
+            if (positions_[other] == positions_[vertex] && normals_[other] == normals_[vertex])
+                return other;
+        return kNone;
+    }
+
+    bool near(uint32_t a, uint32_t b) const
+    {
+        for (size_t axis = 0; axis < 6; ++axis)
+            if (!(std::abs(coordinate(a, axis) - coordinate(b, axis)) <= toleranceOf(axis)))
+                return false;
+        return true;
+    }
+
+    void uniteWithNeighbours(uint32_t vertex)
+    {
+        // a little more than the tolerance: sums round
+        const Cell low = cellAt(vertex, -1.001), high = cellAt(vertex, 1.001);
+        for (Cell cell = low;;)
+        {
+            for (uint32_t other = headOf(cell); other != kNone; other = next_[other])
+                if (near(vertex, other))
+                    unite(vertex, other);
+            size_t axis = 0;
+            while (axis < 6 && cell[axis] == high[axis])
+            {
+                cell[axis] = low[axis];
+                ++axis;
+            }
+            if (axis == 6)
+                return;
+            ++cell[axis];
+        }
+    }
+
+    uint32_t find(uint32_t vertex)
+    {
+        while (first_[vertex] != vertex)
+        {
+            first_[vertex] = first_[first_[vertex]];
+            vertex = first_[vertex];
+        }
+        return vertex;
+    }
+
+    void unite(uint32_t a, uint32_t b)
+    {
+        a = find(a);
+        b = find(b);
+        first_[std::max(a, b)] = std::min(a, b);
+    }
+
+    std::span<const Float3> positions_;
+    std::span<const Float3> normals_;
+    double position_tolerance_;
+    double normal_tolerance_;
+    std::vector<uint32_t> first_;
+    std::vector<uint32_t> next_;  ///< in the list of the cell
+    std::vector<uint32_t> heads_; ///< of the lists; cells may share one
+};
+
+} // namespace
+
+std::vector<uint32_t> weldVertices(std::span<const Float3> positions, std::span<const Float3> normals,
+                                   double position_tolerance, double normal_tolerance)
+{
+    return Welder(positions, normals, position_tolerance, normal_tolerance).weld();
+}
+
+} // namespace hearth::visibility

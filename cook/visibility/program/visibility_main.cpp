@@ -1,0 +1,235 @@
+// hearth-visibility: reads an import part and its clusters part, and writes the clusters part with what its vertices see.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/command_line/command_line.h"
+#include "cook/tools/batch.h"
+#include "cook/tools/open_part.h"
+#include "cook/visibility/program/visibility_part.h"
+#include "cook/visibility/scene/occlusion_picture.h"
+#include "formats/base/atomic_file.h"
+#include "formats/base/program.h"
+
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <map>
+#include <memory>
+
+#include <tbb/global_control.h>
+#include <unistd.h>
+
+namespace
+{
+
+using namespace hearth;
+using visibility::BakeProgress;
+using visibility::BakeSettings;
+
+constexpr int kInterrupted = 130;
+
+// Of the picture: small enough for a report that has it inside.
+constexpr uint32_t kWidth = 640, kHeight = 480;
+
+volatile std::sig_atomic_t interrupted = 0;
+
+struct Quality
+{
+    double samples_per_vertex;
+    uint32_t rays_per_sample;
+};
+
+const std::map<std::string, Quality> kQualities{
+    {"draft", {1, 32}},
+    {"default", {8, 64}},
+    {"high", {16, 256}},
+};
+
+struct Arguments
+{
+    std::string import_part;
+    std::string clusters_part;
+    std::string output;
+    std::string statistics;
+    bool statistics_without_noise = false;
+    std::string picture;
+    std::string quality = "default";
+    std::string occluders = "scene";
+    double samples_per_vertex = 0; ///< 0, here and below: as the quality has it
+    uint32_t rays_per_sample = 0;
+    float distance = 0;
+    float power = 0;
+    std::vector<std::string> poses;
+    bool refine_cones = false;
+    size_t jobs = 0;
+
+    BakeSettings settings() const
+    {
+        BakeSettings settings;
+        const Quality& preset = kQualities.at(quality);
+        settings.samples_per_vertex = samples_per_vertex > 0 ? samples_per_vertex : preset.samples_per_vertex;
+        settings.rays.rays_per_sample = rays_per_sample > 0 ? rays_per_sample : preset.rays_per_sample;
+        if (distance > 0)
+            settings.rays.distance = distance;
+        settings.rays.power = power;
+        settings.alone = occluders == "asset";
+        for (const std::string& text : poses)
+            settings.poses.push_back(visibility::parseClipTimes(text).value_or(visibility::ClipTimes{}));
+        settings.refine_cones = refine_cones;
+        settings.estimate_error = !statistics.empty() && !statistics_without_noise;
+        return settings;
+    }
+};
+
+/// One line on a terminal, written over and over; nothing in a log.
+class ProgressLine
+{
+public:
+    ~ProgressLine()
+    {
+        if (shown_)
+            std::fputs("\r\x1b[K", stderr);
+    }
+
+    void show(const BakeProgress& progress)
+    {
+        const auto now = std::chrono::steady_clock::now();
+        if (!is_terminal_ || now - last_ < std::chrono::milliseconds(100))
+            return;
+        last_ = now;
+        shown_ = true;
+        const double seconds = std::chrono::duration<double>(now - start_).count();
+        std::fprintf(stderr, "\rvisibility %3.0f %%, %.1f Mrays/s", 100 * progress.share,
+                     static_cast<double>(progress.rays) / seconds * 1e-6);
+        if (progress.share > 0.02)
+            std::fprintf(stderr, ", %.0f s left", seconds * (1 - progress.share) / progress.share);
+        std::fputs("\x1b[K", stderr);
+    }
+
+private:
+    const bool is_terminal_ = ::isatty(STDERR_FILENO) == 1;
+    const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+    std::chrono::steady_clock::time_point last_;
+    bool shown_ = false;
+};
+
+Status writeStatistics(const Arguments& arguments, const std::vector<visibility::MeshStatistics>& meshes)
+{
+    const std::string source =
+        arguments.import_part.substr(arguments.import_part.rfind('/') + 1); // npos + 1 is 0
+    return writeText(arguments.statistics, visibility::statisticsJson(source, arguments.settings(), meshes));
+}
+
+/// Of the part that was written.
+Status writePicture(const Arguments& arguments, const formats::PackView& import_part)
+{
+    HEARTH_ASSIGN_OR_RETURN(const formats::PackView baked, tools::openPart(arguments.output));
+    HEARTH_ASSIGN_OR_RETURN(const visibility::GreyPicture picture,
+                            visibility::occlusionPicture(import_part, baked, kWidth, kHeight));
+    HEARTH_ASSIGN_OR_RETURN(AtomicFile file, AtomicFile::create(arguments.picture));
+    file.write(visibility::encodePng(picture));
+    return file.finish();
+}
+
+/// The exit code.
+Result<int> cook(const Arguments& arguments)
+{
+    HEARTH_ASSIGN_OR_RETURN(const formats::PackView import_part, tools::openPart(arguments.import_part));
+    HEARTH_ASSIGN_OR_RETURN(const formats::PackView clusters_part, tools::openPart(arguments.clusters_part));
+    ProgressLine line;
+    const auto observe = [&](const BakeProgress& progress)
+    {
+        line.show(progress);
+        return interrupted == 0;
+    };
+    HEARTH_ASSIGN_OR_RETURN(const auto meshes,
+                            visibility::writeVisibilityPart(import_part, clusters_part, arguments.output,
+                                                            arguments.settings(), observe));
+    if (!meshes)
+        return kInterrupted;
+    if (!arguments.statistics.empty())
+        HEARTH_TRY(writeStatistics(arguments, *meshes));
+    if (!arguments.picture.empty())
+        HEARTH_TRY(writePicture(arguments, import_part));
+    return 0;
+}
+
+int run(const Arguments& arguments)
+{
+    std::unique_ptr<tbb::global_control> limit;
+    if (arguments.jobs > 0)
+        limit = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism,
+                                                      arguments.jobs);
+    std::signal(SIGINT, [](int) { interrupted = 1; });
+    std::signal(SIGTERM, [](int) { interrupted = 1; });
+    const Result<int> cooked = cook(arguments);
+    if (cooked.ok())
+        return *cooked;
+    return reportFailure(cooked.error());
+}
+
+int program(int argc, char** argv)
+{
+    cli::CommandLine app(
+        "Bakes what each vertex sees of its surroundings, for all levels of detail, into the vertices "
+        "of a clusters part that has room for it (hearth-clusters --visibility).");
+    Arguments arguments;
+    app.addOption("import", arguments.import_part, "import part").required();
+    app.addOption("clusters", arguments.clusters_part, "clusters part of the same source").required();
+    app.addOption("-o,--output", arguments.output, "clusters part to write, with visibility").required();
+    app.addOption("--quality", arguments.quality,
+                  "samples a vertex x rays a sample: draft 1 x 32, default 8 x 64, high 16 x 256")
+        .choices({"draft", "default", "high"}, "NAME");
+    app.addOption("--samples-per-vertex", arguments.samples_per_vertex, "instead of the quality's")
+        .range(0.01, 65536.0, "FLOAT");
+    app.addOption("--rays-per-sample", arguments.rays_per_sample,
+                  "instead of the quality's; a power of two is best")
+        .range(1, 65536, "UINT");
+    app.addOption("--occluders", arguments.occluders,
+                  "what is in the way: scene (all instances, the default) or asset (each mesh alone)")
+        .choices({"scene", "asset"}, "NAME");
+    const cli::Option distance =
+        app.addOption("--distance", arguments.distance,
+                      "metres: what is farther away hides nothing; no limit by default")
+            .positive("FLOAT");
+    app.addOption("--power", arguments.power,
+                  "visibility of what is t metres away is (t / distance)^power; 0, the default: nothing")
+        .range(0.0, 16.0, "FLOAT")
+        .needs(distance);
+    app.addOption("--poses", arguments.poses,
+                  "CLIP[@SECONDS,...]: deformed meshes are baked in these poses instead of the bind pose, "
+                  "four evenly "
+                  "over the clip where no times are given; several clips: once each")
+        .oneValueEach()
+        .check(
+            [](const std::string& text)
+            {
+                return visibility::parseClipTimes(text)
+                           ? ""
+                           : "--poses: \"" + text + "\" has no list of seconds after its @";
+            })
+        .typeName("TEXT");
+    app.addFlag("--refine-cones", arguments.refine_cones,
+                "fit cones to nine harmonics instead of four moments; --stats says what that gained");
+    app.addOption("-j,--jobs", arguments.jobs, "threads to use; the result does not depend on it");
+    const cli::Option statistics =
+        app.addOption("--stats", arguments.statistics,
+                      "write what became of each mesh as JSON, its noise estimated; - is standard output");
+    app.addFlag("--no-noise-estimate", arguments.statistics_without_noise,
+                "leave the noise out of --stats, which takes two fits more")
+        .needs(statistics);
+    app.addOption("--picture", arguments.picture,
+                  "draw the scene's ambient occlusion into a PNG file of 640 x 480");
+    app.setFooter(
+        "Example: hearth-visibility room.import.part room.clusters.part -o room.visibility.part --stats -\n"
+        "Exit codes: 0 done, 2 usage, 65 malformed input, 66 input missing, 70 internal, 73 cannot write, "
+        "74 I/O, 130 interrupted");
+    if (const std::optional<int> exit_code = app.parse(argc, argv))
+        return *exit_code;
+    return run(arguments);
+}
+
+} // namespace
+
+int main(int argc, char** argv)
+{
+    return hearth::tools::runCooker("hearth-visibility", argc, argv, program);
+}

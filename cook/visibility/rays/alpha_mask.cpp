@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/visibility/rays/alpha_mask.h"
+
+#include "formats/base/half.h"
+#include "formats/records/texel_wrap.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+namespace hearth::visibility
+{
+
+using namespace formats;
+
+Result<AlphaImage> alphaOf(const PackView& part, uint32_t image)
+{
+    HEARTH_ASSIGN_OR_RETURN(const ChunkData data, part.imageData(image));
+    const ImageRecord& record = part.images()[image];
+    AlphaImage alpha{record.width, record.height, {}};
+    const size_t count = size_t{record.width} * record.height;
+    const uint32_t size = texelBytes(record.format);
+    if (data.bytes().size() < count * size)
+        return Error{Issue::chunk_size, part.name(), "image " + std::to_string(image),
+                     "it has fewer texels than its size says"};
+    alpha.texels.resize(count);
+    for (size_t i = 0; i < count; ++i)
+    {
+        const std::byte* texel = data.bytes().data() + i * size;
+        if (record.format == static_cast<uint32_t>(TexelFormat::rgba16_float))
+        {
+            uint16_t half;
+            std::memcpy(&half, texel + 6, sizeof(half));
+            alpha.texels[i] = static_cast<uint8_t>(quantizeUnorm(floatFromHalf(half), 255));
+        }
+        else
+            alpha.texels[i] = std::to_integer<uint8_t>(texel[3]);
+    }
+    return alpha;
+}
+
+AlphaMask::AlphaMask(const MaterialRecord& material, std::shared_ptr<const AlphaImage> image)
+    : texture_(material.base_color_texture),
+      alpha_(material.base_color.w),
+      cutoff_(material.alpha_cutoff),
+      image_(std::move(image))
+{
+}
+
+bool AlphaMask::blocks(Float2 uv) const
+{
+    if (!image_)
+        return alpha_ >= cutoff_;
+    const float* m = texture_.uv_transform;
+    const auto place = [&](const float* row, uint32_t size)
+    {
+        const float value = std::clamp(row[0] * uv.x + row[1] * uv.y + row[2], -kFarthestUv, kFarthestUv);
+        return value * static_cast<float>(size) - 0.5f;
+    };
+    const float x = place(m, image_->width), y = place(m + 3, image_->height);
+    const float x0 = std::floor(x), y0 = std::floor(y);
+    const auto column = static_cast<int64_t>(x0), row = static_cast<int64_t>(y0);
+    const float fx = x - x0, fy = y - y0;
+    const float upper = texel(column, row) * (1 - fx) + texel(column + 1, row) * fx;
+    const float lower = texel(column, row + 1) * (1 - fx) + texel(column + 1, row + 1) * fx;
+    return alpha_ * (upper * (1 - fy) + lower * fy) >= cutoff_;
+}
+
+float AlphaMask::texel(int64_t x, int64_t y) const
+{
+    const int64_t column = wrappedTexel(x, image_->width, texture_.wrap_u);
+    const int64_t row = wrappedTexel(y, image_->height, texture_.wrap_v);
+    return static_cast<float>(image_->texels[static_cast<size_t>(row * image_->width + column)]) / 255.0f;
+}
+
+} // namespace hearth::visibility

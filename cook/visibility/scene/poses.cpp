@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/visibility/scene/poses.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+namespace hearth::visibility
+{
+
+using namespace formats;
+
+namespace
+{
+
+/// "0.25", no longer than it takes to read it back as a float.
+std::string textOf(double seconds)
+{
+    char buffer[32];
+    return {buffer, std::to_chars(buffer, buffer + sizeof(buffer), static_cast<float>(seconds)).ptr};
+}
+
+const AnimationRecord* clipOf(const PackView& scene, const std::string& name)
+{
+    uint32_t index = kNone;
+    std::from_chars(name.data(), name.data() + name.size(), index);
+    for (uint32_t i = 0; i < scene.animations().size(); ++i)
+    {
+        const std::string_view text = scene.text(scene.animations()[i].name);
+        if (text.empty() ? i == index : text == name)
+            return &scene.animations()[i];
+    }
+    return nullptr;
+}
+
+Error noClip(const PackView& scene, const std::string& name)
+{
+    std::string names;
+    for (uint32_t i = 0; i < scene.animations().size(); ++i)
+    {
+        const std::string_view text = scene.text(scene.animations()[i].name);
+        names += (i == 0 ? "" : ", ") + (text.empty() ? std::to_string(i) : std::string(text));
+    }
+    return Error{Issue::meaning_reference, scene.name(), "animation \"" + name + "\"",
+                 names.empty() ? "there are no animations"
+                               : "there is none of this name: there are " + names};
+}
+
+/// The first instance's node, else any that has the mesh.
+uint32_t nodeOf(const PackView& scene, uint32_t mesh)
+{
+    for (const InstanceRecord& instance : scene.instances())
+        if (instance.mesh == mesh)
+            return instance.node;
+    for (uint32_t node = 0; node < scene.nodes().size(); ++node)
+        if (scene.nodes()[node].mesh == mesh)
+            return node;
+    return kNone;
+}
+
+std::vector<Affine3d> paletteOf(const PackView& scene, uint32_t skin, const ScenePose& pose)
+{
+    const MotionTables tables = motionTables(scene);
+    std::vector<Affine3d> nodes(tables.nodes.size());
+    poseNodes(tables, pose, parentsFirst(tables.nodes), nodes);
+    const SkinRecord& record = tables.skins[skin];
+    std::vector<Affine3d> palette(record.joints.count);
+    skinPalette(tables, record, nodes, palette);
+    return palette;
+}
+
+Double3 skinned(const ClusterGeometry& geometry, uint32_t vertex, std::span<const Affine3d> palette,
+                Double3 p)
+{
+    const std::array<uint32_t, 8> joints = geometry.joints(vertex);
+    const std::array<uint32_t, 8> codes = geometry.weightCodes(vertex);
+    Double3 sum;
+    for (size_t i = 0; i < geometry.influenceCount(); ++i)
+        if (codes[i] != 0 && joints[i] < palette.size())
+            sum = sum + transformPoint(palette[joints[i]], p) * (codes[i] / 65535.0);
+    return sum;
+}
+
+} // namespace
+
+std::optional<ClipTimes> parseClipTimes(std::string_view text)
+{
+    const size_t at = text.rfind('@');
+    if (at == std::string_view::npos)
+        return ClipTimes{std::string(text), {}};
+    ClipTimes times{std::string(text.substr(0, at)), {}};
+    for (const char* next = text.data() + at + 1;; ++next)
+    {
+        double seconds = 0;
+        const auto [end, error] = std::from_chars(next, text.data() + text.size(), seconds);
+        if (error != std::errc{} || !std::isfinite(seconds) || seconds < 0)
+            return std::nullopt;
+        times.seconds.push_back(seconds);
+        next = end;
+        if (next == text.data() + text.size())
+            return times;
+        if (*next != ',')
+            return std::nullopt;
+    }
+}
+
+Result<std::vector<NamedPose>> posesOf(const PackView& scene, const std::vector<ClipTimes>& clips)
+{
+    const MotionTables tables = motionTables(scene);
+    std::vector<NamedPose> poses;
+    for (const ClipTimes& times : clips)
+    {
+        const AnimationRecord* clip = clipOf(scene, times.clip);
+        if (clip == nullptr)
+            return noClip(scene, times.clip);
+        std::vector<double> seconds = times.seconds;
+        for (size_t i = 0; i < kPosesOfClip && times.seconds.empty(); ++i)
+            seconds.push_back((static_cast<double>(i) + 0.5) / kPosesOfClip * double{clip->duration});
+        for (const double time : seconds)
+        {
+            poses.push_back({times.clip + "@" + textOf(time), restPose(tables)});
+            sampleAnimation(tables, *clip, time, poses.back().pose);
+        }
+    }
+    return poses;
+}
+
+std::vector<Float3> posedPositions(const PackView& scene, const MeshPages& pages, const LevelArrays& finest,
+                                   uint32_t mesh, const ScenePose& pose)
+{
+    const uint32_t number = nodeOf(scene, mesh);
+    if (number == kNone)
+        return {};
+    const NodeRecord& node = scene.nodes()[number];
+    const std::span<const double> weights =
+        recordsOf(std::span<const double>(pose.morph_weights), node.morph_weights);
+    const std::vector<Affine3d> palette =
+        node.skin == kNone ? std::vector<Affine3d>() : paletteOf(scene, node.skin, pose);
+    std::vector<Float3> positions;
+    positions.reserve(finest.positions.size());
+    for (const LevelArrays::Part& part : finest.parts)
+    {
+        const ClusterGeometry geometry = pages.cluster(part.cluster);
+        for (uint32_t v = 0; v < geometry.vertexCount(); ++v)
+        {
+            Double3 p = widen(geometry.position(v));
+            for (uint32_t i = 0; i < geometry.morphCount(); ++i)
+                if (const uint32_t target = geometry.morphTarget(i); target < weights.size())
+                    p = p + widen(geometry.morphPosition(i, v)) * weights[target];
+            if (!palette.empty() && geometry.influenceCount() > 0)
+                p = skinned(geometry, v, palette, p);
+            positions.push_back(narrow(p));
+        }
+    }
+    return positions;
+}
+
+} // namespace hearth::visibility

@@ -1,0 +1,40 @@
+// Affine transforms in double precision: a deep hierarchy far from the origin keeps its millimetres.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "formats/base/double3.h"
+#include "formats/base/math.h"
+
+#include <array>
+#include <optional>
+
+namespace hearth
+{
+
+/// Affine, row-major 3x4, as Affine3. Named target_from_source.
+struct Affine3d
+{
+    double m[3][4] = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}};
+};
+
+Affine3d operator*(const Affine3d& a, const Affine3d& b);
+
+Double3 transformVector(const Affine3d& transform, Double3 vector);
+Double3 transformPoint(const Affine3d& transform, Double3 point);
+
+/// translation * rotation (unit quaternion x y z w) * scale.
+Affine3d affineFromTrs(Double3 translation, const std::array<double, 4>& rotation, Double3 scale);
+
+/// Nothing where the linear part is flat.
+std::optional<Affine3d> inverted(const Affine3d& transform);
+
+Affine3d widened(const Affine3& transform);
+
+/// The box around a box that a transform carries, rounded outwards; finite, also where it leaves what floats can say.
+/// An empty box stays empty.
+Box3 transformBox(const Affine3d& transform, const Box3& box);
+
+/// In single precision, or nothing where a number does not fit.
+std::optional<Affine3> narrowed(const Affine3d& transform);
+
+} // namespace hearth

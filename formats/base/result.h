@@ -1,0 +1,104 @@
+// Results of work on data that may be wrong: a value, or one error that a user can act on.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "formats/base/assert.h"
+#include "formats/base/issues.h"
+
+#include <string>
+#include <utility>
+#include <variant>
+
+namespace hearth
+{
+
+/// One problem in an input, written so that the user can find and mend it.
+struct Error
+{
+    Issue issue =
+        Issue::internal; ///< stable number; its severity, class and hint stand in formats/base/issues.h
+    std::string file;    ///< the file as the user named it; may be empty
+    std::string where;   ///< JSON pointer ("/meshes/0"), "line 12", "chunk MESH 3", or empty
+    std::string detail;  ///< what is wrong, with the offending values
+};
+
+/// "file|where: error: detail [E1203] hint: ...": the one line of ECOSYSTEM section 4.
+std::string formatMessage(const Error& error);
+
+/// Process exit code for an error of this class: 65 malformed input, 66 missing, 70 internal, 73 cannot write...
+int exitCode(const Error& error);
+
+/// A value or an Error. Deliberately without monadic calls: callers test and return.
+template <typename T>
+class [[nodiscard]] Result
+{
+public:
+    Result(T value) : state_(std::in_place_index<0>, std::move(value)) {}
+    Result(Error error) : state_(std::in_place_index<1>, std::move(error)) {}
+
+    bool ok() const { return state_.index() == 0; }
+    explicit operator bool() const { return ok(); }
+
+    T& value() &
+    {
+        HEARTH_ASSERT(ok());
+        return *std::get_if<0>(&state_);
+    }
+    const T& value() const&
+    {
+        HEARTH_ASSERT(ok());
+        return *std::get_if<0>(&state_);
+    }
+    T&& value() &&
+    {
+        HEARTH_ASSERT(ok());
+        return std::move(*std::get_if<0>(&state_));
+    }
+    T& operator*() & { return value(); }
+    const T& operator*() const& { return value(); }
+    T* operator->() { return &value(); }
+    const T* operator->() const { return &value(); }
+
+    const Error& error() const&
+    {
+        HEARTH_ASSERT(!ok());
+        return *std::get_if<1>(&state_);
+    }
+    Error&& error() &&
+    {
+        HEARTH_ASSERT(!ok());
+        return std::move(*std::get_if<1>(&state_));
+    }
+
+private:
+    std::variant<T, Error> state_;
+};
+
+struct Nothing
+{
+};
+using Status = Result<Nothing>;
+inline Status success()
+{
+    return Nothing{};
+}
+
+} // namespace hearth
+
+/// Leave the function with the error of `expression` (a Result or Status), if it has one.
+#define HEARTH_TRY(expression)                                                                               \
+    do                                                                                                       \
+    {                                                                                                        \
+        if (auto hearth_try_result = (expression); !hearth_try_result.ok())                                  \
+            return std::move(hearth_try_result).error();                                                     \
+    } while (false)
+
+#define HEARTH_CONCAT_(a, b) a##b
+#define HEARTH_CONCAT(a, b) HEARTH_CONCAT_(a, b)
+/// `HEARTH_ASSIGN_OR_RETURN(auto x, f())`: x takes the value of f(), or the function returns f()'s error.
+#define HEARTH_ASSIGN_OR_RETURN(declaration, expression)                                                     \
+    auto HEARTH_CONCAT(hearth_result_, __LINE__) = (expression);                                             \
+    if (!HEARTH_CONCAT(hearth_result_, __LINE__).ok())                                                       \
+        return std::move(HEARTH_CONCAT(hearth_result_, __LINE__)).error();                                   \
+    declaration /* NOLINT(bugprone-macro-parentheses) */ =                                                   \
+        std::move(HEARTH_CONCAT(hearth_result_, __LINE__)).value()

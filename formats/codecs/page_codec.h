@@ -1,0 +1,202 @@
+// The stored form of a geometry page (PageCodec::clusters): what writer and reader of it agree on. See FORMAT.md,
+// "Pages".
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "formats/codecs/vertex_codec.h"
+#include "formats/records/fields.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+namespace hearth::formats
+{
+
+/// A vertex of a narrow cluster in halves of words, and how each is told from vertices before it.
+enum class LaneKind : uint8_t
+{
+    grid,  ///< 16 bits, from the point that completes the edge and the third corner to a parallelogram
+    word,  ///< 16 bits, from the edge's second vertex
+    bytes, ///< two numbers of 8 bits, from the edge's second vertex
+};
+
+/// Of a vertex with all attributes, the largest layout; and the influences of a skin besides.
+inline constexpr uint32_t kHeaderLanes = 30;
+inline constexpr uint32_t kMaxLanes = kHeaderLanes + 16;
+
+struct VertexLanes
+{
+    std::array<LaneKind, kMaxLanes> kinds{};
+    uint32_t count = 0;
+};
+
+/// The lanes of a narrow cluster's vertices, in the order in which they lie in memory.
+constexpr VertexLanes vertexLanes(uint32_t layout)
+{
+    VertexLanes lanes;
+    const auto add = [&](LaneKind kind, uint32_t count)
+    {
+        for (uint32_t i = 0; i < count; ++i)
+            lanes.kinds[lanes.count++] = kind;
+    };
+    add(LaneKind::grid, 3);
+    add(LaneKind::bytes, 1);
+    if ((layout & kVertexNormal) && (layout & kVertexFineNormal))
+        add(LaneKind::word, 2);
+    if (layout & kVertexTangent)
+        add((layout & kVertexFineNormal) ? LaneKind::word : LaneKind::bytes, 2);
+    for (uint32_t set = 0; set < 4; ++set)
+        if (layout & kVertexUv0 << set)
+            uvFractionBits(layout, set) == 0 ? add(LaneKind::word, 4) : add(LaneKind::grid, 2);
+    if (layout & kVertexColor)
+        (layout & kVertexFineColor) ? add(LaneKind::word, 4) : add(LaneKind::bytes, 2);
+    if (layout & kVertexVisibility)
+        add(LaneKind::bytes, 2);
+    add(LaneKind::word, 2 * influencesOf(layout));
+    return lanes;
+}
+
+/// Whether the lane is a number whose word has another one in its other half: their main bits share bytes.
+constexpr bool sharesMainByte(const VertexLanes& lanes, size_t lane)
+{
+    return lanes.kinds[lane] != LaneKind::bytes && lanes.kinds[lane ^ 1] != LaneKind::bytes;
+}
+
+/// At the start of the content of a page; behind it the streams, in this order:
+///     codes        for each cluster, 4 bits a triangle but the first, the first of them in the low ones, padded to a byte
+///     restarts     a byte for the first triangle of each cluster and for each with code kCodeRestart: of the clusters at
+///                  even places in the page, then of those at odd places
+///     reuses       a byte for each corner that is a vertex of the same cluster: the same
+///     references   two planes (low bytes, high bytes) of numbers: vertices that are one of an earlier cluster
+///     uv_bases     the words in front of the clusters' vertices
+///     wide         the vertices of wide clusters, as they are
+///     more_lanes   where a vertex has more than kHeaderLanes lanes: planes and low_bits of the others, as in the header,
+///                  kMaxLanes - kHeaderLanes bytes each
+///     morphs       what stands behind the clusters' triangles, in four planes: the first bytes of all words, then the
+///                  second ones, and so on
+///     escapes      two bytes for each number of a new vertex whose main bits are all set: the number. By sixteen
+///                  vertices, in them by lane, in it by vertex
+///     planes       of the new vertices, a byte each: the main bytes of numbers, then of lanes of two bytes; the second
+///                  bytes of those; then for each block of eight lanes the bytes of its low bits
+/// A lane of 16 bits is a number (zigzag16): its low bits lie in the field of its block, the fields of the block's lanes
+/// one behind the other. The bits above are its main byte; where both halves of a word are numbers, the four main bits of
+/// the second one lie above those of the first one in the main byte of the first one.
+/// A lane of two bytes is its main byte and its second byte, or (kPlaneNibbles) the upper halves of both, then the lower.
+struct PageHeader
+{
+    uint16_t restarts[2];
+    uint16_t reuses[2];
+    uint16_t references;
+    uint16_t new_vertices;
+    uint32_t escapes;
+    uint8_t planes[kHeaderLanes];
+    uint8_t low_bits[kHeaderLanes];
+};
+
+/// How the numbers of each lane are stored.
+struct LaneForms
+{
+    std::array<uint8_t, kMaxLanes> planes{};   ///< as PageHeader::planes
+    std::array<uint8_t, kMaxLanes> low_bits{}; ///< as PageHeader::low_bits
+};
+
+/// Bytes of stream more_lanes.
+constexpr size_t moreLaneBytes(const VertexLanes& lanes)
+{
+    return lanes.count > kHeaderLanes ? 2 * size_t{kMaxLanes - kHeaderLanes} : 0;
+}
+
+/// more_lanes  moreLaneBytes bytes
+inline LaneForms readLaneForms(const PageHeader& header, std::span<const std::byte> more_lanes)
+{
+    LaneForms forms;
+    std::copy_n(header.planes, kHeaderLanes, forms.planes.begin());
+    std::copy_n(header.low_bits, kHeaderLanes, forms.low_bits.begin());
+    for (size_t i = 0; i < more_lanes.size() / 2; ++i)
+    {
+        forms.planes[kHeaderLanes + i] = std::to_integer<uint8_t>(more_lanes[i]);
+        forms.low_bits[kHeaderLanes + i] = std::to_integer<uint8_t>(more_lanes[more_lanes.size() / 2 + i]);
+    }
+    return forms;
+}
+
+inline constexpr uint32_t kEscape = 255;
+inline constexpr uint32_t kEscapeOfFour = 15; ///< where main bytes are shared
+
+inline constexpr uint8_t kPlaneMain = 1; ///< of LaneForms::planes: else all are 0
+inline constexpr uint8_t kPlaneSecond = 2;
+inline constexpr uint8_t kPlaneNibbles = 4; ///< of a lane of two bytes
+inline constexpr uint32_t kLanesOfBlock = 8;
+
+/// Most bits below main bytes, and below four main bits.
+inline constexpr uint32_t kMaxLowBits = 8;
+inline constexpr uint32_t kMaxLowBitsOfFour = 12;
+
+/// Where the low bits of a block's lanes lie.
+struct LowBitFields
+{
+    std::array<uint32_t, kLanesOfBlock> first{};
+    uint32_t bits = 0; ///< of all
+    uint32_t planes() const { return (bits + 7) / 8; }
+};
+
+constexpr LowBitFields lowBitFields(const LaneForms& forms, size_t block)
+{
+    LowBitFields fields;
+    for (size_t i = 0; i < kLanesOfBlock && block * kLanesOfBlock + i < kMaxLanes; ++i)
+    {
+        fields.first[i] = fields.bits;
+        fields.bits += forms.low_bits[block * kLanesOfBlock + i];
+    }
+    return fields;
+}
+
+// Triangles follow each other along shared edges. A triangle (a, b, c) has the edge (c, b) to its right and (a, c) to
+// its left; the next triangle starts with one of these two, or with one that was put aside, and adds a corner.
+// code = 3 * edge + corner
+inline constexpr uint32_t kEdgeRight = 0;
+inline constexpr uint32_t kEdgeRightKeepLeft = 1; ///< and put the left one aside
+inline constexpr uint32_t kEdgeLeft = 2;
+inline constexpr uint32_t kEdgeKept = 3; ///< the last one put aside
+inline constexpr uint32_t kCornerNew = 0;
+inline constexpr uint32_t kCornerReference = 1; ///< new here, but equal to a vertex of an earlier cluster
+inline constexpr uint32_t kCornerReuse = 2;
+inline constexpr uint32_t kCodeRestart =
+    15; ///< three corners: bits 0..1, 2..3 and 4..5 of a byte of restarts
+
+/// Codes of a cluster: none for its first triangle, which is a restart.
+constexpr uint32_t codeCount(uint32_t triangle_count)
+{
+    return triangle_count == 0 ? 0 : triangle_count - 1;
+}
+constexpr size_t codeBytes(uint32_t triangle_count)
+{
+    return (codeCount(triangle_count) + size_t{1}) / 2;
+}
+
+/// Small numbers of either sign as small numbers.
+constexpr uint16_t zigzag16(uint16_t value)
+{
+    return static_cast<uint16_t>(value << 1 ^ (value & 0x8000 ? 0xFFFF : 0));
+}
+constexpr uint16_t unzigzag16(uint16_t value)
+{
+    return static_cast<uint16_t>(value >> 1 ^ (value & 1 ? 0xFFFF : 0));
+}
+} // namespace hearth::formats
+
+HEARTH_RECORD(hearth::formats::PageHeader, 76,
+              HEARTH_FIELD(hearth::formats::PageHeader, restarts,
+                           "bytes of stream restarts: of clusters at even places, of those at odd places"),
+              HEARTH_FIELD(hearth::formats::PageHeader, reuses, "bytes of stream reuses, the same"),
+              HEARTH_FIELD(hearth::formats::PageHeader, references, "numbers in stream references"),
+              HEARTH_FIELD(hearth::formats::PageHeader, new_vertices, "bytes of each plane"),
+              HEARTH_FIELD(hearth::formats::PageHeader, escapes, "numbers in stream escapes"),
+              HEARTH_FIELD(hearth::formats::PageHeader, planes,
+                           "of each lane: bit 0 main bytes, bit 1 second bytes, 0 where all are 0; bit 2 "
+                           "bytes are cut in halves"),
+              HEARTH_FIELD(hearth::formats::PageHeader, low_bits,
+                           "of each lane of 16 bits: how many are below the main ones, 0 to 8, or to 12"));

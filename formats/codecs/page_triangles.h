@@ -1,0 +1,207 @@
+// Decodes the triangles of a geometry page's clusters (formats/codecs/page_codec.h), two clusters at a time: each triangle waits
+// for the one before, and the processor has time for another one meanwhile.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "formats/codecs/page_streams.h"
+
+#include <algorithm>
+#include <cstring>
+
+// Safe without a check at every byte: streams have room for a cluster behind them, counts are checked when it is done.
+
+namespace hearth::formats::page
+{
+
+/// Three vertices of a cluster as the lowest bytes of a word.
+constexpr uint32_t threeBytes(uint32_t a, uint32_t b, uint32_t c)
+{
+    return a | b << 8 | c << 16;
+}
+
+/// Bad codes take away more edges than were put aside.
+inline constexpr size_t kKeptRoom = kClusterMaxTriangles + 1;
+
+/// Corners of the triangles of a cluster, and how its vertices come about.
+struct Connectivity
+{
+    std::array<uint8_t, kClusterCorners + 1> indices; ///< room for a word at the last triangle
+    /// For each new vertex an edge's two vertices and the third corner of the triangle beside it, in the lowest bytes.
+    std::array<uint32_t, kClusterCorners + 1> edges;
+    std::array<uint8_t, kClusterCorners + 1> new_vertices;
+    std::array<uint8_t, kClusterCorners + 1> references; ///< vertices that are one of an earlier cluster
+    uint32_t vertex_count = 0;
+    uint32_t new_count = 0;
+    std::array<uint32_t, 2 * kKeptRoom + 1> kept{}; ///< edges put aside, while it is decoded
+
+    uint32_t referenceCount() const { return vertex_count - new_count; }
+};
+
+/// What a code means, in numbers to calculate with: the next code cannot be foretold, and a wrong guess costs more than a
+/// triangle.
+struct Way
+{
+    int64_t from; ///< where it starts: -1 the last edge that was put aside, 0 the left one, 1 the right one
+    int64_t kept; ///< edges put aside, or taken away
+    uint64_t reused;    ///< 1: its corner is a vertex that is there
+    uint32_t fresh;     ///< 1: its corner is a new vertex
+    uint32_t not_added; ///< all bits: `reused`; else none
+};
+
+inline constexpr std::array<Way, 16> kWays = []
+{
+    constexpr std::array<int64_t, 6> kFrom{1, 1, 0, -1, 0, 0};
+    constexpr std::array<int64_t, 6> kKept{0, 1, 0, -1, 0, 0};
+    std::array<Way, 16> ways{};
+    for (uint32_t code = 0; code < ways.size(); ++code)
+    {
+        const uint32_t start = code / 3;
+        const uint32_t corner = code % 3;
+        ways[code] = {kFrom[start], kKept[start], corner == kCornerReuse ? 1u : 0u,
+                      corner == kCornerNew ? 1u : 0u, corner == kCornerReuse ? ~0u : 0u};
+    }
+    return ways;
+}();
+
+class TriangleDecoder
+{
+public:
+    /// False where a corner names a vertex that is not there yet, an edge was not put aside, or a stream ends too soon.
+    /// Moves the streams on.
+    ///
+    /// triangle_counts  of a cluster at an even place of the page and of the next one; 0 where there is none
+    static bool decode(Streams& streams, std::array<uint32_t, 2> triangle_counts,
+                       std::array<Connectivity, 2>& out)
+    {
+        State first(streams, 0, triangle_counts[0], out[0]);
+        State second(streams, 1, triangle_counts[1], out[1]);
+        const std::array<uint32_t, 2> codes{codeCount(triangle_counts[0]), codeCount(triangle_counts[1])};
+        const uint32_t both = std::min(codes[0], codes[1]) / 2;
+        for (uint32_t pair = 0; pair < both; ++pair)
+        {
+            first.decodePair(pair);
+            second.decodePair(pair);
+        }
+        first.decodeRest(both, codes[0]);
+        second.decodeRest(both, codes[1]);
+        const bool good_first = first.finish(streams, 0);
+        return second.finish(streams, 1) && good_first;
+    }
+
+private:
+    class State
+    {
+    public:
+        State(Streams& streams, size_t place, uint32_t triangle_count, Connectivity& out)
+            : codes_(streams.codes.at),
+              restarts_(streams.restarts[place].at),
+              reuses_(streams.reuses[place].at),
+              out_(&out)
+        {
+            streams.codes.at += codeBytes(triangle_count);
+            if (triangle_count > 0)
+            {
+                restart();
+                writeTriangle(0);
+            }
+        }
+
+        [[gnu::always_inline]] void decodePair(uint32_t pair)
+        {
+            const uint32_t codes = codes_[pair];
+            decodeTriangle(2 * pair + 1, codes & 15u);
+            decodeTriangle(2 * pair + 2, codes >> 4);
+        }
+
+        [[gnu::always_inline]] void decodeRest(uint32_t pair, uint32_t code_count)
+        {
+            for (; pair < code_count / 2; ++pair)
+                decodePair(pair);
+            if (code_count % 2 != 0)
+                decodeTriangle(2 * pair + 1, codes_[pair] & 15u);
+        }
+
+        bool finish(Streams& streams, size_t place) const
+        {
+            out_->vertex_count = newest_ + 1;
+            out_->new_count = new_count_;
+            streams.restarts[place].at = restarts_;
+            streams.reuses[place].at = reuses_;
+            return bad_ >= 0 && !streams.restarts[place].overrun() && !streams.reuses[place].overrun();
+        }
+
+    private:
+        [[gnu::always_inline]] void decodeTriangle(uint32_t triangle, uint32_t code)
+        {
+            if (code == kCodeRestart) [[unlikely]]
+                restart();
+            else
+            {
+                const Way& way = kWays[code];
+                uint32_t* const kept = out_->kept.data() + kKeptRoom + kept_;
+                // the edge to the left and the corner opposite to it; those to the right lie one byte above
+                const uint32_t left = __builtin_bswap32(triangle_);
+                kept[0] = left;
+                kept[1] = left >> 8;
+                const uint32_t from = kept[way.from];
+                kept_ += way.kept;
+                bad_ |= static_cast<int32_t>(kept_);
+                triangle_ = (from & 0xFFFFu) | corner(way, from) << 16 | from << 24;
+            }
+            writeTriangle(triangle);
+        }
+
+        [[gnu::always_inline]] void writeTriangle(uint32_t triangle)
+        {
+            std::memcpy(out_->indices.data() + size_t{triangle} * 3, &triangle_, sizeof(triangle_));
+        }
+
+        [[gnu::always_inline]] uint32_t corner(const Way& way, uint32_t from)
+        {
+            const uint32_t reused = ((from >> 8) - *reuses_) & 255u;
+            const uint32_t added = newest_ + 1;
+            out_->edges[new_count_] = from;
+            out_->new_vertices[new_count_] = static_cast<uint8_t>(added);
+            out_->references[added - new_count_] = static_cast<uint8_t>(added);
+            newest_ = added + way.not_added;
+            new_count_ += way.fresh;
+            reuses_ += way.reused;
+            const uint32_t vertex = newest_ ^ ((newest_ ^ reused) & way.not_added);
+            bad_ |= static_cast<int32_t>(newest_ - vertex);
+            return vertex;
+        }
+
+        [[gnu::always_inline]] void restart()
+        {
+            // on a copy: what has its address taken would not stay in registers
+            State copy = *this;
+            restart(copy);
+            *this = copy;
+        }
+
+        [[gnu::noinline]] static void restart(State& s)
+        {
+            const uint32_t kinds = *s.restarts_++;
+            if ((kinds & kinds >> 1 & 0x15u) != 0 || kinds > 63)
+                s.bad_ = -1;
+            // before the first vertex of the cluster, its place holds the last one of the cluster before
+            const uint32_t before = s.newest_ == ~0u ? 0 : s.newest_ & 255u;
+            const uint32_t a = s.corner(kWays[(kinds & 3u) % 3], threeBytes(before, before, before));
+            const uint32_t b = s.corner(kWays[(kinds >> 2 & 3u) % 3], threeBytes(a, a, a));
+            const uint32_t c = s.corner(kWays[(kinds >> 4 & 3u) % 3], threeBytes(b, b, b));
+            s.triangle_ = threeBytes(a, b, c) | a << 24;
+        }
+
+        const uint8_t* codes_;
+        const uint8_t* restarts_;
+        const uint8_t* reuses_;
+        Connectivity* out_;
+        uint32_t triangle_ = 0; ///< its corners a, b, c in the lowest bytes, and a in the highest
+        uint32_t newest_ = ~0u; ///< vertex
+        uint32_t new_count_ = 0;
+        int32_t bad_ = 0;  ///< below 0 once something was
+        int64_t kept_ = 0; ///< edges put aside; below 0 once a code was bad
+    };
+};
+
+} // namespace hearth::formats::page

@@ -1,0 +1,348 @@
+// How a vertex lies in a geometry page: word offsets, and the codes of positions, normals, tangents, UVs and colours.
+// Octahedral map: Q. Meyer et al., "On floating-point normal vectors", 2010; its rounding: Z. Cigolle et al., "A survey
+// of efficient representations for independent unit vectors", 2014; frame of a normal: T. Duff et al., "Building an
+// orthonormal basis, revisited", 2017. The bit definitions are in FORMAT.md.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "formats/base/math.h"
+#include "formats/records/mesh.h"
+
+#include <array>
+#include <bit>
+#include <cstdint>
+
+// Only + - * / and sqrt on 32-bit floats are used, each rounded once: every machine gets the same bits.
+// runtime/shaders/scene/scene.glsl and resolve.glsl decode the same codes.
+//
+//   position     (base + offset) * grid_step: whole numbers of at most 24 bits times a power of two, exact as floats.
+//                The base is the cluster's, offsets are 3 x u16, x in the lowest bits, or 3 x u32 in a wide cluster.
+//   snorm B bits q in [-m, m], m = 2^(B-1) - 1, stands for q / m; -m - 1 is not a legal code
+//   normal       octahedral: x and y, snorm8 or snorm16, x in the low half.
+//                z = 1 - |x| - |y|;  where z < 0: (x, y) becomes ((1 - |y|) * sign(x), (1 - |x|) * sign(y)),
+//                sign(0) = +1; the direction is normalize(x, y, z). All legal codes are directions.
+//   tangent      bit 0: the bitangent is flipped, bitangent = (flipped ? -1 : 1) * cross(normal, tangent);
+//                above it the angle about the decoded normal, 7 or 15 bits: its top two are a quarter turn, the rest
+//                say where between the two axes of the normal's frame, on the line from one to the other
+//   UV           floats, or (base + offset) * 2^-n, the base the cluster's, offsets 2 x u16, or 2 x u32 in a wide one
+//   colour       4 x unorm8 or unorm16, linear RGBA: q / 255 or q / 65535
+//   visibility   visibility_code.h
+//   influences   4 or 8 joints of the skin as u16, two a word, then as many weights, unorm16: the weights fall, and their
+//                codes sum to exactly 65535; a joint without weight is 0
+//
+// The morph section of a cluster, words:
+//   n            of the mesh's targets that move a vertex of the cluster
+//   n x          { the target's number, ascending; the step of its position deltas, f32 }
+//   n x          for each vertex three words x, y, z: the lower 20 bits are the position's delta, signed, in steps; the
+//                upper 12 the normal's, signed, in units of 1 / 1024
+
+namespace hearth::formats
+{
+
+/// Bits that say which attributes there are.
+inline constexpr uint32_t kVertexAttributesAll = 255;
+
+/// Grid coordinates are whole numbers in [-kGridMost, kGridMost]: floats have all of them.
+inline constexpr int32_t kGridMost = 1 << 24;
+
+/// Most steps from a cluster's base to a vertex that a 16-bit offset reaches.
+inline constexpr int64_t kNarrowMost = 65535;
+
+/// n of UV set `set`, whose grid has steps of 2^-n; 0 for floats.
+constexpr uint32_t uvFractionBits(uint32_t layout, uint32_t set)
+{
+    return layout >> (kVertexUvStepShift + 4 * set) & 15u;
+}
+
+/// Whether a mesh may say this of its vertices: bits without a meaning are 0, an absent attribute is not said to be coded
+/// in some way, and tangents and visibility stand beside normals.
+constexpr bool legalLayout(uint32_t layout)
+{
+    constexpr uint32_t kOfMeshes = kVertexAttributesAll | kVertexFineNormal | kVertexFineColor |
+                                   kVertexInfluenceBits | 0xFFFFu << kVertexUvStepShift;
+    constexpr uint32_t kBesideNormals = kVertexTangent | kVertexVisibility | kVertexFineNormal;
+    return (layout & ~kOfMeshes) == 0 && (layout & kVertexInfluenceBits) != kVertexMoreInfluences &&
+           (gridUvs(layout) & ~layout) == 0 &&
+           ((layout & kVertexNormal) != 0 || (layout & kBesideNormals) == 0) &&
+           ((layout & kVertexColor) != 0 || (layout & kVertexFineColor) == 0);
+}
+
+/// First word of attribute `bit` in a vertex with this layout; `bit` is one of them, or kVertexInfluences. Positions are
+/// at 0, and a normal that has no word of its own is the upper half of word 1.
+constexpr uint32_t attributeWord(uint32_t layout, uint32_t bit)
+{
+    const bool shares_word = bit == kVertexNormal && (layout & (kVertexFineNormal | kVertexWide)) == 0;
+    const uint32_t before = ((bit - 1) | ~kVertexAttributesAll) & ~kVertexInfluenceBits;
+    return shares_word ? 1 : vertexWords(layout & before);
+}
+
+/// Word of UV set `set`'s base among the uvBaseWords in front of a cluster's vertices.
+constexpr uint32_t uvBaseWord(uint32_t layout, uint32_t set)
+{
+    return uvBaseWords(layout & (((kVertexUv0 << set) - 1) | ~kVertexAttributesAll));
+}
+
+/// Bytes of a cluster in its page, but for a morph section: UV bases, vertices, then three u8 indices for each triangle,
+/// padded with zeros to words.
+constexpr uint32_t clusterBytes(uint32_t layout, uint32_t vertex_count, uint32_t triangle_count)
+{
+    return 4 * (uvBaseWords(layout) + vertex_count * vertexWords(layout) + (triangle_count * 3 + 3) / 4);
+}
+
+/// The layout that needs the most bytes of all that have these attributes.
+constexpr uint32_t largestLayout(uint32_t attributes)
+{
+    uint32_t layout = (attributes & (kVertexAttributesAll | kVertexInfluenceBits)) | kVertexFineNormal |
+                      kVertexFineColor | kVertexWide;
+    // beside two words, as floats have them, a grid has a base
+    for (uint32_t set = 0; set < 4; ++set)
+        if (attributes & kVertexUv0 << set)
+            layout |= 1u << (kVertexUvStepShift + 4 * set);
+    return layout;
+}
+
+/// Words of a morph section with `targets` targets.
+constexpr size_t morphSectionWords(size_t targets, size_t vertex_count)
+{
+    return 1 + targets * (2 + 3 * vertex_count);
+}
+
+inline constexpr int32_t kMorphPositionMost = (1 << 19) - 1;
+inline constexpr float kMorphNormalSteps =
+    1024; ///< in the difference of two normals that stand on each other
+
+/// Each in [-2^19, 2^19) and [-2^11, 2^11).
+constexpr uint32_t packMorphDelta(int32_t position, int32_t normal)
+{
+    return (static_cast<uint32_t>(position) & 0xFFFFFu) | static_cast<uint32_t>(normal) << 20;
+}
+constexpr int32_t morphPosition(uint32_t word)
+{
+    return static_cast<int32_t>(word << 12) >> 12;
+}
+constexpr int32_t morphNormal(uint32_t word)
+{
+    return static_cast<int32_t>(word) >> 20;
+}
+
+constexpr uint32_t packHalves(int32_t low, int32_t high)
+{
+    return (static_cast<uint32_t>(low) & 0xFFFFu) | static_cast<uint32_t>(high) << 16;
+}
+constexpr int32_t lowHalf(uint32_t word)
+{
+    return static_cast<int16_t>(word & 0xFFFFu);
+}
+constexpr int32_t highHalf(uint32_t word)
+{
+    return static_cast<int16_t>(word >> 16);
+}
+
+/// Nearest unorm code of q / most; values outside [0, 1] are clamped.
+inline uint32_t quantizeUnorm(float value, float most)
+{
+    return static_cast<uint32_t>(std::lround(std::clamp(value, 0.0f, 1.0f) * most));
+}
+
+/// A coordinate on the grid; exact for |coordinate| <= kGridMost.
+inline float fromGrid(int32_t coordinate, float step)
+{
+    return static_cast<float>(coordinate) * step;
+}
+
+/// 2^-n, n < 127.
+constexpr float uvStep(uint32_t fraction_bits)
+{
+    return std::bit_cast<float>((127 - fraction_bits) << 23);
+}
+
+/// The point of the square [-1, 1]^2 that stands for a direction of any length > 0.
+inline Float2 octahedralFromDirection(Float3 d)
+{
+    const float sum = std::abs(d.x) + std::abs(d.y) + std::abs(d.z);
+    Float2 p{d.x / sum, d.y / sum};
+    if (d.z < 0)
+        p = {(1.0f - std::abs(p.y)) * (p.x < 0 ? -1.0f : 1.0f),
+             (1.0f - std::abs(p.x)) * (p.y < 0 ? -1.0f : 1.0f)};
+    return p;
+}
+
+inline Float3 directionFromOctahedral(Float2 p)
+{
+    Float3 d{p.x, p.y, 1.0f - std::abs(p.x) - std::abs(p.y)};
+    if (d.z < 0)
+    {
+        d.x = (1.0f - std::abs(p.y)) * (p.x < 0 ? -1.0f : 1.0f);
+        d.y = (1.0f - std::abs(p.x)) * (p.y < 0 ? -1.0f : 1.0f);
+    }
+    return d / length(d); // |d| >= 1/sqrt(3): never zero
+}
+
+using FourFloats = float __attribute__((vector_size(16)));
+
+/// Of four points of the square, the squared length of directionFromOctahedral less `unit`, to the same bits.
+inline FourFloats distance2ToOctahedral(FourFloats x, FourFloats y, Float3 unit)
+{
+    using FourWords = uint32_t __attribute__((vector_size(16)));
+    constexpr uint32_t kSign = 1u << 31;
+    const auto magnitude = [](FourFloats v)
+    { return std::bit_cast<FourFloats>(std::bit_cast<FourWords>(v) & ~kSign); };
+    // neither code is the zero below 0
+    const auto towards = [](FourFloats v, FourFloats sign) {
+        return std::bit_cast<FourFloats>(std::bit_cast<FourWords>(v) ^
+                                         (std::bit_cast<FourWords>(sign) & kSign));
+    };
+    const FourFloats z = 1.0f - magnitude(x) - magnitude(y);
+    const FourFloats folded_x = z < 0 ? towards(1.0f - magnitude(y), x) : x;
+    const FourFloats folded_y = z < 0 ? towards(1.0f - magnitude(x), y) : y;
+    const FourFloats length2 = folded_x * folded_x + folded_y * folded_y + z * z;
+    const FourFloats length{std::sqrt(length2[0]), std::sqrt(length2[1]), std::sqrt(length2[2]),
+                            std::sqrt(length2[3])};
+    const FourFloats off_x = folded_x / length - unit.x;
+    const FourFloats off_y = folded_y / length - unit.y;
+    const FourFloats off_z = z / length - unit.z;
+    return off_x * off_x + off_y * off_y + off_z * off_z;
+}
+
+/// Normal codes of B = 8 or 16 bits for x and for y: 2B bits, x in the low half.
+template <int B>
+struct NormalCode
+{
+    static constexpr int32_t kMost = (1 << (B - 1)) - 1;
+
+    static constexpr int32_t x(uint32_t code) { return static_cast<int32_t>(code << (32 - B)) >> (32 - B); }
+    static constexpr int32_t y(uint32_t code) { return x(code >> B); }
+    static constexpr uint32_t pack(int32_t x, int32_t y)
+    {
+        constexpr uint32_t kMask = (1u << B) - 1;
+        return (static_cast<uint32_t>(x) & kMask) | (static_cast<uint32_t>(y) & kMask) << B;
+    }
+    static constexpr bool legal(uint32_t code) { return x(code) >= -kMost && y(code) >= -kMost; }
+
+    static Float3 decode(uint32_t code)
+    {
+        return directionFromOctahedral(
+            {static_cast<float>(x(code)) / kMost, static_cast<float>(y(code)) / kMost});
+    }
+
+    /// Of the four codes around the direction, the one with the least angle to it. `normal` finite and not zero.
+    static uint32_t encode(Float3 normal)
+    {
+        const Float2 p = octahedralFromDirection(normal);
+        const Float3 unit = normal / length(normal);
+        const auto below = [](float value)
+        {
+            const auto nearer_to_0 = static_cast<int32_t>(value * kMost);
+            return std::clamp(nearer_to_0 - (value < 0 ? 1 : 0), -kMost, kMost - 1);
+        };
+        const int32_t low_x = below(p.x);
+        const int32_t low_y = below(p.y);
+        const auto x0 = static_cast<float>(low_x), y0 = static_cast<float>(low_y);
+        // the chord: unlike the cosine, floats tell it for the smallest angles
+        const FourFloats distance2 =
+            distance2ToOctahedral(FourFloats{x0, x0 + 1, x0, x0 + 1} / static_cast<float>(kMost),
+                                  FourFloats{y0, y0, y0 + 1, y0 + 1} / static_cast<float>(kMost), unit);
+        int32_t best = 0;
+        for (int32_t corner = 1; corner < 4; ++corner)
+            best = distance2[corner] < distance2[best] ? corner : best;
+        return pack(low_x + (best & 1), low_y + (best >> 1));
+    }
+};
+
+/// The code of a normal in 16 bits (2 x 8), or 32 (2 x 16) in a layout with kVertexFineNormal.
+inline uint32_t encodeNormal(uint32_t layout, Float3 normal)
+{
+    return (layout & kVertexFineNormal) ? NormalCode<16>::encode(normal) : NormalCode<8>::encode(normal);
+}
+inline Float3 decodeNormal(uint32_t layout, uint32_t code)
+{
+    return (layout & kVertexFineNormal) ? NormalCode<16>::decode(code) : NormalCode<8>::decode(code);
+}
+constexpr bool legalNormal(uint32_t layout, uint32_t code)
+{
+    return (layout & kVertexFineNormal) ? NormalCode<16>::legal(code)
+                                        : code <= 0xFFFF && NormalCode<8>::legal(code);
+}
+
+/// Bits of the angle of a tangent.
+constexpr uint32_t tangentAngleBits(uint32_t layout)
+{
+    return (layout & kVertexFineNormal) ? 15 : 7;
+}
+
+/// Two unit vectors that stand on a unit normal and on each other.
+struct NormalFrame
+{
+    Float3 first;
+    Float3 second;
+};
+
+inline NormalFrame frameOf(Float3 n)
+{
+    const float sign = n.z < 0 ? -1.0f : 1.0f;
+    const float a = -1.0f / (sign + n.z);
+    const float b = n.x * n.y * a;
+    return {{1.0f + sign * n.x * n.x * a, sign * b, -sign * n.x}, {b, sign + n.y * n.y * a, -n.y}};
+}
+
+/// `tangent` xyz finite, w < 0 where the bitangent is flipped; `normal` as it is decoded. What the tangent has along the
+/// normal is lost; one without any other part gets the frame's first vector.
+inline uint32_t encodeTangent(uint32_t layout, Float4 tangent, Float3 normal)
+{
+    const NormalFrame frame = frameOf(normal);
+    const Float3 t{tangent.x, tangent.y, tangent.z};
+    const float u = dot(t, frame.first);
+    const float v = dot(t, frame.second);
+    const float sum = std::abs(u) + std::abs(v);
+    // quarter turns, then the way from one axis to the next
+    float turn = 0;
+    if (sum > 0)
+        turn = v >= 0 ? (u >= 0 ? v / sum : 1 - u / sum) : (u < 0 ? 2 - v / sum : 3 + u / sum);
+    const uint32_t quarter = 1u << (tangentAngleBits(layout) - 2);
+    const auto angle = static_cast<uint32_t>(std::lround(turn * static_cast<float>(quarter)));
+    return (angle & (4 * quarter - 1)) << 1 | (tangent.w < 0 ? 1u : 0u);
+}
+
+/// xyz unit, w = +1 or -1.
+inline Float4 decodeTangent(uint32_t layout, uint32_t code, Float3 normal)
+{
+    const uint32_t quarter = 1u << (tangentAngleBits(layout) - 2);
+    const uint32_t angle = code >> 1;
+    const float along = static_cast<float>(angle & (quarter - 1)) / static_cast<float>(quarter);
+    const uint32_t turn = angle / quarter;
+    const float u = turn == 0 ? 1 - along : turn == 1 ? -along : turn == 2 ? along - 1 : along;
+    const float v = turn == 0 ? along : turn == 1 ? 1 - along : turn == 2 ? -along : along - 1;
+    const NormalFrame frame = frameOf(normal);
+    const Float3 t = frame.first * u + frame.second * v;
+    const Float3 unit = t / length(t);
+    return {unit.x, unit.y, unit.z, (code & 1) != 0 ? -1.0f : 1.0f};
+}
+
+constexpr bool legalTangent(uint32_t layout, uint32_t code)
+{
+    return code >> (tangentAngleBits(layout) + 1) == 0;
+}
+
+/// The words of a colour: red in the lowest bits. The second is 0 and not stored unless the layout has
+/// kVertexFineColor.
+inline std::array<uint32_t, 2> encodeColor(uint32_t layout, Float4 color)
+{
+    if (layout & kVertexFineColor)
+        return {quantizeUnorm(color.x, 65535) | quantizeUnorm(color.y, 65535) << 16,
+                quantizeUnorm(color.z, 65535) | quantizeUnorm(color.w, 65535) << 16};
+    return {quantizeUnorm(color.x, 255) | quantizeUnorm(color.y, 255) << 8 |
+                quantizeUnorm(color.z, 255) << 16 | quantizeUnorm(color.w, 255) << 24,
+            0};
+}
+
+inline Float4 decodeColor(uint32_t layout, std::array<uint32_t, 2> words)
+{
+    const auto part = [](uint32_t q, float most) { return static_cast<float>(q) / most; };
+    if (layout & kVertexFineColor)
+        return {part(words[0] & 0xFFFFu, 65535), part(words[0] >> 16, 65535), part(words[1] & 0xFFFFu, 65535),
+                part(words[1] >> 16, 65535)};
+    return {part(words[0] & 0xFFu, 255), part(words[0] >> 8 & 0xFFu, 255), part(words[0] >> 16 & 0xFFu, 255),
+            part(words[0] >> 24, 255)};
+}
+
+} // namespace hearth::formats

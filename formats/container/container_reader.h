@@ -1,0 +1,129 @@
+// Reads a container from untrusted bytes: everything is checked before a span is handed out.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "formats/base/result.h"
+#include "formats/records/container.h"
+
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace hearth::formats
+{
+
+/// How much of the file open() reads.
+enum class Check
+{
+    everything, ///< every byte of the file is checked: header, table, padding, the hash of every chunk
+    structure,  ///< header, table and ranges; a chunk's hash is checked when it is read
+};
+
+/// The content of a chunk: bytes in the mapped file, or the decompressed copy that it owns. Cheap to copy.
+class ChunkData
+{
+public:
+    ChunkData() = default;
+    ChunkData(std::span<const std::byte> bytes, std::shared_ptr<const void> owner)
+        : bytes_(bytes), owner_(std::move(owner))
+    {
+    }
+    std::span<const std::byte> bytes() const { return bytes_; }
+
+private:
+    std::span<const std::byte> bytes_;
+    std::shared_ptr<const void> owner_;
+};
+
+/// The records of a chunk; valid as long as it lives.
+template <typename T>
+class Records
+{
+public:
+    Records() = default;
+    explicit Records(ChunkData data) : data_(std::move(data)) {}
+    std::span<const T> span() const
+    {
+        return {reinterpret_cast<const T*>(data_.bytes().data()), data_.bytes().size() / sizeof(T)};
+    }
+    size_t size() const { return span().size(); }
+    const T& operator[](size_t i) const { return span()[i]; }
+    auto begin() const { return span().begin(); }
+    auto end() const { return span().end(); }
+
+private:
+    ChunkData data_;
+};
+
+class ContainerReader
+{
+public:
+    /// Map the file and check it. errors: input_missing, container_*, chunk_hash.
+    static Result<ContainerReader> open(const std::string& path, Check check = Check::everything);
+
+    /// The same on bytes in memory, 64-byte aligned, that outlive the reader. `name` stands in messages.
+    static Result<ContainerReader> fromBytes(std::span<const std::byte> bytes, std::string name,
+                                             Check check = Check::everything);
+
+    const std::string& name() const { return name_; }
+    ContainerKind kind() const { return static_cast<ContainerKind>(header_.kind); }
+    const FileHeader& header() const { return header_; }
+    std::span<const ChunkEntry> chunks() const { return table_; }
+
+    /// The entry of a chunk, or nullptr. Time O(log chunks).
+    const ChunkEntry* find(uint32_t type, uint32_t index = 0) const;
+
+    /// The stored bytes of a chunk as they lie in the file: still compressed, and hashed by open(Check::everything) only.
+    std::span<const std::byte> stored(const ChunkEntry& entry) const;
+
+    /// What open(Check::everything) checks beyond the structure. errors: container_padding, chunk_hash.
+    Status checkContents() const;
+
+    /// Decompressed content; empty if the chunk does not exist. errors: chunk_hash, chunk_codec.
+    Result<ChunkData> read(uint32_t type, uint32_t index = 0) const;
+
+    /// Give the memory of a chunk's stored bytes back to the system. They come from the file again when they are read.
+    void discard(const ChunkEntry& entry) const;
+
+    /// Whether the content can be decompressed to the size that the table says, without keeping it.
+    /// errors: chunk_hash, chunk_codec.
+    Status checkDecodes(const ChunkEntry& entry) const;
+
+    /// Content as records. errors: those of read, and chunk_size where it is not a whole number of T.
+    template <typename T>
+    Result<Records<T>> records(uint32_t type, uint32_t index = 0) const
+    {
+        const ChunkEntry* entry = find(type, index);
+        if (entry != nullptr && entry->element_size != sizeof(T))
+            return sizeError(*entry, sizeof(T));
+        HEARTH_ASSIGN_OR_RETURN(ChunkData data, read(type, index));
+        return Records<T>(std::move(data));
+    }
+
+private:
+    Status checkStructure();
+    Error sizeError(const ChunkEntry& entry, size_t element_size) const;
+
+    std::string name_;
+    std::span<const std::byte> bytes_;
+    std::shared_ptr<const void> owner_; ///< the mapping of the file, or nothing
+    FileHeader header_{};
+    std::vector<ChunkEntry> table_;
+    std::vector<uint32_t> entries_by_id_; ///< entries sorted by type and index
+    Check check_ = Check::everything;
+};
+
+/// "MESH 3": how messages name a chunk.
+std::string chunkName(uint32_t type, uint32_t index);
+
+/// XXH3-64, the hash of the format.
+uint64_t hashBytes(std::span<const std::byte> bytes);
+
+/// Whether all bytes are zero.
+bool allZero(std::span<const std::byte> bytes);
+
+/// Decompress one zstd frame whose size is known to be `size`; false where it is not.
+bool decompress(std::span<const std::byte> stored, std::span<std::byte> out);
+
+} // namespace hearth::formats

@@ -1,0 +1,270 @@
+// Rays that carry light through bricks: which way they go, what the faces store that they meet, and what they bring.
+// Written once for C++ and GLSL. They march as in brick_march.h; where they start is in brick_lighting.h. cook/bricks/README.md,
+// "Light", has the reasons.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+//
+// Places are in voxels of the grid: (world - origin) / voxel_size. Directions are unit and the same in both.
+#ifndef HEARTH_SHARED_BRICK_RAYS_H
+#define HEARTH_SHARED_BRICK_RAYS_H
+
+#include "formats/gpu_shared/brick_codes.h"
+#include "formats/gpu_shared/brick_march.h"
+
+HEARTH_SHARED_BEGIN
+
+/// Light that is left of a ray below this does not count any more.
+HEARTH_CONSTANT float kBrickLeastThrough = 0.00390625f;
+
+/// Voxels off a face where a ray is in the air beside it for certain: coordinates up to 2^14 round to 2^-11.
+HEARTH_CONSTANT float kBrickFaceMargin = 0.001953125f;
+
+// ---- random numbers and directions
+
+/// source  C. Wellons, "Prospecting for hash functions", 2018: lowbias32
+HEARTH_FUNCTION uint brickHash(uint x)
+{
+    x ^= x >> 16;
+    x *= 0x21F0AAADu;
+    x ^= x >> 15;
+    x *= 0x735A2D97u;
+    x ^= x >> 15;
+    return x;
+}
+
+/// Of a face of a voxel; the same whatever other voxels there are.
+HEARTH_FUNCTION uint brickFaceSeed(uint x, uint y, uint z, uint face)
+{
+    return brickHash(x + brickHash(y + brickHash(z * 8u + face)));
+}
+
+/// In [0, 1): the upper 24 bits, which a float holds exactly.
+HEARTH_FUNCTION float brickUnit(uint bits)
+{
+    return float(bits >> 8) * 5.9604644775390625e-8f;
+}
+
+/// Ray `index` of `count`, by the cosine about the normal: a spiral of the golden angle that fills the disc below the
+/// hemisphere evenly at any count, turned and shifted by the seed. To the same bits in both languages.
+/// source  H. Vogel, "A better way to construct the sunflower head", 1979; sine and cosine as in cook/sampling/maps.h
+HEARTH_FUNCTION Float3 brickRayDirection(Float3 normal, uint index, uint count, uint seed)
+{
+    HEARTH_PRECISE float u = (float(index) + brickUnit(seed)) / float(count);
+    HEARTH_PRECISE float quarters = brickUnit(index * 2654435769u + brickHash(seed)) * 4.0f;
+    uint quarter = uint(quarters + 0.5f);
+    HEARTH_PRECISE float angle = (quarters - float(quarter)) * 1.57079633f;
+    HEARTH_PRECISE float a = angle * angle;
+    HEARTH_PRECISE float s =
+        angle *
+        (1.0f + a * (-0.166666667f + a * (0.00833333333f + a * (-0.000198412698f + a * 2.75573192e-6f))));
+    HEARTH_PRECISE float c =
+        1.0f + a * (-0.5f + a * (0.0416666667f + a * (-0.00138888889f + a * 2.48015873e-5f)));
+    float sine = (quarter & 1u) != 0u ? c : s;
+    float cosine = (quarter & 1u) != 0u ? s : c;
+    sine = (quarter & 2u) != 0u ? -sine : sine;
+    cosine = ((quarter + 1u) & 2u) != 0u ? -cosine : cosine;
+    HEARTH_PRECISE float radius = sqrt(u);
+    HEARTH_PRECISE float x = radius * cosine;
+    HEARTH_PRECISE float y = radius * sine;
+    HEARTH_PRECISE float z = sqrt(max(1.0f - u, 0.0f));
+    // source of the frame: T. Duff et al., "Building an orthonormal basis, revisited", 2017
+    float side = normal.z < 0.0f ? -1.0f : 1.0f;
+    HEARTH_PRECISE float p = -1.0f / (side + normal.z);
+    HEARTH_PRECISE float q = normal.x * normal.y * p;
+    HEARTH_PRECISE Float3 first = Float3(1.0f + side * normal.x * normal.x * p, side * q, -side * normal.x);
+    HEARTH_PRECISE Float3 second = Float3(q, side + normal.y * normal.y * p, -normal.y);
+    HEARTH_PRECISE Float3 direction = first * x + second * y + normal * z;
+    return direction;
+}
+
+// ---- faces
+
+/// Outward unit vector of face 0 to 5: x- x+ y- y+ z- z+.
+HEARTH_FUNCTION Float3 brickFaceAxis(uint face)
+{
+    float side = (face & 1u) != 0u ? 1.0f : -1.0f;
+    uint axis = face >> 1;
+    return Float3(axis == 0u ? side : 0.0f, axis == 1u ? side : 0.0f, axis == 2u ? side : 0.0f);
+}
+
+/// The middle of a face, just off it.
+HEARTH_FUNCTION Float3 brickFaceMiddle(uint x, uint y, uint z, uint face)
+{
+    HEARTH_PRECISE Float3 middle = Float3(float(x) + 0.5f, float(y) + 0.5f, float(z) + 0.5f) +
+                                   brickFaceAxis(face) * (0.5f + kBrickFaceMargin);
+    return middle;
+}
+
+/// The normal by which a face is lit: that of the surface, on the side that the face is on. Thin surfaces have faces on both.
+HEARTH_FUNCTION Float3 brickFaceNormal(Float3 surface_normal, uint face)
+{
+    return dot(surface_normal, brickFaceAxis(face)) < 0.0f ? -surface_normal : surface_normal;
+}
+
+// ---- what a face stores
+
+/// The radiance of a face as the iteration keeps it: the code that others see, and what that code left off, in 1/1023 of its
+/// steps, 10 bits each with their sign. Steps of R11G11B10F are a 64th, a 32nd of blue, so that an iteration that read the
+/// codes alone would stop up to 0.5 / (1 - albedo) steps before its goal: a furnace of albedo .9 by 8 %, of blue by 16 %.
+/// With the rest it is off by 2^-16 of the value and does not notice. A rest of 0 is that of the code itself.
+struct BrickLight
+{
+    uint code; ///< encodeRadiance: the nearest one
+    uint rest;
+};
+
+/// How far the next code is, of a value that a code stands for.
+HEARTH_FUNCTION float brickCodeStep(float value, uint mantissa_bits)
+{
+    uint exponent = floatBits(value) >> 23;
+    return floatOfBits(((exponent > 113u ? exponent : 113u) - mantissa_bits) << 23);
+}
+
+HEARTH_FUNCTION uint brickRestOf(float value, float coded, uint mantissa_bits)
+{
+    float steps = (value - coded) / brickCodeStep(coded, mantissa_bits);
+    // the largest code stands for all that is larger
+    return uint(int(floor(min(max(steps, -0.5f), 0.5f) * 1022.0f + 0.5f))) & 1023u;
+}
+
+HEARTH_FUNCTION float brickWithRest(float coded, uint rest, uint mantissa_bits)
+{
+    return coded + float(int(rest << 22) >> 22) / 1022.0f * brickCodeStep(coded, mantissa_bits);
+}
+
+/// radiance  not negative
+HEARTH_FUNCTION BrickLight encodeBrickLight(Float3 radiance)
+{
+    BrickLight light;
+    light.code = encodeRadiance(radiance);
+    Float3 coded = decodeRadiance(light.code);
+    light.rest = brickRestOf(radiance.x, coded.x, 6u) | brickRestOf(radiance.y, coded.y, 6u) << 10 |
+                 brickRestOf(radiance.z, coded.z, 5u) << 20;
+    return light;
+}
+
+HEARTH_FUNCTION Float3 decodeBrickLight(BrickLight light)
+{
+    Float3 coded = decodeRadiance(light.code);
+    return Float3(brickWithRest(coded.x, light.rest, 6u), brickWithRest(coded.y, light.rest >> 10, 6u),
+                  brickWithRest(coded.z, light.rest >> 20, 5u));
+}
+
+// ---- rays
+
+#ifdef __cplusplus
+/// What rays read beside the masks.
+struct BrickScene
+{
+    BrickMasks masks;
+    std::span<const uint8_t> opacity;  ///< of solid voxels
+    std::span<const BrickLight> light; ///< of faces
+};
+inline const BrickMasks& brickMasksOf(const BrickScene& scene)
+{
+    return scene.masks;
+}
+/// Of a solid voxel, [0, 1]; exactly 1 where it lets nothing through.
+inline float brickOpacityAt(const BrickScene& scene, uint voxel)
+{
+    return static_cast<float>(scene.opacity[voxel]) / 255.0f;
+}
+/// What a face sends out.
+inline Float3 brickRadianceAt(const BrickScene& scene, uint face)
+{
+    return decodeBrickLight(scene.light[face]);
+}
+#else
+// A shader defines these two over its buffers, in front of this header or behind it.
+#define BrickScene BrickGrid
+float brickOpacityAt(BrickGrid grid, uint voxel);
+vec3 brickRadianceAt(BrickGrid grid, uint face);
+BrickGrid brickMasksOf(BrickGrid grid)
+{
+    return grid;
+}
+#endif
+
+/// Radiances of the sky, as in shared::Lighting.
+struct BrickSky
+{
+    Float3 zenith;
+    Float3 horizon;
+    Float3 ground;
+};
+
+HEARTH_FUNCTION float brickSmooth(float from, float to, float x)
+{
+    float t = min(max((x - from) / (to - from), 0.0f), 1.0f);
+    return t * t * (3.0f - 2.0f * t);
+}
+
+/// The gradient whose cosine-weighted mean is skyIrradiance of sky.glsl: skyRadiance at roughness 0.2.
+HEARTH_FUNCTION Float3 brickSkyRadiance(HEARTH_IN(BrickSky) sky, Float3 direction)
+{
+    Float3 above = sky.horizon + (sky.zenith - sky.horizon) * brickSmooth(-0.2f, 1.0f, direction.y);
+    return sky.ground + (above - sky.ground) * brickSmooth(-0.296f, 0.296f, direction.y);
+}
+
+struct BrickRayLight
+{
+    Float3 radiance;
+    float sky; ///< share of the ray that passes all bricks, [0, 1]
+};
+
+/// What a ray brings: light of the faces that it meets, of each as much as its voxel stops, and behind them all the sky's.
+/// ray  in the first solid voxel that it meets, as brickMarch finds it
+HEARTH_FUNCTION BrickRayLight brickLightAlong(HEARTH_IN(BrickScene) scene, HEARTH_IN(BrickSky) sky,
+                                              BrickRay ray)
+{
+    BrickRayLight light;
+    light.radiance = Float3(0.0f, 0.0f, 0.0f);
+    light.sky = 0.0f;
+    float through = 1.0f;
+    while (ray.inside != 0u)
+    {
+        Brick brick = brickAt(brickMasksOf(scene), ray.brick);
+        float opacity = brickOpacityAt(scene, brickVoxel(brick, ray.bit));
+        uint face = brickFace(brick, ray.bit, ray.face);
+        if (face != kNoFace)
+            light.radiance = light.radiance + brickRadianceAt(scene, face) * (through * opacity);
+        through *= 1.0f - opacity;
+        if (through < kBrickLeastThrough)
+            return light;
+        ray = brickMarch(brickMasksOf(scene), brickPass(brickMasksOf(scene), ray));
+    }
+    light.radiance = light.radiance + brickSkyRadiance(sky, ray.direction) * through;
+    light.sky = through;
+    return light;
+}
+
+/// The same from where it starts.
+/// place      in voxels
+/// direction  unit
+HEARTH_FUNCTION BrickRayLight brickRayLight(HEARTH_IN(BrickScene) scene, HEARTH_IN(BrickSky) sky,
+                                            Float3 place, Float3 direction)
+{
+    return brickLightAlong(scene, sky,
+                           brickMarch(brickMasksOf(scene), brickRayInVoxels(brickGridOf(brickMasksOf(scene)),
+                                                                            place, direction, kBrickFar)));
+}
+
+/// The share of light that passes along a ray. far  in voxels
+HEARTH_FUNCTION float brickRayThrough(HEARTH_IN(BrickScene) scene, Float3 place, Float3 direction, float far)
+{
+    float through = 1.0f;
+    BrickRay ray = brickMarch(brickMasksOf(scene),
+                              brickRayInVoxels(brickGridOf(brickMasksOf(scene)), place, direction, far));
+    while (ray.inside != 0u)
+    {
+        Brick brick = brickAt(brickMasksOf(scene), ray.brick);
+        through *= 1.0f - brickOpacityAt(scene, brickVoxel(brick, ray.bit));
+        if (through < kBrickLeastThrough)
+            return 0.0f;
+        ray = brickMarch(brickMasksOf(scene), brickPass(brickMasksOf(scene), ray));
+    }
+    return through;
+}
+
+HEARTH_SHARED_END
+
+#endif

@@ -1,0 +1,346 @@
+// Which clusters are drawn: the frustum, normal-cone and level-of-detail tests, written once. The shaders run them,
+// the CPU twin and the reference culling run the same lines, and on IEEE hardware every bit agrees: only + - * and
+// sqrt, in a fixed order, nothing contracted. Sources: RUNTIME 2.1, 2.4, 2.5 (design notes).
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#ifndef HEARTH_SHARED_DECISIONS_H
+#define HEARTH_SHARED_DECISIONS_H
+
+#include "formats/gpu_shared/records.h"
+
+HEARTH_SHARED_BEGIN
+
+/// 2^-20 = eight units in the last place: more than the handful of roundings between a stored bound and the vertex
+/// that it stands for can add up to, so that a test that is right in real numbers stays right in floats.
+HEARTH_CONSTANT float kRoundingSlack = 9.5367431640625e-7f;
+
+/// Rasterisers snap vertices to 1/256 pixel, which can turn a sliver that faces just away; and the checker allows a
+/// cone to miss a tenth of this (formats::kConeSlack). In sines of an angle.
+HEARTH_CONSTANT float kConeMargin = 1e-3f;
+
+/// How far the checker lets an apex stand in front of a plane: formats::kApexSlack.
+HEARTH_CONSTANT float kApexMargin = 1e-4f;
+
+/// Page requests tell errors apart down to this one, in pixels: a threshold may be 0 or negative.
+HEARTH_CONSTANT float kLeastRequestThreshold = 0.015625f;
+
+/// Errors above are infinite: the group is a root, nothing coarser exists.
+HEARTH_CONSTANT float kLargestError = 1e38f;
+
+HEARTH_FUNCTION float dot3(Float3 a, Float3 b)
+{
+    HEARTH_PRECISE float sum = (a.x * b.x + a.y * b.y) + a.z * b.z;
+    return sum;
+}
+
+HEARTH_FUNCTION float sum3(Float3 a)
+{
+    HEARTH_PRECISE float sum = (a.x + a.y) + a.z;
+    return sum;
+}
+
+HEARTH_FUNCTION Float3 abs3(Float3 a)
+{
+    return Float3(abs(a.x), abs(a.y), abs(a.z));
+}
+
+HEARTH_FUNCTION Float3 row3(Float4 row)
+{
+    return Float3(row.x, row.y, row.z);
+}
+
+/// A point of the object in world axes, relative to the eye.
+HEARTH_FUNCTION Float3 relativePoint(HEARTH_IN(Instance) instance, Float3 eye, Float3 point)
+{
+    HEARTH_PRECISE float x =
+        dot3(row3(instance.world_from_object_x), point) + (instance.world_from_object_x.w - eye.x);
+    HEARTH_PRECISE float y =
+        dot3(row3(instance.world_from_object_y), point) + (instance.world_from_object_y.w - eye.y);
+    HEARTH_PRECISE float z =
+        dot3(row3(instance.world_from_object_z), point) + (instance.world_from_object_z.w - eye.z);
+    return Float3(x, y, z);
+}
+
+/// Clip-space position of a point relative to the eye.
+HEARTH_FUNCTION Float4 clipPosition(HEARTH_IN(FrameView) view, Float3 relative)
+{
+    HEARTH_PRECISE float x = dot3(row3(view.clip_x), relative);
+    HEARTH_PRECISE float y = dot3(row3(view.clip_y), relative);
+    HEARTH_PRECISE float w = dot3(row3(view.clip_w), relative);
+    return Float4(x, y, view.z_near, w);
+}
+
+/// True where the box, moved by the instance, lies wholly outside one plane of the frustum.
+/// Exact for any affine matrix: the half extents become |A| h.
+HEARTH_FUNCTION bool boxOutsideFrustum(HEARTH_IN(FrameView) view, HEARTH_IN(Instance) instance,
+                                       Float3 box_min, Float3 box_max)
+{
+    HEARTH_PRECISE Float3 center = (box_min + box_max) * 0.5f;
+    HEARTH_PRECISE Float3 half_size = (box_max - box_min) * 0.5f;
+    HEARTH_PRECISE Float3 relative = relativePoint(instance, view.eye, center);
+    Float3 row_x = abs3(row3(instance.world_from_object_x));
+    Float3 row_y = abs3(row3(instance.world_from_object_y));
+    Float3 row_z = abs3(row3(instance.world_from_object_z));
+    HEARTH_PRECISE Float3 extent =
+        Float3(dot3(row_x, half_size), dot3(row_y, half_size), dot3(row_z, half_size));
+    // how large the terms were that rounding errors are relative to
+    HEARTH_PRECISE Float3 reach = abs3(center) + half_size;
+    HEARTH_PRECISE Float3 magnitude =
+        Float3(dot3(row_x, reach) + abs(instance.world_from_object_x.w - view.eye.x),
+               dot3(row_y, reach) + abs(instance.world_from_object_y.w - view.eye.y),
+               dot3(row_z, reach) + abs(instance.world_from_object_z.w - view.eye.z));
+    HEARTH_PRECISE Float3 bound = extent + magnitude * kRoundingSlack;
+    for (int i = 0; i < 5; ++i)
+    {
+        Float3 normal = row3(view.planes[i]);
+        HEARTH_PRECISE float reach_inside =
+            (dot3(normal, relative) + dot3(abs3(normal), bound)) + view.planes[i].w;
+        if (reach_inside < 0.0f)
+            return true;
+    }
+    return false;
+}
+
+/// How much errors count at a distance. All parts of the sum are positive: it is right but for the last bits.
+HEARTH_FUNCTION float lodFactor(HEARTH_IN(FrameView) view, float distance)
+{
+    Float4 segment = view.lod_curve[0];
+    for (uint i = 1u; i < kLodKnots; ++i)
+        if (distance >= view.lod_curve[i].x)
+            segment = view.lod_curve[i];
+    HEARTH_PRECISE float along = min(max((distance - segment.x) * segment.w, 0.0f), 1.0f);
+    HEARTH_PRECISE float factor = segment.y * (1.0f - along) + segment.z * along;
+    return factor;
+}
+
+/// An error on the screen, E = pixels_m / distance, without the division.
+struct ScreenError
+{
+    float pixels_m; ///< pixels times metres
+    float distance; ///< metres
+};
+
+///     E = scale * error * lod_scale * lodFactor(d) / d,  d = max(|center - eye| - scale * radius, z_near)
+HEARTH_FUNCTION ScreenError screenError(HEARTH_IN(FrameView) view, HEARTH_IN(Instance) instance,
+                                        Float3 sphere_center, float sphere_radius, float error)
+{
+    HEARTH_PRECISE Float3 relative = relativePoint(instance, view.eye, sphere_center);
+    HEARTH_PRECISE float distance =
+        max(sqrt(dot3(relative, relative)) - instance.scale_max * sphere_radius, view.z_near);
+    HEARTH_PRECISE float pixels_m =
+        ((instance.scale_max * error) * view.lod_scale) * lodFactor(view, distance);
+    ScreenError result;
+    result.pixels_m = pixels_m;
+    result.distance = distance;
+    return result;
+}
+
+/// True where the error of a group, projected to the screen, is above the threshold. Both sides of every seam call
+/// this with the same bits, so a group is replaced as a whole or not at all.
+HEARTH_FUNCTION bool errorExceeds(HEARTH_IN(FrameView) view, HEARTH_IN(Instance) instance,
+                                  Float3 sphere_center, float sphere_radius, float error)
+{
+    if (error > kLargestError)
+        return true;
+    ScreenError on_screen = screenError(view, instance, sphere_center, sphere_radius, error);
+    HEARTH_PRECISE float allowed_pixels_m = view.threshold * on_screen.distance;
+    return on_screen.pixels_m > allowed_pixels_m;
+}
+
+/// True where what a group was made into is too coarse, and the group is there to be drawn instead. An absent group
+/// counts as one without error: errors still never decrease towards the root where the resident pages are closed
+/// (pack::PageGraph), so that the cut draws each surface once.
+HEARTH_FUNCTION bool groupRefines(HEARTH_IN(FrameView) view, HEARTH_IN(Instance) instance,
+                                  HEARTH_IN(Group) group)
+{
+    return group.absent == 0u &&
+           errorExceeds(view, instance, group.sphere_center, group.sphere_radius, group.error);
+}
+
+/// The cut rule of formats::GroupRecord. `refined` is not looked at unless `has_refined`.
+HEARTH_FUNCTION bool clusterInCut(HEARTH_IN(FrameView) view, HEARTH_IN(Instance) instance,
+                                  HEARTH_IN(Group) own, bool has_refined, HEARTH_IN(Group) refined)
+{
+    if (has_refined && groupRefines(view, instance, refined))
+        return false;
+    return groupRefines(view, instance, own);
+}
+
+HEARTH_FUNCTION Float3 clusterBoxMin(HEARTH_IN(Cluster) cluster, float grid_step)
+{
+    HEARTH_PRECISE Float3 corner =
+        Float3(float(cluster.base_x) * grid_step, float(cluster.base_y) * grid_step,
+               float(cluster.base_z) * grid_step);
+    return corner;
+}
+
+HEARTH_FUNCTION uint extentShift(HEARTH_IN(Cluster) cluster)
+{
+    return cluster.extent_z >> 16 & 255u;
+}
+
+HEARTH_FUNCTION Float3 clusterBoxMax(HEARTH_IN(Cluster) cluster, float grid_step)
+{
+    uint shift = extentShift(cluster);
+    int x = cluster.base_x + int((cluster.extent_xy & 65535u) << shift);
+    int y = cluster.base_y + int((cluster.extent_xy >> 16) << shift);
+    int z = cluster.base_z + int((cluster.extent_z & 65535u) << shift);
+    HEARTH_PRECISE Float3 corner = Float3(float(x) * grid_step, float(y) * grid_step, float(z) * grid_step);
+    return corner;
+}
+
+/// The axis of a normal cone, 127 times as long as its octahedral code's point: whole numbers.
+/// axis  two signed bytes, in the low half
+HEARTH_FUNCTION Float3 coneRay(uint axis)
+{
+    // the sign of each byte comes down with the shift
+    float x = float(int(axis << 24) >> 24);
+    float y = float(int(axis << 16) >> 24);
+    HEARTH_PRECISE float z = 127.0f - abs(x) - abs(y);
+    if (z >= 0.0f)
+        return Float3(x, y, z);
+    HEARTH_PRECISE float folded_x = (127.0f - abs(y)) * (x < 0.0f ? -1.0f : 1.0f);
+    HEARTH_PRECISE float folded_y = (127.0f - abs(x)) * (y < 0.0f ? -1.0f : 1.0f);
+    return Float3(folded_x, folded_y, z);
+}
+
+/// Where the eye is in the space of what a matrix carries.
+struct ObjectEye
+{
+    Float3 position;
+    float slack; ///< how far it may be off through rounding
+};
+
+/// offset  of the eye from where the matrix carries the origin, world axes
+HEARTH_FUNCTION ObjectEye objectEye(HEARTH_IN(InstanceInverse) inverse, Float3 offset)
+{
+    Float3 row_x = row3(inverse.object_from_world_x);
+    Float3 row_y = row3(inverse.object_from_world_y);
+    Float3 row_z = row3(inverse.object_from_world_z);
+    Float3 size = abs3(offset);
+    HEARTH_PRECISE float magnitude =
+        sum3(Float3(dot3(abs3(row_x), size), dot3(abs3(row_y), size), dot3(abs3(row_z), size)));
+    ObjectEye eye;
+    eye.position = Float3(dot3(row_x, offset), dot3(row_y, offset), dot3(row_z, offset));
+    eye.slack = magnitude * kRoundingSlack;
+    return eye;
+}
+
+/// True where every triangle in the box faces away from the eye. In object space, where any affine matrix,
+/// mirrored or sheared, leaves the facing as it is. Not for double-sided materials.
+/// cone  the code of the axis in the low half, above it the sine of the half-angle in 1/65536; 65535: no cone
+/// back  how far behind the middle of the box the apex is, against the axis
+HEARTH_FUNCTION bool boxFacesAway(HEARTH_IN(ObjectEye) eye, uint cone, float back, Float3 box_min,
+                                  Float3 box_max)
+{
+    uint cutoff_code = cone >> 16;
+    if (cutoff_code == 65535u)
+        return false;
+    HEARTH_PRECISE Float3 center = (box_min + box_max) * 0.5f;
+    HEARTH_PRECISE Float3 half_size = (box_max - box_min) * 0.5f;
+
+    // everything times the length of the ray: no division, whose last bits differ between devices
+    Float3 ray = coneRay(cone);
+    HEARTH_PRECISE float ray2 = dot3(ray, ray);
+    HEARTH_PRECISE float ray_length = sqrt(ray2);
+    HEARTH_PRECISE Float3 to_center = center - eye.position;
+    HEARTH_PRECISE Float3 to_apex = to_center * ray_length - ray * back;
+    HEARTH_PRECISE float reach = sqrt(dot3(half_size, half_size)) + back;
+    HEARTH_PRECISE float position_slack =
+        (2.0f * eye.slack + (sum3(abs3(center)) + 2.0f * back) * kRoundingSlack) + reach * kApexMargin;
+    HEARTH_PRECISE float sine = float(cutoff_code) * 1.52587890625e-5f + kConeMargin;
+    HEARTH_PRECISE float needed = (sine * sqrt(dot3(to_apex, to_apex))) * ray_length + position_slack * ray2;
+    return dot3(to_apex, ray) >= needed;
+}
+
+/// The same of a cluster of a rigid instance.
+HEARTH_FUNCTION bool coneFacesAway(HEARTH_IN(InstanceState) state, HEARTH_IN(Cluster) cluster)
+{
+    ObjectEye eye;
+    eye.position = state.eye_object;
+    eye.slack = state.eye_slack;
+    HEARTH_PRECISE float back =
+        float((cluster.cone_back & 65535u) << extentShift(cluster)) * 16.0f * state.grid_step;
+    return boxFacesAway(eye, cluster.cone, back, clusterBoxMin(cluster, state.grid_step),
+                        clusterBoxMax(cluster, state.grid_step));
+}
+
+/// Whether a view of casters is not meant for an instance.
+HEARTH_FUNCTION bool instanceLeftOut(HEARTH_IN(FrameView) view, HEARTH_IN(Instance) instance)
+{
+    uint left_out = (instance.flags & kInstanceMoves) != 0u ? kCullMoving : kCullResting;
+    return (view.flags & left_out) != 0u;
+}
+
+/// The instance pass: where the eye is in object space, and whether anything of the mesh can be seen.
+HEARTH_FUNCTION InstanceState decideInstance(HEARTH_IN(FrameView) view, HEARTH_IN(Instance) instance,
+                                             HEARTH_IN(InstanceInverse) inverse, HEARTH_IN(MeshBounds) bounds)
+{
+    HEARTH_PRECISE Float3 offset =
+        Float3(view.eye.x - instance.world_from_object_x.w, view.eye.y - instance.world_from_object_y.w,
+               view.eye.z - instance.world_from_object_z.w);
+    ObjectEye eye = objectEye(inverse, offset);
+
+    InstanceState state;
+    state.eye_object = eye.position;
+    state.eye_slack = eye.slack;
+    state.visible = kInstanceVisible;
+    if ((view.flags & kCullInstances) != 0u &&
+        boxOutsideFrustum(view, instance, bounds.box_min, bounds.box_max))
+        state.visible = kInstanceHidden;
+    if (instanceLeftOut(view, instance))
+        state.visible = kInstanceHidden;
+    // an empty mesh has an empty box
+    if (bounds.box_min.x > bounds.box_max.x)
+        state.visible = kInstanceHidden;
+    state.cone_valid = inverse.object_from_world_x.w != 0.0f ? 1u : 0u;
+    state.grid_step = bounds.grid_step;
+    state.reserved = 0u;
+    return state;
+}
+
+/// How much the page of a group is wanted, resident or not: 0 where what the group was made into is good enough, else
+/// the more, the larger its error is beside the threshold. The bits of both as floats are subtracted: about
+/// 2^23 log2(E / threshold), without a division. Roots, which are always there, are not asked for.
+HEARTH_FUNCTION uint groupRequest(HEARTH_IN(FrameView) view, HEARTH_IN(Instance) instance,
+                                  HEARTH_IN(Group) group)
+{
+    if (group.error > kLargestError)
+        return 0u;
+    ScreenError on_screen =
+        screenError(view, instance, group.sphere_center, group.sphere_radius, group.error);
+    HEARTH_PRECISE float allowed_pixels_m = view.threshold * on_screen.distance;
+    if (!(on_screen.pixels_m > allowed_pixels_m))
+        return 0u;
+    HEARTH_PRECISE float least_pixels_m = max(view.threshold, kLeastRequestThreshold) * on_screen.distance;
+    uint error_bits = floatBits(on_screen.pixels_m);
+    uint least_bits = floatBits(least_pixels_m);
+    return error_bits > least_bits ? error_bits - least_bits : 1u;
+}
+
+/// Whether the frustum test leaves a cluster to be drawn.
+HEARTH_FUNCTION bool clusterInFrustum(HEARTH_IN(FrameView) view, HEARTH_IN(Instance) instance,
+                                      HEARTH_IN(InstanceState) state, HEARTH_IN(Cluster) cluster)
+{
+    return (view.flags & kCullFrustum) == 0u ||
+           !boxOutsideFrustum(view, instance, clusterBoxMin(cluster, state.grid_step),
+                              clusterBoxMax(cluster, state.grid_step));
+}
+
+/// The cluster pass: whether a cluster of an instance that is looked at is drawn, if nothing hides it.
+HEARTH_FUNCTION bool decideCluster(HEARTH_IN(FrameView) view, HEARTH_IN(Instance) instance,
+                                   HEARTH_IN(InstanceState) state, HEARTH_IN(Cluster) cluster,
+                                   HEARTH_IN(Group) own, HEARTH_IN(Group) refined, bool double_sided)
+{
+    if (state.visible == kInstanceHidden)
+        return false;
+    if (!clusterInCut(view, instance, own, cluster.refined_group != kNoGroup, refined))
+        return false;
+    if (!clusterInFrustum(view, instance, state, cluster))
+        return false;
+    bool test_cone = (view.flags & kCullCone) != 0u && !double_sided && state.cone_valid != 0u;
+    return !(test_cone && coneFacesAway(state, cluster));
+}
+
+HEARTH_SHARED_END
+
+#endif

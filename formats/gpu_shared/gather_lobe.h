@@ -1,0 +1,73 @@
+// The lobes in which a surface gathers light for its mirror images: the directions that a GGX lobe spreads to. Written once
+// for C++ and GLSL. See runtime/gpu/README.md, "The light of bricks".
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#ifndef HEARTH_SHARED_GATHER_LOBE_H
+#define HEARTH_SHARED_GATHER_LOBE_H
+
+#include "formats/gpu_shared/brick_rays.h"
+
+HEARTH_SHARED_BEGIN
+
+/// A direction that light comes from, unit, and how much it counts among those of its lobe: 0 from below the surface, where
+/// nothing is marched.
+struct GatherLobeRay
+{
+    Float3 direction;
+    float weight;
+};
+
+HEARTH_FUNCTION Float3 gatherUnit(Float3 v)
+{
+    return v * (1.0f / sqrt(dot(v, v)));
+}
+
+/// Lambda of Smith's masking: facets that a direction does not see for each that it sees.
+/// cosine  to the normal
+HEARTH_FUNCTION float gatherHidden(float cosine, float alpha)
+{
+    float cosine2 = max(cosine * cosine, 1e-8f);
+    return 0.5f * (sqrt(1.0f + alpha * alpha * max(1.0f - cosine2, 0.0f) / cosine2) - 1.0f);
+}
+
+/// Direction `index` of `count` of a GGX lobe: by the normals of microfacets that the eye sees, each with the share of its
+/// light that the others let in. The mean by the weights is the lobe's, without Fresnel's factor.
+/// source  J. Dupuy, A. Benyoub, "Sampling visible GGX normals with spherical caps", 2023; weights: E. Heitz,
+///         "Understanding the masking-shadowing function in microfacet-based BRDFs", 2014
+///
+/// to_eye     unit; on the surface's back it counts as along the surface
+/// normal     unit
+/// roughness  perceptual, > 0
+/// seed       as of brickRayDirection
+HEARTH_FUNCTION GatherLobeRay gatherLobeRay(Float3 to_eye, Float3 normal, float roughness, uint index,
+                                            uint count, uint seed)
+{
+    const float least_cosine = 0.02f;
+    float alpha = roughness * roughness;
+    // T. Duff et al., "Building an orthonormal basis, revisited", 2017
+    float side = normal.z < 0.0f ? -1.0f : 1.0f;
+    float p = -1.0f / (side + normal.z);
+    float q = normal.x * normal.y * p;
+    Float3 first = Float3(1.0f + side * normal.x * normal.x * p, side * q, -side * normal.x);
+    Float3 second = Float3(q, side + normal.y * normal.y * p, -normal.y);
+    Float3 eye =
+        gatherUnit(Float3(dot(first, to_eye), dot(second, to_eye), max(dot(normal, to_eye), least_cosine)));
+    // even over the disc, and so over the cap of the sphere that the eye sees in stretched space
+    Float3 disc = brickRayDirection(Float3(0.0f, 0.0f, 1.0f), index, count, seed);
+    float u = disc.x * disc.x + disc.y * disc.y;
+    Float3 seen = gatherUnit(Float3(alpha * eye.x, alpha * eye.y, eye.z));
+    float up = (1.0f - u) * (1.0f + seen.z) - seen.z;
+    float across = sqrt(max(1.0f - up * up, 0.0f) / max(u, 1e-12f));
+    Float3 facet = gatherUnit(Float3(alpha * (disc.x * across + seen.x), alpha * (disc.y * across + seen.y),
+                                     max(up + seen.z, 1e-6f)));
+    Float3 light = facet * (2.0f * dot(facet, eye)) - eye;
+    GatherLobeRay ray;
+    ray.direction = gatherUnit(first * light.x + second * light.y + normal * light.z);
+    float hidden_eye = gatherHidden(eye.z, alpha);
+    float hidden_light = gatherHidden(light.z, alpha);
+    ray.weight = light.z > 0.0f ? (1.0f + hidden_eye) / (1.0f + hidden_eye + hidden_light) : 0.0f;
+    return ray;
+}
+
+HEARTH_SHARED_END
+
+#endif

@@ -1,0 +1,82 @@
+// Lets one header be C++ and GLSL: the types and words in which formats/gpu_shared is written.
+// Only what both languages understand may be used there: no swizzles, no references, no library beyond what is named here.
+// Bits agree where only + - * / and sqrt are used; angles are as exact as each library has them.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#ifndef HEARTH_SHARED_LANGUAGE_H
+#define HEARTH_SHARED_LANGUAGE_H
+
+#ifdef __cplusplus
+
+#include "formats/base/math.h"
+
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+
+#define HEARTH_SHARED_BEGIN                                                                                  \
+    namespace hearth::shared                                                                                 \
+    {
+#define HEARTH_SHARED_END }
+#define HEARTH_FUNCTION inline
+#define HEARTH_IN(type) const type&
+#define HEARTH_CONSTANT inline constexpr
+#define HEARTH_PRECISE
+
+namespace hearth::shared
+{
+using uint = uint32_t;
+using std::abs;
+using std::acos;
+using std::floor;
+using std::sqrt;
+inline float max(float a, float b)
+{
+    return a < b ? b : a;
+}
+inline float min(float a, float b)
+{
+    return b < a ? b : a;
+}
+/// The angle of the point (x, y).
+inline float arcTangent(float y, float x)
+{
+    return std::atan2(y, x);
+}
+/// The bits of a float: those of positive floats order as their values do.
+inline uint floatBits(float value)
+{
+    return std::bit_cast<uint>(value);
+}
+inline float floatOfBits(uint bits)
+{
+    return std::bit_cast<float>(bits);
+}
+/// How many bits are set.
+inline int bitCount(uint bits)
+{
+    return std::popcount(bits);
+}
+} // namespace hearth::shared
+
+#else
+
+#define HEARTH_SHARED_BEGIN
+#define HEARTH_SHARED_END
+#define HEARTH_FUNCTION
+#define HEARTH_IN(type) type
+#define HEARTH_CONSTANT const
+// forbids contraction into fused multiply-adds: the C++ side is compiled with -ffp-contract=off
+#define HEARTH_PRECISE precise
+
+#define floatBits floatBitsToUint
+#define floatOfBits uintBitsToFloat
+#define arcTangent atan
+
+#define Float2 vec2
+#define Float3 vec3
+#define Float4 vec4
+
+#endif
+
+#endif

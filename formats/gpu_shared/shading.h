@@ -1,0 +1,123 @@
+// What the shading pass reads: materials and lights as blocks (std140), written once for C++ and GLSL.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#ifndef HEARTH_SHARED_SHADING_H
+#define HEARTH_SHARED_SHADING_H
+
+#include "formats/gpu_shared/language.h"
+
+HEARTH_SHARED_BEGIN
+
+HEARTH_CONSTANT uint kTextureBaseColor = 0;
+HEARTH_CONSTANT uint kTextureMetallicRoughness = 1;
+HEARTH_CONSTANT uint kTextureNormal = 2;
+HEARTH_CONSTANT uint kTextureOcclusion = 3;
+HEARTH_CONSTANT uint kTextureEmissive = 4;
+HEARTH_CONSTANT uint kTextureCount = 5;
+
+/// formats::MaterialRecord in the layout of a uniform block.
+struct Material
+{
+    Float4 base_color;
+    Float3 emissive;
+    float alpha_cutoff;
+    float metallic;
+    float roughness;
+    float normal_scale;
+    float occlusion_strength;
+    uint flags;         ///< formats::MaterialFlags
+    uint alpha_mode;    ///< formats::AlphaMode
+    uint textures;      ///< bit i: texture i is there
+    uint uv_sets;       ///< four bits each
+    Float4 uv_rows[10]; ///< two rows for each texture; uv = (row0 . (u, v, 1), row1 . (u, v, 1))
+};
+
+/// formats::LightRecord made ready: direction and cone as the falloff needs them.
+struct Light
+{
+    Float3 position;  ///< world
+    uint type;        ///< formats::LightType
+    Float3 direction; ///< unit, the way the light shines
+    float range;      ///< metres; 0: unlimited
+    Float3 intensity; ///< linear colour times candela or lux, after exposure
+    uint shadow_row;  ///< of its projection in the ShadowBlock, or kNoShadow (shadow.h)
+    float cone_scale; ///< spot: saturate(dot(direction, from light) * cone_scale + cone_offset)^2
+    float cone_offset;
+    float reserved1;
+    float reserved2;
+};
+
+/// Lights beyond this number are not drawn, and the renderer says so. 8 KiB: they stay in the cache.
+HEARTH_CONSTANT uint kMaxLights = 128;
+
+struct Lighting
+{
+    Float3 sky_zenith; ///< radiance
+    uint light_count;
+    Float3 sky_horizon;
+    float reserved0;
+    Float3 sky_ground;
+    float reserved1;
+    Light lights[kMaxLights];
+};
+
+/// The light that every scene gets beside its own: a sky of three colours (radiance), and one sun where the scene has
+/// no lights. Sun and sky together make a white surface about 0.9 of display white in the light and 0.25 in the shade: form
+/// is seen on white scans and dark fabrics alike.
+HEARTH_CONSTANT Float3 kSkyZenith = Float3(0.30f, 0.36f, 0.46f);
+HEARTH_CONSTANT Float3 kSkyHorizon = Float3(0.42f, 0.43f, 0.45f);
+HEARTH_CONSTANT Float3 kSkyGround = Float3(0.14f, 0.132f, 0.125f);
+HEARTH_CONSTANT Float3 kSunIlluminance = Float3(2.3f, 2.16f, 1.98f); ///< lux after exposure
+HEARTH_CONSTANT Float3 kSunDirection = Float3(0.5f, -0.8f, -0.6f);   ///< the way it shines; of any length
+
+/// The exposure rule: lights that send more than this to the middle of the scene, in lux, are dimmed to it together.
+HEARTH_CONSTANT float kKeyIlluminance = 2.2f;
+
+HEARTH_CONSTANT uint kViewFinal = 0;
+HEARTH_CONSTANT uint kViewClusters = 1;
+HEARTH_CONSTANT uint kViewLod = 2;
+HEARTH_CONSTANT uint kViewTriangles = 3;
+HEARTH_CONSTANT uint kViewNormals = 4;
+HEARTH_CONSTANT uint kViewDepth = 5;
+HEARTH_CONSTANT uint kViewMaterials = 6;
+HEARTH_CONSTANT uint kViewError = 7;
+HEARTH_CONSTANT uint kViewCones = 8;
+HEARTH_CONSTANT uint kViewOverdraw = 9;
+HEARTH_CONSTANT uint kViewShadowMaps = 10;
+HEARTH_CONSTANT uint kViewBones = 11; ///< main bones of clusters; grey: rigid
+// what is seen of the sky, as it is shaded; dark red: the mesh does not say
+HEARTH_CONSTANT uint kViewAmbientOcclusion = 12;
+HEARTH_CONSTANT uint kViewBentNormal = 13;        ///< axis of the visibility cone
+HEARTH_CONSTANT uint kViewAperture = 14;          ///< its half-angle, white: 90 degrees
+HEARTH_CONSTANT uint kViewSpecularOcclusion = 15; ///< from the eye, by the material's roughness
+// of scenes with bricks
+HEARTH_CONSTANT uint kViewBricks = 16;        ///< the voxels that a pixel's ray meets first, by their albedo
+HEARTH_CONSTANT uint kViewBrickLighting = 17; ///< the same by what they send out; red: nothing is known
+HEARTH_CONSTANT uint kViewGathered = 18;      ///< the light of bricks alone, on white surfaces
+
+/// How the sky's mirror image is occluded. The numbers are those of the settings.
+HEARTH_CONSTANT uint kSpecularOcclusionFit = 0;
+HEARTH_CONSTANT uint kSpecularOcclusionTable = 1; ///< the pack's; where it has none, the fit
+HEARTH_CONSTANT uint kSpecularOcclusionOff = 2;
+
+/// Both settings as shaders get them.
+/// ambient   kAmbientOcclusion* (ambient_occlusion.h)
+/// specular  kSpecularOcclusion*
+/// spacing   kSpecularSpacing* of the table (specular_occlusion.h)
+HEARTH_FUNCTION uint skyOcclusionBits(uint ambient, uint specular, uint spacing)
+{
+    return ambient | specular << 8 | spacing << 16;
+}
+
+/// What one fragment adds to the overdraw view, linear: brown at first; red is full at 4, green at 8, all at 16.
+HEARTH_CONSTANT Float3 kOverdrawStep = Float3(0.25f, 0.125f, 0.0625f);
+
+HEARTH_SHARED_END
+
+#ifdef __cplusplus
+// sizes as std140 lays them out
+static_assert(sizeof(hearth::shared::Material) == 224);
+static_assert(sizeof(hearth::shared::Light) == 64);
+static_assert(sizeof(hearth::shared::Lighting) == 48 + 64 * hearth::shared::kMaxLights);
+#endif
+
+#endif

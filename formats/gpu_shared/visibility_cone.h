@@ -1,0 +1,119 @@
+// What of the hemisphere a vertex or a point of a surface sees: the code of its two moments, and the cone that has the same
+// moments. Written once for C++ and GLSL. The fit is the closed form of two moments of a cone: m0 = 2 pi s (1 - c) and
+// m1 = pi s (1 - c^2) d with c the cosine of its half-angle, d its axis, s the share of light that it lets through.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#ifndef HEARTH_SHARED_VISIBILITY_CONE_H
+#define HEARTH_SHARED_VISIBILITY_CONE_H
+
+#include "formats/gpu_shared/language.h"
+
+HEARTH_SHARED_BEGIN
+
+HEARTH_CONSTANT float kVisibilityPi = 3.14159265f;
+
+/// With V(w) in [0, 1] the visibility in direction w: m0 = int V dw, in [0, 2 pi], and m1 = int V w dw, of length at most
+/// m0 (1 - m0 / (4 pi)). Both are linear in V: they may be averaged and interpolated. The ambient occlusion of a surface
+/// with the normal n that V is 0 below of is dot(n, m1) / pi, with no cone in between.
+struct VisibilityMoments
+{
+    float m0;
+    Float3 m1;
+};
+
+/// Light from directions within `aperture` of the axis arrives with the factor `scale`, other light not at all.
+struct VisibilityCone
+{
+    Float3 axis;        ///< unit
+    float cos_aperture; ///< [0, 1]
+    float aperture;     ///< half-angle, radians, [0, pi / 2]
+    float scale;        ///< [0, 1]
+};
+
+// The code of a vertex, with the length x = min(|m1| / pi, 1) that its first three numbers stand for:
+//   bits 1 to 7 of byte 1   7 bits q: rho = |m1| / m0 is mix(x / 2, (1 + sqrt(1 - x)) / 2, q / 127), the least and the
+//                           greatest that there are with this x; m0 = pi x / rho, 0 where x is 0
+//   byte 0, bit 0 of byte 1 9 bits, byte 0 the upper ones: dot(n, m1) / pi = q / 511, the ambient occlusion
+//   bytes 2 and 3           8 bits q, signed, not -128: m1 / pi along the first and the second vector of the normal's
+//                           frame is q / 254
+// rho and not m0 is coded because the cosine of the cone's half-angle is 2 rho - 1: its error is small for narrow cones too,
+// where m0 is small.
+
+/// What a code of rho stands for where |m1| / pi is x; place in [0, 1].
+HEARTH_FUNCTION float visibilityRatio(float x, float place)
+{
+    float least = 0.5f * x;
+    float greatest = 0.5f + 0.5f * sqrt(1.0f - x);
+    return least + (greatest - least) * place;
+}
+
+/// x of a code: |m1| / pi, at most 1.
+HEARTH_FUNCTION float visibilityLength(Float3 m1_over_pi)
+{
+    return min(sqrt(dot(m1_over_pi, m1_over_pi)), 1.0f);
+}
+
+/// The moments in the frame of the normal: x and y along its first and second vector, z along the normal.
+HEARTH_FUNCTION VisibilityMoments decodeVisibilityInFrame(uint code)
+{
+    Float3 p = Float3(float(int(code << 8) >> 24) / 254.0f, float(int(code) >> 24) / 254.0f,
+                      float((code & 255u) << 1 | (code >> 8 & 1u)) / 511.0f);
+    float x = visibilityLength(p);
+    float ratio = visibilityRatio(x, float(code >> 9 & 127u) / 127.0f);
+    VisibilityMoments moments;
+    moments.m0 = x > 0.0f ? kVisibilityPi * (x / ratio) : 0.0f;
+    moments.m1 = p * kVisibilityPi;
+    return moments;
+}
+
+/// The moments in the space of the normal. `normal` unit, as the vertex's code is decoded; its frame is that of tangents.
+HEARTH_FUNCTION VisibilityMoments decodeVisibility(uint code, Float3 normal)
+{
+    VisibilityMoments moments = decodeVisibilityInFrame(code);
+    float side = normal.z < 0.0f ? -1.0f : 1.0f;
+    float a = -1.0f / (side + normal.z);
+    float b = normal.x * normal.y * a;
+    Float3 first = Float3(1.0f + side * normal.x * normal.x * a, side * b, -side * normal.x);
+    Float3 second = Float3(b, side + normal.y * normal.y * a, -normal.y);
+    moments.m1 = first * moments.m1.x + second * moments.m1.y + normal * moments.m1.z;
+    return moments;
+}
+
+/// The nearest moments along the same direction that a visibility in [0, 1] on a hemisphere has: noise and fits overshoot.
+HEARTH_FUNCTION VisibilityMoments feasibleVisibility(float m0, Float3 m1)
+{
+    VisibilityMoments moments;
+    moments.m0 = max(min(m0, 2.0f * kVisibilityPi), 0.0f);
+    float most = moments.m0 * (1.0f - moments.m0 / (4.0f * kVisibilityPi));
+    float size = sqrt(dot(m1, m1));
+    moments.m1 = size > most ? m1 * (most / size) : m1;
+    return moments;
+}
+
+/// The cone with these moments; where it would be wider than a hemisphere, as below what hangs overhead, the hemisphere
+/// that keeps m1, and with it the ambient occlusion. Moments that no visibility has are made feasible first.
+/// Without any light, axis = normal and scale = 0.
+HEARTH_FUNCTION VisibilityCone visibilityCone(float m0, Float3 m1, Float3 normal)
+{
+    VisibilityMoments moments = feasibleVisibility(m0, m1);
+    float size = sqrt(dot(moments.m1, moments.m1));
+    VisibilityCone cone;
+    cone.axis = normal;
+    cone.cos_aperture = 0.0f;
+    cone.scale = 0.0f;
+    // below, the quotients are not those of numbers any more
+    if (size > 1e-12f && moments.m0 > 1e-12f)
+    {
+        float ratio = min(size / moments.m0, 1.0f);
+        cone.axis = moments.m1 * (1.0f / size);
+        cone.cos_aperture = max(2.0f * ratio - 1.0f, 0.0f);
+        cone.scale = ratio > 0.5f ? moments.m0 / (4.0f * kVisibilityPi * max(1.0f - ratio, 1e-12f))
+                                  : size / kVisibilityPi;
+        cone.scale = min(cone.scale, 1.0f);
+    }
+    cone.aperture = acos(cone.cos_aperture);
+    return cone;
+}
+
+HEARTH_SHARED_END
+
+#endif

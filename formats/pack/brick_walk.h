@@ -1,0 +1,52 @@
+// Walks over the bricks of a grid, with the place of each: what neither their records nor those of groups say.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "formats/records/bricks.h"
+
+#include <span>
+
+namespace hearth::formats
+{
+
+/// A voxel, or the least one of a brick.
+struct VoxelPlace
+{
+    uint32_t x;
+    uint32_t y;
+    uint32_t z;
+};
+
+/// The cell at a bit, `size` voxels each way, of the group or brick whose least voxel is at `first`.
+constexpr VoxelPlace placeOfBit(VoxelPlace first, uint32_t bit, uint32_t size)
+{
+    return {first.x + (bit & 3u) * size, first.y + (bit >> 2 & 3u) * size, first.z + (bit >> 4) * size};
+}
+
+/// Calls `use(group, first)` for every group of a grid of so many voxels, in the order of chunk BRKG.
+template <typename Use>
+void forBrickGroups(const uint32_t (&voxels)[3], Use use)
+{
+    uint32_t group = 0;
+    for (uint32_t z = 0; z < voxels[2]; z += shared::kGroupVoxels)
+        for (uint32_t y = 0; y < voxels[1]; y += shared::kGroupVoxels)
+            for (uint32_t x = 0; x < voxels[0]; x += shared::kGroupVoxels)
+                use(group++, VoxelPlace{x, y, z});
+}
+
+/// Calls `use(brick, first)` for every brick, in the order of chunk BRKB; `groups` as the checker accepts them.
+template <typename Use>
+void forBricks(const BrickGridRecord& grid, std::span<const BrickGroupRecord> groups, Use use)
+{
+    forBrickGroups(grid.voxels,
+                   [&](uint32_t group, VoxelPlace first)
+                   {
+                       const BrickGroupRecord& record = groups[group];
+                       uint32_t brick = record.first_brick;
+                       for (uint32_t bit = 0; bit < 64; ++bit)
+                           if (shared::maskHas(record.brick_mask_low, record.brick_mask_high, bit))
+                               use(brick++, placeOfBit(first, bit, shared::kBrickVoxels));
+                   });
+}
+
+} // namespace hearth::formats

@@ -1,0 +1,154 @@
+// What the files of the meaning checker share. Not for use outside formats/.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "formats/pack/pack_check.h"
+
+#include <cmath>
+
+namespace hearth::formats::check
+{
+
+/// The error of record `index` of a table: where = "node 3".
+inline Error fail(const PackView& view, Issue issue, const char* kind, size_t index, std::string detail)
+{
+    return {issue, view.name(), std::string(kind) + " " + std::to_string(index), std::move(detail)};
+}
+
+inline bool finite(float value)
+{
+    return std::isfinite(value);
+}
+inline bool finite(Float2 v)
+{
+    return std::isfinite(v.x) && std::isfinite(v.y);
+}
+inline bool finite(Float3 v)
+{
+    return hearth::isFinite(v);
+}
+inline bool finite(Float4 v)
+{
+    return finite(Float3{v.x, v.y, v.z}) && std::isfinite(v.w);
+}
+inline bool finite(std::span<const float> values)
+{
+    return std::all_of(values.begin(), values.end(), [](float v) { return std::isfinite(v); });
+}
+inline bool finite(const Affine3& t)
+{
+    return finite(t.m[0]) && finite(t.m[1]) && finite(t.m[2]);
+}
+
+/// Whether `low` is nowhere above `high`, and both are finite.
+inline bool validBox(Float3 low, Float3 high)
+{
+    return finite(low) && finite(high) && low.x <= high.x && low.y <= high.y && low.z <= high.z;
+}
+
+/// Finite and inside [low, high].
+inline bool inside(float value, float low, float high)
+{
+    return value >= low && value <= high;
+}
+inline bool nonNegative(float value)
+{
+    return std::isfinite(value) && value >= 0;
+}
+
+inline bool powerOfTwo(float value)
+{
+    int exponent;
+    return std::isfinite(value) && std::frexp(value, &exponent) == 0.5f;
+}
+
+inline bool noneOrBelow(uint32_t index, size_t size)
+{
+    return index == kNone || index < size;
+}
+
+template <size_t N>
+bool reservedZero(const uint32_t (&words)[N])
+{
+    return std::all_of(std::begin(words), std::end(words), [](uint32_t word) { return word == 0; });
+}
+
+/// Moves along a table whose records are claimed, one range after the other, by the records of another table.
+class Cursor
+{
+public:
+    Cursor(const PackView& view, const char* owner, const char* table, size_t size)
+        : view_(view), owner_(owner), table_(table), size_(size)
+    {
+    }
+
+    /// errors: meaning_range where the range leaves the table, meaning_order where it does not follow the last.
+    Status take(size_t owner, Range range)
+    {
+        if (!insideTable(range, size_))
+            return fail(view_, Issue::meaning_range, owner_, owner,
+                        std::string(table_) + " " + std::to_string(range.first) + " + " +
+                            std::to_string(range.count) + " of " + std::to_string(size_));
+        if (range.first != at_)
+            return fail(view_, Issue::meaning_order, owner_, owner,
+                        std::string(table_) + " start at " + std::to_string(range.first) + ", expected " +
+                            std::to_string(at_));
+        at_ += range.count;
+        return success();
+    }
+
+    /// The first record that is not claimed yet.
+    size_t at() const { return at_; }
+
+    /// errors: meaning_range where records are left that nothing claimed.
+    Status finish() const
+    {
+        if (at_ == size_)
+            return success();
+        return fail(view_, Issue::meaning_range, table_, at_, std::string("belongs to no ") + owner_);
+    }
+
+private:
+    const PackView& view_;
+    const char* owner_;
+    const char* table_;
+    size_t size_;
+    size_t at_ = 0;
+};
+
+/// Whether the bulk of a pack is read: texels, geometry pages, and the zeros around these.
+enum class Bulk
+{
+    read,
+    left,
+};
+
+/// For each mesh, how many joints its skin has; a part that has no nodes does not say.
+std::vector<uint32_t> jointCounts(const PackView& view);
+
+/// A decoded page, of a view whose tables have been checked; `joint_count` of its mesh's skin.
+Status checkPage(const PackView& view, uint32_t page_index, std::span<const std::byte> page,
+                 uint32_t joint_count);
+
+// The phases of checkPack, in its order.
+Status checkTexts(const PackView& view);
+Status checkMaterials(const PackView& view);
+Status checkImages(const PackView& view, Bulk bulk);
+Status checkSkins(const PackView& view);
+Status checkAnimations(const PackView& view);
+Status checkNodeTree(const PackView& view);
+Status checkMeshesOfNodes(const PackView& view);
+Status checkInstances(const PackView& view);
+Status checkCameras(const PackView& view);
+Status checkLights(const PackView& view);
+Status checkShadowSpheres(const PackView& view);
+Status checkMeshTables(const PackView& view);
+Status checkPageTables(const PackView& view, Bulk bulk);
+Status checkPageGeometry(const PackView& view, const PageLoop& loop);
+Status checkAuthoredLevels(const PackView& view);
+Status checkDeformedMeshes(const PackView& view);
+Status checkAssets(const PackView& view);
+Status checkSpecularTable(const PackView& view);
+Status checkBrickTables(const PackView& view);
+
+} // namespace hearth::formats::check

@@ -1,0 +1,124 @@
+// Meaning of the tables of deformed meshes.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "formats/pack/check_tools.h"
+#include "formats/pack/pack_check.h"
+
+namespace hearth::formats::check
+{
+
+namespace
+{
+
+/// Meshes that a node draws and that skins or morph targets deform, ascending.
+std::vector<uint32_t> deformedMeshes(const PackView& view)
+{
+    std::vector<bool> drawn(view.meshes().size());
+    for (const NodeRecord& node : view.nodes())
+        if (node.mesh != kNone)
+            drawn[node.mesh] = true;
+    std::vector<uint32_t> meshes;
+    for (uint32_t i = 0; i < drawn.size(); ++i)
+    {
+        const MeshRecord& mesh = view.meshes()[i];
+        if (drawn[i] && mesh.clusters.count != 0 && (mesh.skinned != 0 || mesh.morph_target_count != 0))
+            meshes.push_back(i);
+    }
+    return meshes;
+}
+
+Status checkDeformedMesh(const PackView& view, size_t i)
+{
+    constexpr const char* kKind = "deformed mesh";
+    const DeformedMeshRecord& record = view.deformedMeshes()[i];
+    const MeshRecord& mesh = view.meshes()[record.mesh];
+    const bool has_skin = record.skin != kNone;
+    if (has_skin != (mesh.skinned != 0) || !noneOrBelow(record.skin, view.skins().size()))
+        return fail(view, Issue::meaning_reference, kKind, i, "skin " + std::to_string(record.skin));
+    const uint32_t joints = has_skin ? view.skins()[record.skin].joints.count : 1;
+    if (record.anchor >= joints)
+        return fail(view, Issue::meaning_reference, kKind, i, "anchor " + std::to_string(record.anchor));
+    if (record.clusters.count != mesh.clusters.count)
+        return fail(view, Issue::meaning_value, kKind, i,
+                    "it has " + std::to_string(record.clusters.count) + " clusters, its mesh " +
+                        std::to_string(mesh.clusters.count));
+    if (!validBox(record.box_min, record.box_max))
+        return fail(view, Issue::meaning_value, kKind, i, "its box is empty or not finite");
+    if (record.reserved != 0)
+        return fail(view, Issue::meaning_padding, kKind, i, "a reserved field is not 0");
+    return success();
+}
+
+/// joints  of the skin; 0 without one
+Status checkCluster(const PackView& view, size_t i, uint32_t joints)
+{
+    constexpr const char* kKind = "deformed cluster";
+    const DeformedClusterRecord& record = view.deformedClusters()[i];
+    if (record.joint >= std::max(joints, 1u))
+        return fail(view, Issue::meaning_reference, kKind, i, "joint " + std::to_string(record.joint));
+    if (!validBox(record.box_min, record.box_max))
+        return fail(view, Issue::meaning_value, kKind, i, "its box is empty or not finite");
+    if (!nonNegative(record.cone_back))
+        return fail(view, Issue::meaning_value, kKind, i, "its cone's apex is not possible");
+    if (!nonNegative(record.morph_reach))
+        return fail(view, Issue::meaning_value, kKind, i, "the reach of its morph targets is not possible");
+    if (record.reserved != 0)
+        return fail(view, Issue::meaning_padding, kKind, i, "a reserved field is not 0");
+    const auto moved = view.clusterJoints().subspan(record.joints.first, record.joints.count);
+    if (moved.empty() != (joints == 0) || (!moved.empty() && moved.front() != record.joint))
+        return fail(view, Issue::meaning_value, kKind, i, "its main bone is not the first of its joints");
+    for (const uint32_t joint : moved)
+        if (joint >= joints)
+            return fail(view, Issue::meaning_reference, kKind, i, "joint " + std::to_string(joint));
+    return success();
+}
+
+/// Every node that draws a mesh with a skin draws it with this one.
+Status checkSkinsOfNodes(const PackView& view)
+{
+    std::vector<uint32_t> skin_of_mesh(view.meshes().size(), kNone);
+    for (const DeformedMeshRecord& record : view.deformedMeshes())
+        skin_of_mesh[record.mesh] = record.skin;
+    for (size_t i = 0; i < view.nodes().size(); ++i)
+    {
+        const NodeRecord& node = view.nodes()[i];
+        if (node.mesh != kNone && skin_of_mesh[node.mesh] != kNone && skin_of_mesh[node.mesh] != node.skin)
+            return fail(view, Issue::meaning_reference, "node", i,
+                        "it draws mesh " + std::to_string(node.mesh) +
+                            " with another skin than bounds are for");
+    }
+    return success();
+}
+
+} // namespace
+
+Status checkDeformedMeshes(const PackView& view)
+{
+    const std::vector<uint32_t> expected = deformedMeshes(view);
+    const std::span<const DeformedMeshRecord> records = view.deformedMeshes();
+    Cursor clusters(view, "deformed mesh", "deformed cluster", view.deformedClusters().size());
+    Cursor joints(view, "deformed cluster", "joint of a cluster", view.clusterJoints().size());
+    for (size_t i = 0; i < records.size(); ++i)
+    {
+        if (i >= expected.size() || records[i].mesh != expected[i])
+            return fail(view, Issue::meaning_order, "deformed mesh", i,
+                        "mesh " + std::to_string(records[i].mesh) + " is not the next that is deformed");
+        HEARTH_TRY(checkDeformedMesh(view, i));
+        const size_t first = clusters.at();
+        HEARTH_TRY(clusters.take(i, records[i].clusters));
+        const uint32_t joint_count =
+            records[i].skin == kNone ? 0 : view.skins()[records[i].skin].joints.count;
+        for (size_t c = first; c < clusters.at(); ++c)
+        {
+            HEARTH_TRY(joints.take(c, view.deformedClusters()[c].joints));
+            HEARTH_TRY(checkCluster(view, c, joint_count));
+        }
+    }
+    if (records.size() != expected.size())
+        return fail(view, Issue::meaning_reference, "mesh", expected[records.size()],
+                    "it is deformed, and has no bounds");
+    HEARTH_TRY(clusters.finish());
+    HEARTH_TRY(joints.finish());
+    return checkSkinsOfNodes(view);
+}
+
+} // namespace hearth::formats::check

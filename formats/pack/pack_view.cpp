@@ -1,0 +1,263 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "formats/pack/pack_view.h"
+
+#include "formats/base/byte_reader.h"
+#include "formats/codecs/page_decode.h"
+#include "formats/pack/check_tools.h"
+#include "formats/records/chunk_list.h"
+
+#include <algorithm>
+
+namespace hearth::formats
+{
+
+std::optional<ClusterGeometry> ClusterGeometry::at(std::span<const std::byte> page,
+                                                   const ClusterRecord& cluster, const MeshRecord& mesh)
+{
+    if (!legalLayout(mesh.attributes) || cluster.vertex_count > kClusterMaxVertices ||
+        cluster.triangle_count > kClusterMaxTriangles)
+        return std::nullopt;
+    const uint32_t layout = layoutOf(cluster, mesh.attributes);
+    const uint64_t first = uint64_t{cluster.page_word} * 4;
+    const uint64_t size = clusterBytes(layout, cluster.vertex_count, cluster.triangle_count);
+    uint32_t morphs = 0;
+    uint64_t morph_bytes = 0;
+    if (mesh.morph_target_count > 0)
+    {
+        const auto count = checkedPart(page, first + size, sizeof(morphs));
+        if (!count)
+            return std::nullopt;
+        std::memcpy(&morphs, count->data(), sizeof(morphs));
+        if (morphs > mesh.morph_target_count || morphs > kPageMaxBytes)
+            return std::nullopt;
+        morph_bytes = 4 * morphSectionWords(morphs, cluster.vertex_count);
+    }
+    const auto data = checkedPart(page, first, size + morph_bytes);
+    if (!data)
+        return std::nullopt;
+    ClusterGeometry geometry;
+    geometry.data_ = *data;
+    std::copy(std::begin(cluster.base), std::end(cluster.base), geometry.base_.begin());
+    geometry.grid_step_ = mesh.grid_step;
+    geometry.layout_ = layout;
+    geometry.words_ = vertexWords(layout);
+    geometry.vertex_count_ = cluster.vertex_count;
+    geometry.triangle_count_ = cluster.triangle_count;
+    geometry.morph_count_ = morphs;
+    geometry.morph_first_ = size / 4;
+    return geometry;
+}
+
+Result<PackView> PackView::read(ContainerReader reader, PageBytes page_bytes)
+{
+    PackView view(std::move(reader));
+    HEARTH_TRY(view.readTables(page_bytes));
+    return view;
+}
+
+namespace
+{
+
+// Tables shrink by 2 to 5 in real packs. One that claims far more would fill the memory out of a small file.
+constexpr uint64_t kMaxTableRatio = 256;
+constexpr uint64_t kSmallTable = uint64_t{1} << 20;
+// those of bricks may be all alike, as where nothing glows: they are as large as their limits allow, from any file
+constexpr uint64_t kSmallBrickTable = uint64_t{1} << 26;
+// far above any real table, and low enough that indices and sums of ranges fit 32 bits
+constexpr uint64_t kMaxTableSize = uint64_t{1} << 32;
+
+constexpr uint64_t plausibleSize(uint32_t type)
+{
+    return isBrickChunk(type) ? kSmallBrickTable : kSmallTable;
+}
+
+/// errors: chunk_version, chunk_size for tables that no writer makes.
+Status checkEntry(const ContainerReader& reader, const ChunkEntry& entry)
+{
+    const ChunkInfo* info = chunkInfo(entry.type);
+    if (info == nullptr)
+        return success();
+    const std::string where = chunkName(entry.type, entry.index);
+    if (entry.version != info->version)
+        return Error{Issue::chunk_version, reader.name(), where,
+                     "version " + std::to_string(entry.version) + ", this reads " +
+                         std::to_string(info->version)};
+    const bool table = !info->one_per_index && entry.type != kChunkPages;
+    if (table && (entry.size > kMaxTableSize || (entry.size > plausibleSize(entry.type) &&
+                                                 entry.size / kMaxTableRatio > entry.stored_size)))
+        return Error{Issue::chunk_size, reader.name(), where,
+                     std::to_string(entry.size) + " bytes from " + std::to_string(entry.stored_size) +
+                         " in the file are not plausible"};
+    return success();
+}
+
+} // namespace
+
+Status PackView::readTables(PageBytes page_bytes)
+{
+    for (const ChunkEntry& entry : reader_.chunks())
+        HEARTH_TRY(checkEntry(reader_, entry));
+
+    const auto table = [this]<typename T>(uint32_t type, Records<T>& records) -> Status
+    {
+        HEARTH_ASSIGN_OR_RETURN(records, reader_.records<T>(type));
+        return success();
+    };
+    HEARTH_ASSIGN_OR_RETURN(meta_, reader_.read(kChunkMeta));
+    HEARTH_ASSIGN_OR_RETURN(strings_, reader_.read(kChunkStrings));
+    HEARTH_TRY(table(kChunkNodes, nodes_));
+    HEARTH_TRY(table(kChunkInstances, instances_));
+    HEARTH_TRY(table(kChunkCameras, cameras_));
+    HEARTH_TRY(table(kChunkLights, lights_));
+    HEARTH_TRY(table(kChunkShadowSpheres, shadow_spheres_));
+    HEARTH_TRY(table(kChunkMaterials, materials_));
+    HEARTH_TRY(table(kChunkImages, images_));
+    HEARTH_TRY(table(kChunkSkins, skins_));
+    HEARTH_TRY(table(kChunkJoints, joints_));
+    HEARTH_TRY(table(kChunkAnimations, animations_));
+    HEARTH_TRY(table(kChunkChannels, channels_));
+    HEARTH_TRY(table(kChunkKeys, keys_));
+    HEARTH_TRY(table(kChunkKeyBits, key_bits_));
+    HEARTH_TRY(table(kChunkMorphWeights, morph_weights_));
+    HEARTH_TRY(table(kChunkAssets, assets_));
+    HEARTH_TRY(table(kChunkMeshes, meshes_));
+    HEARTH_TRY(table(kChunkLevels, levels_));
+    HEARTH_TRY(table(kChunkGroups, groups_));
+    HEARTH_TRY(table(kChunkClusters, clusters_));
+    HEARTH_TRY(table(kChunkPageTable, pages_));
+    HEARTH_TRY(table(kChunkPageParents, page_parents_));
+    HEARTH_TRY(table(kChunkAuthoredLevels, authored_levels_));
+    HEARTH_TRY(table(kChunkDeformedMeshes, deformed_meshes_));
+    HEARTH_TRY(table(kChunkDeformedClusters, deformed_clusters_));
+    HEARTH_TRY(table(kChunkClusterJoints, cluster_joints_));
+    HEARTH_TRY(table(kChunkSpecular, specular_tables_));
+    HEARTH_TRY(table(kChunkBrickGrid, brick_grid_));
+    HEARTH_TRY(table(kChunkBrickGroups, brick_groups_));
+    HEARTH_TRY(table(kChunkBricks, bricks_));
+    HEARTH_TRY(table(kChunkBrickOpacity, brick_opacity_));
+    HEARTH_TRY(table(kChunkBrickAlbedo, brick_albedo_));
+    HEARTH_TRY(table(kChunkBrickNormals, brick_normals_));
+    HEARTH_TRY(table(kChunkBrickEmission, brick_emission_));
+    HEARTH_TRY(table(kChunkBrickLighting, brick_lighting_));
+
+    // pages are read one by one from the file, each with its own codec
+    const ChunkEntry* pages = reader_.find(kChunkPages);
+    if (pages != nullptr && pages->codec != static_cast<uint32_t>(Codec::none))
+        return Error{Issue::chunk_codec, name(), chunkName(kChunkPages, 0),
+                     "the chunk of the pages is compressed"};
+    if (page_bytes == PageBytes::hashed)
+    {
+        HEARTH_ASSIGN_OR_RETURN(page_bytes_, reader_.read(kChunkPages));
+    }
+    else if (pages != nullptr)
+        page_bytes_ = ChunkData(reader_.stored(*pages), nullptr); // the reader keeps what it lies in
+    return success();
+}
+
+std::string_view PackView::text(StringRef ref) const
+{
+    return insideTable({ref.offset, ref.length}, strings().size()) ? strings().substr(ref.offset, ref.length)
+                                                                   : std::string_view();
+}
+
+Result<ChunkData> PackView::imageData(uint32_t image) const
+{
+    if (reader_.find(kChunkImageData, image) == nullptr)
+        return Error{Issue::chunk_missing, name(), chunkName(kChunkImageData, image), ""};
+    return reader_.read(kChunkImageData, image);
+}
+
+/// The bytes of a page as they lie in the file, their hash checked; `size` is what it shall decode to.
+Result<std::span<const std::byte>> PackView::storedPage(uint32_t page, size_t size) const
+{
+    const std::string where = "page " + std::to_string(page);
+    if (page >= pages().size())
+        return Error{Issue::meaning_reference, name(), where,
+                     "there are " + std::to_string(pages().size()) + " pages"};
+    const PageRecord& record = pages()[page];
+    if (record.size != size || record.size > kPageMaxBytes)
+        return Error{Issue::meaning_value, name(), where, "a size of " + std::to_string(record.size)};
+    const auto stored = checkedPart(pageBytes(), record.offset, record.stored_size);
+    if (!stored)
+        return Error{Issue::meaning_range, name(), where, "the page lies outside chunk PAGE"};
+    if (hashBytes(*stored) != record.hash)
+        return Error{Issue::page_hash, name(), where, ""};
+    return *stored;
+}
+
+Status PackView::decodeStored(std::span<const std::byte> stored, uint32_t page,
+                              std::span<std::byte> out) const
+{
+    const PageRecord& record = pages()[page];
+    const auto decode = [&]
+    {
+        switch (static_cast<PageCodec>(record.codec))
+        {
+        case PageCodec::none:
+            if (stored.size() != out.size())
+                return false;
+            std::copy(stored.begin(), stored.end(), out.begin());
+            return true;
+        case PageCodec::zstd:
+            return decompress(stored, out);
+        case PageCodec::clusters:
+            break;
+        default:
+            return false;
+        }
+        if (record.mesh >= meshes().size() || !legalLayout(meshes()[record.mesh].attributes))
+            return false;
+        thread_local PageDecoder decoder;
+        return decoder.decode(stored, recordsOf(clusters(), record.clusters),
+                              meshes()[record.mesh].attributes, out);
+    };
+    if (!decode())
+        return Error{Issue::chunk_codec, name(), "page " + std::to_string(page), ""};
+    return success();
+}
+
+/// In memory of the thread, until the next call. What is handed out is what was checked, also where the file changes
+/// meanwhile, and memory of a device, which is slow to read, is not read.
+Result<std::span<const std::byte>> PackView::decodeChecked(uint32_t page, size_t size) const
+{
+    HEARTH_ASSIGN_OR_RETURN(const std::span<const std::byte> stored, storedPage(page, size));
+    thread_local std::vector<std::byte> memory(kPageMaxBytes);
+    const std::span<std::byte> decoded = std::span(memory).first(size);
+    HEARTH_TRY(decodeStored(stored, page, decoded));
+    HEARTH_TRY(check::checkPage(*this, page, decoded, (*joint_counts_)[pages()[page].mesh]));
+    return std::span<const std::byte>(decoded);
+}
+
+void PackView::checkPagesWhenRead()
+{
+    joint_counts_ = check::jointCounts(*this);
+}
+
+Status PackView::decodePage(uint32_t page, std::span<std::byte> out) const
+{
+    if (joint_counts_)
+    {
+        HEARTH_ASSIGN_OR_RETURN(const std::span<const std::byte> decoded, decodeChecked(page, out.size()));
+        std::copy(decoded.begin(), decoded.end(), out.begin());
+        return success();
+    }
+    HEARTH_ASSIGN_OR_RETURN(const std::span<const std::byte> stored, storedPage(page, out.size()));
+    return decodeStored(stored, page, out);
+}
+
+Status PackView::checkPage(uint32_t page) const
+{
+    HEARTH_ASSERT(joint_counts_ && page < pages().size());
+    HEARTH_TRY(decodeChecked(page, pages()[page].size));
+    return success();
+}
+
+Result<std::vector<std::byte>> PackView::decodePage(uint32_t page) const
+{
+    const bool legal = page < pages().size() && pages()[page].size <= kPageMaxBytes;
+    std::vector<std::byte> bytes(legal ? pages()[page].size : 0);
+    HEARTH_TRY(decodePage(page, bytes));
+    return bytes;
+}
+
+} // namespace hearth::formats

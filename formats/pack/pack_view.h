@@ -1,0 +1,398 @@
+// All tables of a part or pack as typed spans, and access to its texels and geometry pages.
+// A view is safe on any container, but says nothing about meaning: checkPack and checkTables (formats/pack/pack_check.h) do.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "formats/codecs/cluster_bounds.h"
+#include "formats/codecs/visibility_code.h"
+#include "formats/container/container_reader.h"
+#include "formats/records/bricks.h"
+#include "formats/records/deformation.h"
+#include "formats/records/mesh.h"
+#include "formats/records/provenance.h"
+#include "formats/records/scene.h"
+#include "formats/records/specular.h"
+
+#include <array>
+#include <cstring>
+#include <optional>
+
+namespace hearth::formats
+{
+
+/// The records of `range`, or nothing where it does not lie inside the table.
+template <typename T>
+std::span<const T> recordsOf(std::span<const T> table, Range range)
+{
+    if (range.first > table.size() || range.count > table.size() - range.first)
+        return {};
+    return table.subspan(range.first, range.count);
+}
+
+/// Whether [first, first + count) lies inside a table of `size` records.
+constexpr bool insideTable(Range range, size_t size)
+{
+    return range.first <= size && range.count <= size - range.first;
+}
+
+/// Bytes of a texel; 0 for a format that does not exist.
+constexpr uint32_t texelBytes(uint32_t format)
+{
+    switch (static_cast<TexelFormat>(format))
+    {
+    case TexelFormat::rgba8_srgb:
+    case TexelFormat::rgba8_unorm:
+        return 4;
+    case TexelFormat::rgba16_float:
+        return 8;
+    }
+    return 0;
+}
+
+struct MipExtent
+{
+    uint32_t width;
+    uint32_t height;
+};
+
+/// Size of mip `mip` in texels; mip < 32.
+constexpr MipExtent mipExtent(const ImageRecord& image, uint32_t mip)
+{
+    return {std::max(1u, image.width >> mip), std::max(1u, image.height >> mip)};
+}
+
+/// First byte of mip `mip` in the image's data; `mip` = mip_count gives the size of all. Cannot overflow for images
+/// of at most 2^28 texels a side.
+constexpr uint64_t mipOffset(const ImageRecord& image, uint32_t mip)
+{
+    uint64_t offset = 0;
+    for (uint32_t i = 0; i < mip && i < 32; ++i)
+        offset += uint64_t{mipExtent(image, i).width} * mipExtent(image, i).height * texelBytes(image.format);
+    return offset;
+}
+
+/// Error of a cluster: that of the group it was made from, 0 at level 0. The group is in the table.
+inline float errorOf(const ClusterRecord& cluster, std::span<const GroupRecord> groups)
+{
+    return cluster.refined_group == kNone ? 0 : groups[cluster.refined_group].error;
+}
+
+/// A cluster's vertices and triangles in a decoded page, which must outlive it. Vertex and triangle numbers are the
+/// caller's contract; the indices in the data are as the file has them.
+class ClusterGeometry
+{
+public:
+    /// nullopt where the cluster's data does not lie inside the page, its layout does not exist, or it has more morph
+    /// targets than its mesh.
+    static std::optional<ClusterGeometry> at(std::span<const std::byte> page, const ClusterRecord& cluster,
+                                             const MeshRecord& mesh);
+
+    uint32_t vertexCount() const { return vertex_count_; }
+    uint32_t triangleCount() const { return triangle_count_; }
+    uint32_t layout() const { return layout_; }
+    bool has(uint32_t attribute) const { return (layout_ & attribute) != 0; }
+
+    /// UV bases, vertices and indices, the zeros behind them, and the morph section.
+    std::span<const std::byte> bytes() const { return data_; }
+
+    uint32_t word(uint32_t vertex, uint32_t word) const
+    {
+        HEARTH_RUNTIME_ASSERT(vertex < vertex_count_ && word < words_);
+        return wordAt(uvBaseWords(layout_) + size_t{vertex} * words_ + word);
+    }
+
+    std::array<uint32_t, 3> triangle(uint32_t triangle) const
+    {
+        HEARTH_RUNTIME_ASSERT(triangle < triangle_count_);
+        const std::byte* index =
+            data_.data() + (uvBaseWords(layout_) + size_t{vertex_count_} * words_) * 4 + size_t{triangle} * 3;
+        return {std::to_integer<uint32_t>(index[0]), std::to_integer<uint32_t>(index[1]),
+                std::to_integer<uint32_t>(index[2])};
+    }
+
+    /// Steps from the cluster's base.
+    std::array<uint32_t, 3> gridOffset(uint32_t vertex) const
+    {
+        if (has(kVertexWide))
+            return {word(vertex, 0), word(vertex, 1), word(vertex, 2)};
+        return {word(vertex, 0) & 0xFFFFu, word(vertex, 0) >> 16, word(vertex, 1) & 0xFFFFu};
+    }
+    Float3 position(uint32_t vertex) const
+    {
+        const std::array<uint32_t, 3> offset = gridOffset(vertex);
+        Float3 position;
+        for (size_t axis = 0; axis < 3; ++axis)
+            position[static_cast<int>(axis)] = fromGrid(sum(base_[axis], offset[axis]), grid_step_);
+        return position;
+    }
+
+    /// Each of these needs has(its attribute).
+    uint32_t normalCode(uint32_t vertex) const
+    {
+        const uint32_t value = word(vertex, wordOf(kVertexNormal));
+        if (has(kVertexFineNormal))
+            return value;
+        return has(kVertexWide) ? value : value >> 16;
+    }
+    Float3 normal(uint32_t vertex) const { return decodeNormal(layout_, normalCode(vertex)); }
+    Float4 tangent(uint32_t vertex) const
+    {
+        return decodeTangent(layout_, word(vertex, wordOf(kVertexTangent)), normal(vertex));
+    }
+    /// Grid point of a UV; the set is not one of floats.
+    std::array<int32_t, 2> uvPoint(uint32_t vertex, uint32_t set) const
+    {
+        HEARTH_RUNTIME_ASSERT(uvFractionBits(layout_, set) != 0);
+        const uint32_t first = wordOf(kVertexUv0 << set);
+        const uint32_t base = uvBaseWord(layout_, set);
+        const uint32_t u = has(kVertexWide) ? word(vertex, first) : word(vertex, first) & 0xFFFFu;
+        const uint32_t v = has(kVertexWide) ? word(vertex, first + 1) : word(vertex, first) >> 16;
+        return {sum(wordAt(base), u), sum(wordAt(base + 1), v)};
+    }
+    Float2 uv(uint32_t vertex, uint32_t set) const
+    {
+        const uint32_t first = wordOf(kVertexUv0 << set);
+        if (uvFractionBits(layout_, set) == 0)
+            return {std::bit_cast<float>(word(vertex, first)), std::bit_cast<float>(word(vertex, first + 1))};
+        const std::array<int32_t, 2> point = uvPoint(vertex, set);
+        const float step = uvStep(uvFractionBits(layout_, set));
+        return {fromGrid(point[0], step), fromGrid(point[1], step)};
+    }
+    Float4 color(uint32_t vertex) const
+    {
+        const uint32_t first = wordOf(kVertexColor);
+        return decodeColor(layout_,
+                           {word(vertex, first), has(kVertexFineColor) ? word(vertex, first + 1) : 0u});
+    }
+
+    uint32_t visibilityCode(uint32_t vertex) const { return word(vertex, wordOf(kVertexVisibility)); }
+    shared::VisibilityMoments visibility(uint32_t vertex) const
+    {
+        return shared::decodeVisibility(visibilityCode(vertex), normal(vertex));
+    }
+
+    /// Influences of each vertex: 0, 4 or 8. Those without weight come last, and name joint 0.
+    uint32_t influenceCount() const { return influencesOf(layout_); }
+    /// Joints of the mesh's skin, the largest weight first; the first influenceCount() are the vertex's.
+    std::array<uint32_t, 8> joints(uint32_t vertex) const { return influenceHalves(vertex, 0); }
+    /// Codes that sum to 65535.
+    std::array<uint32_t, 8> weightCodes(uint32_t vertex) const
+    {
+        return influenceHalves(vertex, influenceCount() / 2);
+    }
+    /// weightCodes / 65535.
+    std::array<float, 8> weights(uint32_t vertex) const
+    {
+        const std::array<uint32_t, 8> codes = weightCodes(vertex);
+        std::array<float, 8> weights{};
+        for (size_t i = 0; i < weights.size(); ++i)
+            weights[i] = static_cast<float>(codes[i]) / 65535.0f;
+        return weights;
+    }
+
+    /// Morph targets of the mesh that move a vertex of the cluster; `i` below counts them.
+    uint32_t morphCount() const { return morph_count_; }
+    uint32_t morphTarget(uint32_t i) const { return wordAt(morphWord(1 + 2 * size_t{i})); }
+    float morphStep(uint32_t i) const { return std::bit_cast<float>(wordAt(morphWord(2 + 2 * size_t{i}))); }
+    /// What a weight of 1 adds to position and normal.
+    Float3 morphPosition(uint32_t i, uint32_t vertex) const
+    {
+        const float step = morphStep(i);
+        const std::array<uint32_t, 3> words = morphWords(i, vertex);
+        return {fromGrid(formats::morphPosition(words[0]), step),
+                fromGrid(formats::morphPosition(words[1]), step),
+                fromGrid(formats::morphPosition(words[2]), step)};
+    }
+    Float3 morphNormal(uint32_t i, uint32_t vertex) const
+    {
+        const std::array<uint32_t, 3> words = morphWords(i, vertex);
+        constexpr float kStep = 1 / kMorphNormalSteps;
+        return {fromGrid(formats::morphNormal(words[0]), kStep),
+                fromGrid(formats::morphNormal(words[1]), kStep),
+                fromGrid(formats::morphNormal(words[2]), kStep)};
+    }
+    std::array<uint32_t, 3> morphWords(uint32_t i, uint32_t vertex) const
+    {
+        HEARTH_RUNTIME_ASSERT(i < morph_count_ && vertex < vertex_count_);
+        const size_t first =
+            morphWord(morphSectionWords(morph_count_, 0) + (size_t{i} * vertex_count_ + vertex) * 3);
+        return {wordAt(first), wordAt(first + 1), wordAt(first + 2)};
+    }
+
+private:
+    ClusterGeometry() = default;
+    std::array<uint32_t, 8> influenceHalves(uint32_t vertex, uint32_t first_word) const
+    {
+        std::array<uint32_t, 8> halves{};
+        const uint32_t first = wordOf(kVertexInfluences) + first_word;
+        for (uint32_t i = 0; i < influenceCount(); ++i)
+            halves[i] = word(vertex, first + i / 2) >> (i % 2 * 16) & 0xFFFFu;
+        return halves;
+    }
+    size_t morphWord(size_t word) const
+    {
+        HEARTH_RUNTIME_ASSERT(morph_count_ > 0);
+        return morph_first_ + word;
+    }
+    uint32_t wordAt(size_t word) const
+    {
+        uint32_t value;
+        std::memcpy(&value, data_.data() + word * 4, sizeof(value));
+        return value;
+    }
+    uint32_t wordOf(uint32_t attribute) const
+    {
+        HEARTH_RUNTIME_ASSERT(has(attribute));
+        return attributeWord(layout_, attribute);
+    }
+    /// Wraps around where a file makes no sense.
+    static int32_t sum(uint32_t base, uint32_t offset) { return static_cast<int32_t>(base + offset); }
+
+    std::span<const std::byte> data_;
+    std::array<uint32_t, 3> base_{};
+    float grid_step_ = 0;
+    uint32_t layout_ = 0;
+    uint32_t words_ = 0;
+    uint32_t vertex_count_ = 0;
+    uint32_t triangle_count_ = 0;
+    uint32_t morph_count_ = 0;
+    size_t morph_first_ = 0; ///< word of the morph section
+};
+
+/// What PackView::read does with chunk PAGE of a container whose chunks have not been hashed.
+enum class PageBytes
+{
+    hashed,
+    left, ///< none of its bytes is read: a page that is decoded has a hash of its own
+};
+
+/// The tables of one container. A chunk that is not there is an empty table. Spans hold as long as the view lives.
+class PackView
+{
+public:
+    /// Read and decompress the tables. errors: those of ContainerReader::records; chunk_codec for compressed PAGE.
+    static Result<PackView> read(ContainerReader reader, PageBytes page_bytes = PageBytes::hashed);
+
+    /// From now on pages are checked when they are decoded, also by copies of the view: each is what checkPack accepts, or an
+    /// error. The tables have been checked, by checkTables or what else checks meshes and pages.
+    void checkPagesWhenRead();
+
+    const ContainerReader& container() const { return reader_; }
+    const std::string& name() const { return reader_.name(); }
+
+    /// META: JSON text.
+    std::string_view meta() const { return textOf(meta_); }
+    /// STRS, all of it.
+    std::string_view strings() const { return textOf(strings_); }
+    /// A name; empty where it points outside the string table.
+    std::string_view text(StringRef ref) const;
+
+    /// None in parts.
+    std::span<const AssetRecord> assets() const { return assets_.span(); }
+    std::span<const NodeRecord> nodes() const { return nodes_.span(); }
+    std::span<const InstanceRecord> instances() const { return instances_.span(); }
+    std::span<const CameraRecord> cameras() const { return cameras_.span(); }
+    std::span<const LightRecord> lights() const { return lights_.span(); }
+    std::span<const ShadowSphereRecord> shadowSpheres() const { return shadow_spheres_.span(); }
+    std::span<const MaterialRecord> materials() const { return materials_.span(); }
+    std::span<const ImageRecord> images() const { return images_.span(); }
+    std::span<const SkinRecord> skins() const { return skins_.span(); }
+    std::span<const JointRecord> joints() const { return joints_.span(); }
+    std::span<const AnimationRecord> animations() const { return animations_.span(); }
+    std::span<const AnimationChannelRecord> channels() const { return channels_.span(); }
+    std::span<const float> keys() const { return keys_.span(); }
+    std::span<const uint32_t> keyBits() const { return key_bits_.span(); }
+    std::span<const float> morphWeights() const { return morph_weights_.span(); }
+    std::span<const MeshRecord> meshes() const { return meshes_.span(); }
+    std::span<const LevelRecord> levels() const { return levels_.span(); }
+    std::span<const GroupRecord> groups() const { return groups_.span(); }
+    std::span<const ClusterRecord> clusters() const { return clusters_.span(); }
+    std::span<const PageRecord> pages() const { return pages_.span(); }
+    std::span<const uint32_t> pageParents() const { return page_parents_.span(); }
+    std::span<const AuthoredLevelRecord> authoredLevels() const { return authored_levels_.span(); }
+    std::span<const DeformedMeshRecord> deformedMeshes() const { return deformed_meshes_.span(); }
+    std::span<const DeformedClusterRecord> deformedClusters() const { return deformed_clusters_.span(); }
+    std::span<const uint32_t> clusterJoints() const { return cluster_joints_.span(); }
+    /// None or one.
+    std::span<const SpecularTableRecord> specularTables() const { return specular_tables_.span(); }
+    /// None or one.
+    std::span<const BrickGridRecord> brickGrid() const { return brick_grid_.span(); }
+    std::span<const BrickGroupRecord> brickGroups() const { return brick_groups_.span(); }
+    std::span<const BrickRecord> bricks() const { return bricks_.span(); }
+    std::span<const uint8_t> brickOpacity() const { return brick_opacity_.span(); }
+    std::span<const uint32_t> brickAlbedo() const { return brick_albedo_.span(); }
+    std::span<const uint16_t> brickNormals() const { return brick_normals_.span(); }
+    std::span<const uint32_t> brickEmission() const { return brick_emission_.span(); }
+    std::span<const uint32_t> brickLighting() const { return brick_lighting_.span(); }
+
+    /// Chunk PAGE, as it lies in the file.
+    std::span<const std::byte> pageBytes() const { return page_bytes_.bytes(); }
+
+    /// The texels of an image, all mips, finest first. errors: chunk_missing, and those of ContainerReader::read.
+    Result<ChunkData> imageData(uint32_t image) const;
+
+    /// Decode a page into `out`, whose size is the page's. Any number of threads may do so at once. Where pages are checked when
+    /// they are read, `out` is only written, from front to back, and is left alone where there is an error.
+    /// errors: meaning_reference, meaning_range, meaning_value, page_hash, chunk_codec; what is wrong with its meaning.
+    Status decodePage(uint32_t page, std::span<std::byte> out) const;
+
+    /// The same into memory of its own.
+    Result<std::vector<std::byte>> decodePage(uint32_t page) const;
+
+    /// What decodePage would say of a page. Only where pages are checked when they are read.
+    Status checkPage(uint32_t page) const;
+
+private:
+    explicit PackView(ContainerReader reader) : reader_(std::move(reader)) {}
+    Status readTables(PageBytes page_bytes);
+    Result<std::span<const std::byte>> storedPage(uint32_t page, size_t size) const;
+    Status decodeStored(std::span<const std::byte> stored, uint32_t page, std::span<std::byte> out) const;
+    Result<std::span<const std::byte>> decodeChecked(uint32_t page, size_t size) const;
+    static std::string_view textOf(const ChunkData& data)
+    {
+        return {reinterpret_cast<const char*>(data.bytes().data()), data.bytes().size()};
+    }
+
+    ContainerReader reader_;
+    ChunkData meta_;
+    ChunkData strings_;
+    Records<AssetRecord> assets_;
+    Records<NodeRecord> nodes_;
+    Records<InstanceRecord> instances_;
+    Records<CameraRecord> cameras_;
+    Records<LightRecord> lights_;
+    Records<ShadowSphereRecord> shadow_spheres_;
+    Records<MaterialRecord> materials_;
+    Records<ImageRecord> images_;
+    Records<SkinRecord> skins_;
+    Records<JointRecord> joints_;
+    Records<AnimationRecord> animations_;
+    Records<AnimationChannelRecord> channels_;
+    Records<float> keys_;
+    Records<uint32_t> key_bits_;
+    Records<float> morph_weights_;
+    Records<MeshRecord> meshes_;
+    Records<LevelRecord> levels_;
+    Records<GroupRecord> groups_;
+    Records<ClusterRecord> clusters_;
+    Records<PageRecord> pages_;
+    Records<uint32_t> page_parents_;
+    Records<AuthoredLevelRecord> authored_levels_;
+    Records<DeformedMeshRecord> deformed_meshes_;
+    Records<DeformedClusterRecord> deformed_clusters_;
+    Records<uint32_t> cluster_joints_;
+    Records<SpecularTableRecord> specular_tables_;
+    Records<BrickGridRecord> brick_grid_;
+    Records<BrickGroupRecord> brick_groups_;
+    Records<BrickRecord> bricks_;
+    Records<uint8_t> brick_opacity_;
+    Records<uint32_t> brick_albedo_;
+    Records<uint16_t> brick_normals_;
+    Records<uint32_t> brick_emission_;
+    Records<uint32_t> brick_lighting_;
+    ChunkData page_bytes_;
+    /// For each mesh, what the check of a page needs to know of its skin; none where decoding checks no meaning.
+    std::optional<std::vector<uint32_t>> joint_counts_;
+};
+
+} // namespace hearth::formats

@@ -1,0 +1,108 @@
+// Chunks of the brick grid: which voxels of a scene are solid, and what light their faces give back. See FORMAT.md, "Bricks".
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "formats/gpu_shared/bricks.h"
+#include "formats/records/container.h"
+
+#include <algorithm>
+#include <array>
+
+namespace hearth::formats
+{
+
+inline constexpr uint32_t kChunkBrickGrid = fourCC("BRKS"); ///< BrickGridRecord[], one at most
+inline constexpr uint32_t kChunkBrickGroups =
+    fourCC("BRKG"); ///< BrickGroupRecord[], all of the grid, x fastest, then y, z
+inline constexpr uint32_t kChunkBricks = fourCC("BRKB");        ///< BrickRecord[]
+inline constexpr uint32_t kChunkBrickOpacity = fourCC("BRKO");  ///< u8[], one for each solid voxel
+inline constexpr uint32_t kChunkBrickAlbedo = fourCC("BRKA");   ///< u32[], one for each face
+inline constexpr uint32_t kChunkBrickNormals = fourCC("BRKN");  ///< u16[], one for each face
+inline constexpr uint32_t kChunkBrickEmission = fourCC("BRKE"); ///< u32[], one for each face, R11G11B10F
+inline constexpr uint32_t kChunkBrickLighting = fourCC("BRKL"); ///< u32[], one for each face, R11G11B10F
+
+/// All of them, in the order in which files have them.
+inline constexpr std::array kBrickChunks{kChunkBrickGrid,     kChunkBrickGroups,  kChunkBricks,
+                                         kChunkBrickOpacity,  kChunkBrickAlbedo,  kChunkBrickNormals,
+                                         kChunkBrickEmission, kChunkBrickLighting};
+constexpr bool isBrickChunk(uint32_t type)
+{
+    return std::find(kBrickChunks.begin(), kBrickChunks.end(), type) != kBrickChunks.end();
+}
+
+/// A grid has at most so many voxels along each axis: their places are exact in floats, their groups fit 32 bits.
+inline constexpr uint32_t kMaxGridVoxels = 1u << 14;
+/// So many groups, solid voxels and faces at most: a table of theirs is never larger than 64 MiB.
+inline constexpr uint32_t kMaxBrickGroups = 1u << 22;
+inline constexpr uint32_t kMaxBrickVoxels = 1u << 26;
+inline constexpr uint32_t kMaxBrickFaces = 1u << 24;
+
+/// Voxel (x, y, z) is the box from origin + voxel_size * (x, y, z) to origin + voxel_size * (x + 1, y + 1, z + 1).
+struct BrickGridRecord
+{
+    Float3 origin;
+    float voxel_size;
+    uint32_t voxels[3];
+    uint32_t group_count;
+    uint32_t brick_count;
+    uint32_t solid_count;
+    uint32_t face_count;
+    uint32_t reserved;
+};
+
+using BrickGroupRecord = shared::BrickGroup;
+using BrickRecord = shared::Brick;
+
+/// How texts name a face of shared::kVoxelFaces; "none" for kNoFace.
+constexpr std::string_view brickFaceName(uint32_t face)
+{
+    constexpr std::string_view kNames[] = {"x-", "x+", "y-", "y+", "z-", "z+"};
+    return face < shared::kVoxelFaces ? kNames[face] : "none";
+}
+
+/// The grid as marches take it.
+constexpr shared::BrickGrid brickGridOf(const BrickGridRecord& record)
+{
+    return {record.origin, record.voxel_size, record.voxels[0], record.voxels[1], record.voxels[2], 0};
+}
+
+/// Groups of a grid of so many voxels along its axes, each at most kMaxGridVoxels.
+constexpr uint32_t brickGroupCount(const uint32_t (&voxels)[3])
+{
+    uint32_t count = 1;
+    for (const uint32_t along : voxels)
+        count *= (along + shared::kGroupVoxels - 1) / shared::kGroupVoxels;
+    return count;
+}
+
+} // namespace hearth::formats
+
+HEARTH_RECORD(hearth::formats::BrickGridRecord, 48,
+              HEARTH_FIELD(hearth::formats::BrickGridRecord, origin,
+                           "least corner of voxel (0, 0, 0), world space, metres"),
+              HEARTH_FIELD(hearth::formats::BrickGridRecord, voxel_size, "edge of a voxel, metres, > 0"),
+              HEARTH_FIELD(hearth::formats::BrickGridRecord, voxels,
+                           "along each axis, 1 to 16384; groups along it are a sixteenth, rounded up"),
+              HEARTH_FIELD(hearth::formats::BrickGridRecord, group_count, "of chunk BRKG"),
+              HEARTH_FIELD(hearth::formats::BrickGridRecord, brick_count, "of chunk BRKB"),
+              HEARTH_FIELD(hearth::formats::BrickGridRecord, solid_count, "of chunk BRKO"),
+              HEARTH_FIELD(hearth::formats::BrickGridRecord, face_count,
+                           "of chunks BRKA, BRKN, BRKE and BRKL"),
+              HEARTH_FIELD(hearth::formats::BrickGridRecord, reserved, "0"));
+
+HEARTH_RECORD(hearth::formats::BrickGroupRecord, 12,
+              HEARTH_FIELD(hearth::formats::BrickGroupRecord, brick_mask_low,
+                           "which of its 4 x 4 x 4 bricks exist: bits 0 to 31"),
+              HEARTH_FIELD(hearth::formats::BrickGroupRecord, brick_mask_high, "bits 32 to 63"),
+              HEARTH_FIELD(hearth::formats::BrickGroupRecord, first_brick,
+                           "of its bricks; where it has none, that of the next group"));
+
+HEARTH_RECORD(hearth::formats::BrickRecord, 64,
+              HEARTH_FIELD(hearth::formats::BrickRecord, voxel_mask_low,
+                           "which of its 4 x 4 x 4 voxels are solid: bits 0 to 31; one at least"),
+              HEARTH_FIELD(hearth::formats::BrickRecord, voxel_mask_high, "bits 32 to 63"),
+              HEARTH_FIELD(hearth::formats::BrickRecord, face_masks,
+                           "the voxels that have face x-, x+, y-, y+, z-, z+: two words for each"),
+              HEARTH_FIELD(hearth::formats::BrickRecord, first_voxel, "of its solid voxels"),
+              HEARTH_FIELD(hearth::formats::BrickRecord, first_face,
+                           "of its faces: those of x- in the order of their bits, then those of x+, ..."));

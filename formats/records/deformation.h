@@ -1,0 +1,88 @@
+// Chunks of meshes that skins and morph targets deform: where their clusters can be in all poses. See FORMAT.md, "Deformed
+// meshes". Poses are those of animation.h; the palette of an instance has a matrix for each joint of its skin, which
+// carries the bind pose to the world, or without a skin the transform of its node alone.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "formats/records/container.h"
+
+namespace hearth::formats
+{
+
+inline constexpr uint32_t kChunkDeformedMeshes = fourCC("DMSH");   ///< DeformedMeshRecord[]
+inline constexpr uint32_t kChunkDeformedClusters = fourCC("DCLU"); ///< DeformedClusterRecord[]
+inline constexpr uint32_t kChunkClusterJoints = fourCC("DJNT");    ///< u32[]: joints that move a cluster
+inline constexpr uint32_t kChunkDeformedGroups = fourCC("DGRP");   ///< DeformedGroupRecord[]
+
+/// A mesh with joints and weights or with morph targets, ascending by mesh. Bounds hold for all clips of its scene at all
+/// times, for blends of any two of them and for the rest pose, with morph weights from 0 to 1.
+/// "In joint j" is the bind pose where row j of the palette carries it: a point p there is at palette[j] * p.
+struct DeformedMeshRecord
+{
+    uint32_t mesh;
+    uint32_t skin;
+    uint32_t anchor;
+    uint32_t reserved;
+    Range clusters;
+    Float3 box_min;
+    Float3 box_max;
+};
+
+/// Where a cluster can be. The apex of the normal cone stands cone_back behind the middle of the box, against the axis.
+struct DeformedClusterRecord
+{
+    Float3 box_min;
+    uint16_t joint;
+    uint16_t cone_axis;
+    Float3 box_max;
+    uint16_t cone_cutoff;
+    uint16_t reserved;
+    float cone_back;
+    Range joints;
+    float morph_reach;
+};
+
+/// Parts only: the sphere of group `group` of a deformed mesh, for chunk GRUP of the pack.
+struct DeformedGroupRecord
+{
+    Float3 sphere_center;
+    float sphere_radius;
+    uint32_t group;
+};
+
+} // namespace hearth::formats
+
+HEARTH_RECORD(hearth::formats::DeformedMeshRecord, 48,
+              HEARTH_FIELD(hearth::formats::DeformedMeshRecord, mesh, "mesh"),
+              HEARTH_FIELD(hearth::formats::DeformedMeshRecord, skin, "skin, or none: morph targets alone"),
+              HEARTH_FIELD(hearth::formats::DeformedMeshRecord, anchor,
+                           "joint of the skin that the box and the spheres of the mesh's groups are in"),
+              HEARTH_FIELD(hearth::formats::DeformedMeshRecord, reserved, "0"),
+              HEARTH_FIELD(hearth::formats::DeformedMeshRecord, clusters,
+                           "chunk DCLU: as many as the mesh has in chunk CLUS, in the same order"),
+              HEARTH_FIELD(hearth::formats::DeformedMeshRecord, box_min, "in the anchor, all poses"),
+              HEARTH_FIELD(hearth::formats::DeformedMeshRecord, box_max, "in the anchor, all poses"));
+HEARTH_RECORD(
+    hearth::formats::DeformedClusterRecord, 48,
+    HEARTH_FIELD(hearth::formats::DeformedClusterRecord, box_min, "in the joint, all poses"),
+    HEARTH_FIELD(hearth::formats::DeformedClusterRecord, joint,
+                 "main bone: joint of the skin; 0 without a skin"),
+    HEARTH_FIELD(hearth::formats::DeformedClusterRecord, cone_axis,
+                 "normal cone in the joint, all poses: octahedral, 2 x snorm8"),
+    HEARTH_FIELD(hearth::formats::DeformedClusterRecord, box_max, "in the joint, all poses"),
+    HEARTH_FIELD(hearth::formats::DeformedClusterRecord, cone_cutoff,
+                 "sine of the half-angle in 1/65536, rounded up; 65535: the cone never culls"),
+    HEARTH_FIELD(hearth::formats::DeformedClusterRecord, reserved, "0"),
+    HEARTH_FIELD(hearth::formats::DeformedClusterRecord, cone_back,
+                 "metres in the joint: every triangle's plane has the apex on or behind its front"),
+    HEARTH_FIELD(hearth::formats::DeformedClusterRecord, joints,
+                 "chunk DJNT: all joints that move a vertex, the main bone first; none without a skin"),
+    HEARTH_FIELD(
+        hearth::formats::DeformedClusterRecord, morph_reach,
+        "metres: how far on any axis of the bind pose morph targets take a vertex at most, with weights "
+        "from -1 to 1"));
+HEARTH_RECORD(hearth::formats::DeformedGroupRecord, 20,
+              HEARTH_FIELD(hearth::formats::DeformedGroupRecord, sphere_center, "in the anchor, all poses"),
+              HEARTH_FIELD(hearth::formats::DeformedGroupRecord, sphere_radius,
+                           "contains the spheres of all refined groups"),
+              HEARTH_FIELD(hearth::formats::DeformedGroupRecord, group, "of the clusters part"));

@@ -1,0 +1,27 @@
+// What formats of texels are called where people and scripts read them.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "formats/records/scene.h"
+
+#include <cstdint>
+
+namespace hearth::formats
+{
+
+/// format  a TexelFormat; others are "unknown"
+inline const char* texelFormatName(uint32_t format)
+{
+    switch (static_cast<TexelFormat>(format))
+    {
+    case TexelFormat::rgba8_srgb:
+        return "rgba8-srgb";
+    case TexelFormat::rgba8_unorm:
+        return "rgba8-unorm";
+    case TexelFormat::rgba16_float:
+        return "rgba16-float";
+    }
+    return "unknown";
+}
+
+} // namespace hearth::formats

@@ -1,0 +1,29 @@
+// Which texel a coordinate beyond an image's edge means.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "formats/records/scene.h"
+
+#include <algorithm>
+#include <cstdint>
+
+namespace hearth::formats
+{
+
+/// Texture coordinates beyond it lie where floats have no texels any more.
+inline constexpr float kFarthestUv = 1e6f;
+
+/// wrap  as in TextureRef: a value of Wrap
+constexpr int64_t wrappedTexel(int64_t texel, int64_t size, uint8_t wrap)
+{
+    if (wrap == static_cast<uint8_t>(Wrap::clamp_to_edge))
+        return std::clamp<int64_t>(texel, 0, size - 1);
+    if (wrap == static_cast<uint8_t>(Wrap::mirrored_repeat))
+    {
+        const int64_t place = (texel % (2 * size) + 2 * size) % (2 * size);
+        return place < size ? place : 2 * size - 1 - place;
+    }
+    return (texel % size + size) % size;
+}
+
+} // namespace hearth::formats

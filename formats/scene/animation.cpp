@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "formats/scene/animation.h"
+
+#include "formats/base/assert.h"
+#include "formats/codecs/channel_keys.h"
+#include "formats/pack/pack_view.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hearth::formats
+{
+
+namespace
+{
+
+double lerp(double from, double to, double weight)
+{
+    return from * (1 - weight) + to * weight;
+}
+
+Double3 lerp(Double3 from, Double3 to, double weight)
+{
+    return from * (1 - weight) + to * weight;
+}
+
+Quaternion normalizedOr(const Quaternion& q, const Quaternion& fallback)
+{
+    const double length = std::hypot(std::hypot(q[0], q[1]), std::hypot(q[2], q[3]));
+    if (!(length > 0) || !std::isfinite(length))
+        return fallback;
+    return {q[0] / length, q[1] / length, q[2] / length, q[3] / length};
+}
+
+NodePose poseOf(const NodeRecord& node)
+{
+    const Quaternion rotation{node.rotation.x, node.rotation.y, node.rotation.z, node.rotation.w};
+    return {widen(node.translation), normalizedOr(rotation, {0, 0, 0, 1}), widen(node.scale)};
+}
+
+/// Between which keys of a channel a time lies.
+struct KeyInterval
+{
+    uint32_t first = 0;
+    uint32_t second = 0;
+    double along = 0;   ///< 0 to 1
+    double seconds = 0; ///< from the first key to the second
+};
+
+KeyInterval intervalAt(const ChannelKeys& keys, double time)
+{
+    // of keys at one time, which are a jump, the last holds
+    const uint32_t second = keys.keyAfter(time);
+    if (second == 0)
+        return {};
+    if (second == keys.count())
+        return {second - 1, second - 1, 0, 0};
+    const double start = keys.time(second - 1);
+    const double seconds = keys.time(second) - start;
+    return {second - 1, second, (time - start) / seconds, seconds};
+}
+
+/// Components [first, first + count) in an interval. Rotations come without length 1.
+KeyValue valueAt(const ChannelKeys& keys, const KeyInterval& interval, uint32_t first, uint32_t count)
+{
+    const KeyValue start = keys.value(interval.first, first, count);
+    if (keys.interpolation() == Interpolation::step)
+        return start;
+    const KeyValue end = keys.value(interval.second, first, count);
+    const double t = interval.along;
+    KeyValue value{};
+    if (keys.interpolation() == Interpolation::linear)
+    {
+        for (size_t i = 0; i < value.size(); ++i)
+            value[i] = lerp(start[i], end[i], t);
+        return value;
+    }
+    const KeyValue out = keys.outTangent(interval.first, first, count);
+    const KeyValue in = keys.inTangent(interval.second, first, count);
+    // Hermite's basis; out-tangent of the first key, in-tangent of the second, each for one second
+    const double t2 = t * t, t3 = t2 * t;
+    for (size_t i = 0; i < value.size(); ++i)
+        value[i] = (2 * t3 - 3 * t2 + 1) * start[i] + (t3 - 2 * t2 + t) * interval.seconds * out[i] +
+                   (3 * t2 - 2 * t3) * end[i] + (t3 - t2) * interval.seconds * in[i];
+    return value;
+}
+
+Quaternion rotationAt(const ChannelKeys& keys, const KeyInterval& interval)
+{
+    const Quaternion none{0, 0, 0, 1};
+    const Quaternion start = normalizedOr(keys.value(interval.first, 0, 4), none);
+    if (keys.interpolation() == Interpolation::linear && interval.seconds > 0)
+        return slerp(start, normalizedOr(keys.value(interval.second, 0, 4), none), interval.along);
+    return normalizedOr(valueAt(keys, interval, 0, 4), start);
+}
+
+void sampleChannel(const MotionTables& tables, const AnimationChannelRecord& channel, double time,
+                   ScenePose& pose)
+{
+    HEARTH_RUNTIME_ASSERT(channel.key_count > 0);
+    const ChannelKeys keys(tables.keys, tables.key_bits, channel);
+    const KeyInterval interval = intervalAt(keys, time);
+    NodePose& node = pose.nodes[channel.node];
+    const auto vector = [&]
+    {
+        const KeyValue value = valueAt(keys, interval, 0, 3);
+        return Double3{value[0], value[1], value[2]};
+    };
+    switch (static_cast<AnimationPath>(channel.path))
+    {
+    case AnimationPath::translation:
+        node.translation = vector();
+        break;
+    case AnimationPath::rotation:
+        node.rotation = rotationAt(keys, interval);
+        break;
+    case AnimationPath::scale:
+        node.scale = vector();
+        break;
+    case AnimationPath::weights:
+    {
+        const Range weights = tables.nodes[channel.node].morph_weights;
+        for (uint32_t i = 0; i < std::min(weights.count, channel.components); ++i)
+            pose.morph_weights[weights.first + i] = valueAt(keys, interval, i, 1)[0];
+        break;
+    }
+    }
+}
+
+} // namespace
+
+MotionTables motionTables(const PackView& pack)
+{
+    return {pack.nodes(),    pack.skins(), pack.joints(),       pack.animations(),
+            pack.channels(), pack.keys(),  pack.morphWeights(), pack.keyBits()};
+}
+
+ScenePose restPose(const MotionTables& tables)
+{
+    ScenePose pose;
+    pose.nodes.reserve(tables.nodes.size());
+    for (const NodeRecord& node : tables.nodes)
+        pose.nodes.push_back(node.has_trs != 0 ? poseOf(node) : NodePose{});
+    pose.morph_weights.assign(tables.morph_weights.begin(), tables.morph_weights.end());
+    return pose;
+}
+
+void sampleAnimation(const MotionTables& tables, const AnimationRecord& animation, double time,
+                     ScenePose& pose)
+{
+    HEARTH_RUNTIME_ASSERT(pose.nodes.size() == tables.nodes.size());
+    for (const AnimationChannelRecord& channel :
+         tables.channels.subspan(animation.channels.first, animation.channels.count))
+        sampleChannel(tables, channel, time, pose);
+}
+
+Quaternion slerp(const Quaternion& from, const Quaternion& to, double weight)
+{
+    double cosine = from[0] * to[0] + from[1] * to[1] + from[2] * to[2] + from[3] * to[3];
+    const double side = cosine < 0 ? -1 : 1;
+    cosine = std::min(cosine * side, 1.0);
+    double of_from = 1 - weight, of_to = weight;
+    // on shorter arcs the chord is the arc, and the quotient of sines loses digits
+    constexpr double kShortArc = 1 - 1e-10;
+    if (cosine < kShortArc)
+    {
+        const double angle = std::acos(cosine);
+        of_from = std::sin((1 - weight) * angle);
+        of_to = std::sin(weight * angle);
+    }
+    Quaternion blended;
+    for (size_t i = 0; i < blended.size(); ++i)
+        blended[i] = of_from * from[i] + side * of_to * to[i];
+    return normalizedOr(blended, from);
+}
+
+void blendPoses(const ScenePose& from, const ScenePose& to, double weight, ScenePose& result)
+{
+    HEARTH_RUNTIME_ASSERT(from.nodes.size() == to.nodes.size() &&
+                          from.morph_weights.size() == to.morph_weights.size());
+    result.nodes.resize(from.nodes.size());
+    result.morph_weights.resize(from.morph_weights.size());
+    for (size_t i = 0; i < from.nodes.size(); ++i)
+        result.nodes[i] = {lerp(from.nodes[i].translation, to.nodes[i].translation, weight),
+                           slerp(from.nodes[i].rotation, to.nodes[i].rotation, weight),
+                           lerp(from.nodes[i].scale, to.nodes[i].scale, weight)};
+    for (size_t i = 0; i < from.morph_weights.size(); ++i)
+        result.morph_weights[i] = lerp(from.morph_weights[i], to.morph_weights[i], weight);
+}
+
+std::vector<uint32_t> parentsFirst(std::span<const NodeRecord> nodes)
+{
+    enum State : uint8_t
+    {
+        waiting,
+        placed,
+    };
+    std::vector<State> states(nodes.size(), waiting);
+    std::vector<uint32_t> order, chain;
+    order.reserve(nodes.size());
+    for (uint32_t node = 0; node < nodes.size(); ++node)
+    {
+        for (uint32_t up = node; up != kNone && states[up] == waiting; up = nodes[up].parent)
+        {
+            states[up] = placed;
+            chain.push_back(up);
+        }
+        order.insert(order.end(), chain.rbegin(), chain.rend());
+        chain.clear();
+    }
+    return order;
+}
+
+void poseNodes(const MotionTables& tables, const ScenePose& pose, std::span<const uint32_t> parents_first,
+               std::span<Affine3d> world_from_node)
+{
+    HEARTH_RUNTIME_ASSERT(pose.nodes.size() == tables.nodes.size() &&
+                          world_from_node.size() == tables.nodes.size());
+    for (const uint32_t i : parents_first)
+    {
+        const NodeRecord& node = tables.nodes[i];
+        const NodePose& local = pose.nodes[i];
+        const Affine3d parent_from_node = node.has_trs != 0
+                                              ? affineFromTrs(local.translation, local.rotation, local.scale)
+                                              : widened(node.parent_from_node);
+        world_from_node[i] =
+            node.parent == kNone ? parent_from_node : world_from_node[node.parent] * parent_from_node;
+    }
+}
+
+void skinPalette(const MotionTables& tables, const SkinRecord& skin,
+                 std::span<const Affine3d> world_from_node, std::span<Affine3d> world_from_bind)
+{
+    HEARTH_RUNTIME_ASSERT(world_from_bind.size() == skin.joints.count);
+    for (uint32_t i = 0; i < skin.joints.count; ++i)
+    {
+        const JointRecord& joint = tables.joints[skin.joints.first + i];
+        world_from_bind[i] = world_from_node[joint.node] * widened(joint.joint_from_bind);
+    }
+}
+
+} // namespace hearth::formats

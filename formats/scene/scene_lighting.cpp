@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "formats/scene/scene_lighting.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hearth::shared
+{
+
+namespace
+{
+
+/// The sun of scenes without lights.
+Light defaultSun()
+{
+    Light sun{};
+    sun.type = static_cast<uint32_t>(formats::LightType::directional);
+    sun.direction = normalizeOr(kSunDirection, {0, -1, 0});
+    sun.intensity = kSunIlluminance;
+    return sun;
+}
+
+float luminance(Float3 c)
+{
+    return dot(c, {0.2126f, 0.7152f, 0.0722f});
+}
+
+/// Estimated illuminance in the middle of the scene. A lamp counts from no nearer than a quarter of the scene's
+/// radius: what matters is what it does to most of the picture, not to the shade around its own bulb.
+float illuminanceAt(const Box3& bounds, const Light& light)
+{
+    if (light.type == static_cast<uint32_t>(formats::LightType::directional))
+        return luminance(light.intensity);
+    const float radius = bounds.empty() ? 1.0f : 0.5f * length(bounds.max - bounds.min);
+    const Float3 center = bounds.empty() ? Float3{} : bounds.center();
+    const float distance = std::max(length(light.position - center), std::max(0.25f * radius, 1e-3f));
+    return luminance(light.intensity) / (distance * distance);
+}
+
+std::span<const formats::LightRecord> thoseThatCount(std::span<const formats::LightRecord> lights)
+{
+    return lights.first(std::min<size_t>(lights.size(), kMaxLights));
+}
+
+} // namespace
+
+Light lightOf(const formats::LightRecord& record)
+{
+    Light light{};
+    light.type = record.type;
+    light.position = transformPoint(record.world_from_light, {0, 0, 0});
+    light.direction = normalizeOr(transformVector(record.world_from_light, {0, 0, -1}), {0, -1, 0});
+    light.range = record.range;
+    light.intensity = record.color * record.intensity;
+    // KHR_lights_punctual, "Inner and outer cone angles": linear between the two cosines
+    const float cos_outer = std::cos(record.outer_cone_rad);
+    light.cone_scale = 1.0f / std::max(0.001f, std::cos(record.inner_cone_rad) - cos_outer);
+    light.cone_offset = -cos_outer * light.cone_scale;
+    return light;
+}
+
+float lightExposure(std::span<const formats::LightRecord> lights, const Box3& bounds)
+{
+    float illuminance = 0;
+    for (const formats::LightRecord& record : thoseThatCount(lights))
+        illuminance += illuminanceAt(bounds, lightOf(record));
+    return illuminance > kKeyIlluminance ? kKeyIlluminance / illuminance : 1.0f;
+}
+
+Lighting sceneLighting(std::span<const formats::LightRecord> lights, const Box3& bounds)
+{
+    Lighting lighting{};
+    lighting.sky_zenith = kSkyZenith;
+    lighting.sky_horizon = kSkyHorizon;
+    lighting.sky_ground = kSkyGround;
+    for (const formats::LightRecord& record : thoseThatCount(lights))
+        lighting.lights[lighting.light_count++] = lightOf(record);
+    if (lighting.light_count == 0)
+        lighting.lights[lighting.light_count++] = defaultSun();
+    const float exposure = lightExposure(lights, bounds);
+    for (uint32_t i = 0; i < lighting.light_count; ++i)
+        lighting.lights[i].intensity = lighting.lights[i].intensity * exposure;
+    return lighting;
+}
+
+} // namespace hearth::shared

@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "pipelines/cache/directory_store.h"
+
+#include <cerrno>
+#include <cstring>
+#include <ctime>
+#include <fcntl.h>
+#include <filesystem>
+#include <fmt/format.h>
+#include <linux/fs.h>
+#include <random>
+#include <sys/ioctl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace hearth::cache
+{
+
+namespace
+{
+
+// A use is noted in the file's time, once a day: what is used daily is never the oldest, and a cook writes nothing.
+constexpr time_t kNoteUseEvery_s = 24 * 60 * 60;
+
+class File
+{
+public:
+    explicit File(int number) : number_(number) {}
+    File(const File&) = delete;
+    File& operator=(const File&) = delete;
+    ~File()
+    {
+        const int error = errno;
+        if (number_ >= 0)
+            ::close(number_);
+        errno = error;
+    }
+    int number() const { return number_; }
+    bool isOpen() const { return number_ >= 0; }
+
+private:
+    int number_;
+};
+
+bool writeAll(int file, const char* bytes, size_t size)
+{
+    while (size > 0)
+    {
+        const ssize_t written = ::write(file, bytes, size);
+        if (written < 0 && errno == EINTR)
+            continue;
+        if (written < 0)
+            return false;
+        bytes += written;
+        size -= static_cast<size_t>(written);
+    }
+    return true;
+}
+
+bool copyBytes(int from, int to)
+{
+    // shares blocks, on btrfs and xfs; elsewhere it does nothing
+    if (::ioctl(to, FICLONE, from) == 0)
+        return true;
+    std::string piece(size_t{1} << 20, '\0');
+    for (;;)
+    {
+        const ssize_t size = ::read(from, piece.data(), piece.size());
+        if (size < 0 && errno == EINTR)
+            continue;
+        if (size <= 0)
+            return size == 0;
+        if (!writeAll(to, piece.data(), static_cast<size_t>(size)))
+            return false;
+    }
+}
+
+bool makeFolder(const std::string& path)
+{
+    std::error_code error;
+    std::filesystem::create_directories(path, error);
+    errno = error.value();
+    return !error;
+}
+
+Error failed(const std::string& level, const std::string& path, const char* what)
+{
+    return {Issue::cache_failed, level, "", std::string(what) + " " + path + ": " + std::strerror(errno)};
+}
+
+} // namespace
+
+bool copyFile(const std::string& from, const std::string& to)
+{
+    const File source(::open(from.c_str(), O_RDONLY | O_CLOEXEC));
+    if (!source.isOpen())
+        return false;
+    const File target(::open(to.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
+    if (!target.isOpen())
+        return false;
+    if (copyBytes(source.number(), target.number()))
+        return true;
+    const int error = errno;
+    ::unlink(to.c_str());
+    errno = error;
+    return false;
+}
+
+std::optional<std::string> readText(const std::string& path)
+{
+    const File file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+    struct stat info = {};
+    if (!file.isOpen() || ::fstat(file.number(), &info) != 0)
+        return std::nullopt;
+    std::string text(static_cast<size_t>(info.st_size), '\0');
+    size_t filled = 0;
+    while (filled < text.size())
+    {
+        const ssize_t size = ::read(file.number(), text.data() + filled, text.size() - filled);
+        if (size < 0 && errno == EINTR)
+            continue;
+        if (size < 0)
+            return std::nullopt;
+        if (size == 0)
+            break;
+        filled += static_cast<size_t>(size);
+    }
+    text.resize(filled);
+    return text;
+}
+
+std::string FolderLevel::path(const char* kind, const std::string& name) const
+{
+    return folder_ + "/" + kind + "/" + name.substr(0, 2) + "/" + name;
+}
+
+Result<std::optional<std::string>> FolderLevel::entry(const std::string& key)
+{
+    const std::string path = entryPath(key);
+    std::optional<std::string> text = readText(path);
+    if (!text)
+        return errno == ENOENT || errno == ENOTDIR ? Result<std::optional<std::string>>(std::nullopt)
+                                                   : failed(folder_, path, "cannot read");
+    struct stat info = {};
+    if (writable_ && ::stat(path.c_str(), &info) == 0 && info.st_mtime + kNoteUseEvery_s < std::time(nullptr))
+        ::utimensat(AT_FDCWD, path.c_str(), nullptr, 0);
+    return text;
+}
+
+Status FolderLevel::entries(std::span<WantedEntry> wanted)
+{
+    for (WantedEntry& one : wanted)
+        if (!one.text)
+        {
+            HEARTH_ASSIGN_OR_RETURN(one.text, entry(one.key));
+        }
+    return success();
+}
+
+/// A name that nobody else has. No file reserves it: ext4 passes over inodes that were freed in the last minutes, and the
+/// search among thousands of them was half the time of a cook of small sources.
+std::string FolderLevel::temporaryName()
+{
+    if (own_name_.empty())
+    {
+        std::random_device random;
+        own_name_ = fmt::format("{:08x}{:08x}", random(), random());
+    }
+    return fmt::format("{}-{}-{}", own_name_, ::getpid(), temporary_count_++);
+}
+
+Status FolderLevel::appear(const std::string& path, const std::function<bool(const std::string&)>& fill)
+{
+    const std::string temporary_folder = folder_ + "/tmp";
+    const std::string made = temporary_folder + "/" + temporaryName();
+    if (!makeFolder(temporary_folder) || !makeFolder(path.substr(0, path.rfind('/'))))
+        return failed(folder_, path, "cannot write");
+    const bool appeared = fill(made) && ::rename(made.c_str(), path.c_str()) == 0;
+    const int error = errno;
+    // also where it has appeared: a rename between two names of one file does nothing
+    ::unlink(made.c_str());
+    errno = error;
+    return appeared ? success() : failed(folder_, path, "cannot write");
+}
+
+Status FolderLevel::putEntry(const std::string& key, const std::string& text)
+{
+    return appear(entryPath(key),
+                  [&](const std::string& made)
+                  {
+                      const File file(::open(made.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
+                      bytes_added_ += text.size();
+                      return file.isOpen() && writeAll(file.number(), text.data(), text.size());
+                  });
+}
+
+Result<bool> FolderLevel::fetchOne(const WantedContent& wanted)
+{
+    const std::string content = contentPath(wanted.hash);
+    if (wanted.use == Use::read_only && ::link(content.c_str(), wanted.path.c_str()) == 0)
+        return true;
+    // another file system, or one without links, or a file with as many names as it may have
+    if (copyFile(content, wanted.path))
+        return true;
+    if (errno == ENOENT || errno == ENOTDIR)
+        return false;
+    return failed(folder_, content, "cannot read");
+}
+
+Status FolderLevel::fetch(std::span<WantedContent> wanted)
+{
+    for (WantedContent& one : wanted)
+        if (!one.is_there)
+        {
+            HEARTH_ASSIGN_OR_RETURN(one.is_there, fetchOne(one));
+        }
+    return success();
+}
+
+Status FolderLevel::put(const std::string& hash, const std::string& path, Use use)
+{
+    struct stat there = {};
+    struct stat file = {};
+    if (::stat(path.c_str(), &file) != 0)
+        return failed(folder_, path, "cannot read");
+    const std::string content = contentPath(hash);
+    // a file of another size was torn: it is replaced
+    if (::stat(content.c_str(), &there) == 0 && there.st_size == file.st_size)
+        return success();
+    HEARTH_TRY(appear(content,
+                      [&](const std::string& made)
+                      {
+                          const bool there_is_one =
+                              (use == Use::read_only && ::link(path.c_str(), made.c_str()) == 0) ||
+                              copyFile(path, made);
+                          return there_is_one && ::chmod(made.c_str(), 0444) == 0;
+                      }));
+    bytes_added_ += static_cast<uint64_t>(file.st_size);
+    return success();
+}
+
+void FolderLevel::removeEntry(const std::string& key)
+{
+    ::unlink(entryPath(key).c_str());
+}
+
+void FolderLevel::removeContent(const std::string& hash)
+{
+    ::unlink(contentPath(hash).c_str());
+}
+
+} // namespace hearth::cache

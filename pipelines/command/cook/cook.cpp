@@ -1,0 +1,514 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "pipelines/command/cook/cook.h"
+
+#include "cook/tools/lod_files.h"
+#include "cook/tools/sha256.h"
+#include "formats/base/atomic_file.h"
+#include "formats/base/flush.h"
+#include "pipelines/command/cook/cook_report.h"
+#include "pipelines/command/cook/cook_state.h"
+#include "pipelines/command/cook/cook_summary.h"
+#include "pipelines/command/cook/cook_tools.h"
+#include "pipelines/command/cook/depfile.h"
+#include "pipelines/command/cook/dry_run.h"
+#include "pipelines/command/cook/picture_progress.h"
+#include "pipelines/command/shell/event_log.h"
+#include "pipelines/command/shell/messages.h"
+#include "pipelines/command/shell/progress.h"
+#include "pipelines/command/shell/progress_lines.h"
+#include "pipelines/command/sources/left_out_files.h"
+#include "pipelines/command/sources/size_outliers.h"
+#include "pipelines/command/sources/source_list.h"
+#include "pipelines/graph/causes.h"
+#include "pipelines/graph/executor.h"
+#include "pipelines/report/write_report.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <cstring>
+#include <fcntl.h>
+#include <filesystem>
+#include <fmt/format.h>
+#include <unistd.h>
+
+namespace hearth::command
+{
+
+using namespace tools;
+using graph::Ending;
+using graph::Failure;
+
+namespace
+{
+
+constexpr int kSomeFailed = 1;
+
+/// How the cook ended; what the report knows of it besides is in the recorder.
+using CookOutcome = report::CookReport;
+
+// ---- messages
+
+bool isFatalWarning(const std::string& line, const CookOptions& options)
+{
+    if (!options.fatal_warnings || !graph::isWarning(line))
+        return false;
+    const std::vector<std::string>& codes = *options.fatal_warnings;
+    return codes.empty() || std::find(codes.begin(), codes.end(), partsOf(line).code) != codes.end();
+}
+
+/// People are told how a cook went as a whole; programs are told each thing once.
+bool hasSummary(const CookOptions& options)
+{
+    return options.verbosity != Verbosity::quiet && messageForm() == MessageForm::text;
+}
+
+/// Pass on a child's messages: errors always, the noise of libraries only when everything is asked for.
+/// were_told  the cook before has told the same: warnings are only counted, unless everything is asked for
+/// returns    how many warnings among them count as errors
+size_t passOn(const std::vector<std::string>& lines, bool were_told, const CookOptions& options,
+              CookSummary& summary)
+{
+    size_t fatal_count = 0;
+    for (const std::string& line : lines)
+    {
+        const bool is_fatal = isFatalWarning(line, options);
+        const bool is_warning = graph::isWarning(line);
+        const bool is_folded = is_warning && were_told && !is_fatal && hasSummary(options) &&
+                               options.verbosity != Verbosity::all;
+        fatal_count += is_fatal ? 1 : 0;
+        if (is_warning)
+            summary.addWarning(line, is_folded);
+        if (graph::isError(line) || is_fatal ||
+            (is_warning && !is_folded && options.verbosity != Verbosity::quiet) ||
+            options.verbosity == Verbosity::all)
+            print(line);
+    }
+    return fatal_count;
+}
+
+/// Returns whether the last cook into the pack had the same result of an action, and so has printed its warnings.
+/// memory  of the cook; null: none
+bool wasTold(const graph::Action& action, const graph::ActionOutcome& outcome, const graph::Graph& graph,
+             CookMemory* memory)
+{
+    if (outcome.ending != Ending::kept || memory == nullptr || !memory->journal())
+        return false;
+    const graph::JournalAction* last = graph::lastOf(action, graph, *memory->journal());
+    return last != nullptr && (last->ending == Ending::cooked || last->ending == Ending::kept) &&
+           last->record == outcome.record;
+}
+
+std::string joined(const std::vector<std::string>& words, const char* between)
+{
+    std::string text;
+    for (const std::string& word : words)
+        text += (text.empty() ? "" : between) + word;
+    return text;
+}
+
+ProgressStyle styleOf(const CookOptions& options)
+{
+    return options.verbosity == Verbosity::quiet ? ProgressStyle::none : progressStyle(options.progress);
+}
+
+/// What the events of a cook go to.
+struct Listeners
+{
+    EventLog* log = nullptr; ///< null: none
+    ProgressBar bar;
+    std::optional<ProgressLines> lines; ///< of plain progress
+    size_t fatal_warnings = 0;
+    CookSummary summary;
+};
+
+/// The listeners live as long as the events.
+/// memory  of the cook; null: none
+graph::ExecutorEvents eventsFor(const graph::Graph& graph, const CookOptions& options, CookMemory* memory,
+                                Listeners& listeners, CookRecorder& recorder)
+{
+    EventLog* const log = listeners.log;
+    graph::ExecutorEvents events;
+    events.starting = [&options, &listeners, log, &recorder](const graph::Action& action,
+                                                             const graph::ActionOutcome& outcome,
+                                                             const std::vector<std::string>& command)
+    {
+        recorder.starting(action);
+        if (log != nullptr)
+            log->start(action, outcome);
+        if (options.explain)
+            print(fmt::format("{:<11}{}: {}", action.cooker, action.subject, joined(outcome.causes, "; ")));
+        if (options.verbosity == Verbosity::all)
+            print(faint(joined(command, " ")));
+        listeners.bar.started(action.cooker + " " + action.subject);
+        if (listeners.lines)
+            listeners.lines->starting(action);
+    };
+    events.ended = [&graph, &options, memory, &listeners, log,
+                    &recorder](const graph::Action& action, const graph::ActionOutcome& outcome,
+                               const std::vector<std::string>& messages)
+    {
+        recorder.ended(action, outcome);
+        if (log != nullptr)
+            log->end(action, outcome);
+        const bool were_told = !messages.empty() && wasTold(action, outcome, graph, memory);
+        listeners.fatal_warnings += passOn(messages, were_told, options, listeners.summary);
+        if (outcome.ending == Ending::cooked && options.verbosity == Verbosity::all)
+            printStage(action, outcome);
+        listeners.bar.ended();
+        if (listeners.lines)
+            listeners.lines->ended(action, outcome);
+    };
+    events.waiting = [&listeners]
+    {
+        if (listeners.lines)
+            listeners.lines->waiting();
+    };
+    events.failed = [&graph, &listeners, log, &recorder](const Failure& failure)
+    {
+        recorder.failed(failure);
+        if (log != nullptr)
+            log->error(failure.error);
+        if (!failure.is_told)
+            print(failure.error);
+        // of one source alone a failure stands near the end
+        if (graph.source_count > 1)
+            listeners.summary.addFailure(failure.error);
+    };
+    return events;
+}
+
+/// Warn of sources that are of another scale than the others, by the pack that was linked.
+void passOnOutliers(const graph::Graph& graph, const graph::Executor& executor, const CookOptions& options,
+                    CookMemory* memory, Listeners& listeners, CookRecorder& recorder)
+{
+    const std::string& linked = executor.packPath().empty() ? options.output : executor.packPath();
+    const bool were_told = wasTold(graph.actions.back(), executor.outcomes().back(), graph, memory);
+    for (const SizeOutlier& outlier : findSizeOutliers(linked, options.sources))
+    {
+        listeners.fatal_warnings += passOn({outlier.warning}, were_told, options, listeners.summary);
+        recorder.report().source_warnings[outlier.source] = outlier.warning;
+    }
+}
+
+/// Which sources could not be cooked, where others could: what depends on them is no failure of its own.
+void printLeftOut(const graph::Graph& graph, const graph::Executor& executor, const CookOptions& options)
+{
+    const auto failed = static_cast<size_t>(
+        std::count_if(executor.failures().begin(), executor.failures().end(),
+                      [&](const Failure& failure) { return failure.source < graph.source_count; }));
+    if (failed > 0 && graph.source_count > 1 && options.verbosity != Verbosity::quiet)
+        print(fmt::format("{}: not linked, because a dependency failed: {} of {} sources", options.output,
+                          failed, graph.source_count));
+}
+
+/// Name those of the files of cooked folders that nobody has read. Only of a cook that went well: a source
+/// that fails may not have come to its textures.
+void printLeftOutFiles(const std::vector<std::string>& files, const CookOptions& options,
+                       std::vector<std::string> read)
+{
+    read.insert(read.end(), {options.output, options.depfile, options.events_file});
+    read.insert(read.end(), options.report_files.begin(), options.report_files.end());
+    if (const std::string text = leftOutText(files, read); !text.empty())
+        print(text);
+}
+
+// ---- before and after
+
+Status checkOutput(const CookOptions& options)
+{
+    std::error_code error;
+    if (std::filesystem::is_directory(options.output, error))
+        return Error{Issue::cannot_write, options.output, "", "is a folder"};
+    for (const std::string& source : options.sources)
+        if (std::filesystem::equivalent(source, options.output, error))
+            return Error{Issue::usage, options.output, "", "the output would overwrite a source"};
+    for (const std::string& source : options.sources)
+        if (std::filesystem::equivalent(source, options.depfile, error))
+            return Error{Issue::usage, options.depfile, "", "the depfile would overwrite a source"};
+    if (!options.depfile.empty() &&
+        graph::absolutePath(options.depfile) == graph::absolutePath(options.output))
+        return Error{Issue::usage, options.depfile, "", "the depfile would overwrite the output"};
+    for (const std::vector<std::string>& words : options.lods_of_source)
+    {
+        HEARTH_ASSIGN_OR_RETURN(const std::vector<LodFile> lods, parseLodFiles(words));
+        for (const LodFile& lod : lods)
+        {
+            if (std::filesystem::equivalent(lod.path, options.output, error))
+                return Error{Issue::usage, options.output, "",
+                             "the output would overwrite a level of detail"};
+            if (std::filesystem::equivalent(lod.path, options.depfile, error))
+                return Error{Issue::usage, options.depfile, "",
+                             "the depfile would overwrite a level of detail"};
+        }
+    }
+    return success();
+}
+
+/// last  of the cook before, whose records stand for those that this one did not get to
+graph::Journal journalOf(const graph::Graph& graph, const graph::Executor& executor,
+                         const CookOptions& options, const std::string& output_cause,
+                         const std::optional<graph::Journal>& last)
+{
+    graph::Journal journal;
+    journal.folder = graph::workingFolder();
+    journal.output = graph::absolutePath(options.output);
+    journal.output_cause = output_cause;
+    journal.graph = graph;
+    for (size_t i = 0; i < graph.actions.size(); ++i)
+    {
+        const graph::ActionOutcome& outcome = executor.outcomes()[i];
+        journal.actions.push_back({outcome.ending, outcome.causes, outcome.record});
+        const graph::JournalAction* before = last ? graph::lastOf(graph.actions[i], graph, *last) : nullptr;
+        if (outcome.record.empty() && before != nullptr)
+            journal.actions.back().record = before->record;
+    }
+    return journal;
+}
+
+// ---- the cook
+
+void fail(const Error& error, CookOutcome& outcome)
+{
+    print(formatMessage(error));
+    outcome.exit_code = exitCode(error);
+    outcome.error = formatMessage(error);
+}
+
+/// The results are kept, and warn again in the next cook; the pack does not appear.
+void failByWarnings(size_t count, const CookOptions& options, CookOutcome& outcome)
+{
+    outcome.exit_code = kSomeFailed;
+    outcome.error =
+        fmt::format("{}: error: not written, because warnings count as errors: {}", options.output, count);
+    print(outcome.error);
+}
+
+/// What failed, as the outcome: one exit code where all have the same.
+void takeFailures(const std::vector<Failure>& failures, CookOutcome& outcome)
+{
+    outcome.error = failures.front().error;
+    outcome.exit_code = failures.front().exit_code;
+    for (const Failure& failure : failures)
+        if (failure.exit_code != outcome.exit_code)
+            outcome.exit_code = kSomeFailed;
+}
+
+/// Why the pack is put in its place, where no action ran for it.
+std::string outputCause(const std::optional<std::string>& hash_there)
+{
+    return hash_there ? "it was not what had been cooked: changed since, or damaged" : "it was not there";
+}
+
+/// Onto the disk, before it takes the place of what was there.
+bool flush(const std::string& path)
+{
+    const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+    const bool flushed = file >= 0 && flushFile(file);
+    if (file >= 0)
+        ::close(file);
+    return flushed;
+}
+
+bool writeDepfile(const graph::Graph& graph, const graph::Executor& executor, const CookOptions& options,
+                  CookOutcome& outcome)
+{
+    if (options.depfile.empty())
+        return true;
+    const Result<std::string> text = depfileOf(graph, executor, options.output);
+    const Status written = text.ok() ? writeText(options.depfile, *text) : Status(text.error());
+    if (!written.ok())
+        fail(written.error(), outcome);
+    return written.ok();
+}
+
+bool haveSameContent(const std::string& a, const std::string& b)
+{
+    std::error_code error;
+    return std::filesystem::file_size(a, error) == std::filesystem::file_size(b, error) && !error &&
+           sha256OfFile(a) == sha256OfFile(b);
+}
+
+/// Move the pack into place, unless what is there already is the same: builds go by its time.
+/// hash_there  nothing where there is no pack, or no cache that would have had it hashed
+bool placePack(const graph::Executor& executor, const std::optional<std::string>& hash_there,
+               const CookOptions& options, CookOutcome& outcome)
+{
+    const graph::KeptOutput& pack = executor.outcomes().back().result.outputs.front();
+    outcome.output_bytes = pack.bytes;
+    outcome.is_up_to_date = executor.packPath().empty() || (hash_there && *hash_there == pack.hash);
+    if (!outcome.is_up_to_date && !hash_there && haveSameContent(executor.packPath(), options.output))
+        return true;
+    if (outcome.is_up_to_date ||
+        (flush(executor.packPath()) && ::rename(executor.packPath().c_str(), options.output.c_str()) == 0))
+        return true;
+    fail({Issue::cannot_write, options.output, "", std::string("cannot write: ") + std::strerror(errno)},
+         outcome);
+    return false;
+}
+
+/// Cook, with what is known of cooks before (null: nothing).
+void cookGraph(const graph::Graph& graph, CookMemory* memory, const CookOptions& options, EventLog* log,
+               CookRecorder& recorder)
+{
+    CookOutcome& outcome = recorder.report();
+    cache::Cache* cache = memory == nullptr ? nullptr : &memory->cache();
+    graph::ActionCache* actions = memory == nullptr ? nullptr : &memory->actions();
+    const std::optional<std::string> hash_there =
+        memory == nullptr ? std::nullopt : memory->hashes().hashOf(options.output);
+    graph::Resolver resolver(
+        graph, cache, actions, [&]() -> const std::optional<graph::Journal>& { return memory->journal(); },
+        options.force);
+    const ProgressStyle style = styleOf(options);
+    Listeners listeners{log, {style, graph.actions.size()}, std::nullopt, 0, {}};
+    if (style == ProgressStyle::plain)
+        listeners.lines.emplace(graph, printFaint);
+    listeners.fatal_warnings = passOn(options.setting_warnings, false, options, listeners.summary);
+    graph::Executor executor(graph, resolver, cache, actions,
+                             {limitsOf(options.jobs, options.memory_bytes), !options.fail_fast,
+                              options.lists_files, programFolder(), options.output},
+                             eventsFor(graph, options, memory, listeners, recorder));
+    const bool interrupted = !executor.run(hash_there);
+    clearBar();
+    if (!interrupted && executor.failures().empty())
+        passOnOutliers(graph, executor, options, memory, listeners, recorder);
+    if (!interrupted && hasSummary(options))
+        for (const std::string& line : listeners.summary.lines())
+            print(line);
+    if (options.lists_files)
+        recorder.takeFiles(executor);
+    std::string output_cause;
+    if (interrupted)
+    {
+        outcome.exit_code = kInterrupted;
+        outcome.error = "interrupted";
+    }
+    else if (!executor.failures().empty())
+    {
+        takeFailures(executor.failures(), outcome);
+        printLeftOut(graph, executor, options);
+    }
+    else if (listeners.fatal_warnings > 0)
+        failByWarnings(listeners.fatal_warnings, options, outcome);
+    // before the pack: who finds a new pack finds what it is made of
+    else if (writeDepfile(graph, executor, options, outcome) &&
+             placePack(executor, hash_there, options, outcome))
+    {
+        if (!outcome.is_up_to_date && executor.outcomes().back().ending == Ending::kept)
+            output_cause = outputCause(hash_there);
+    }
+    if (!options.report_files.empty())
+        recorder.takeOutcomes(executor);
+    if (memory == nullptr)
+        return;
+    const auto has_run = [](const graph::ActionOutcome& end) { return end.ending != Ending::kept; };
+    // an interrupted cook is as good as none: the next one's causes are still those of this one
+    if (!interrupted && (!output_cause.empty() ||
+                         std::any_of(executor.outcomes().begin(), executor.outcomes().end(), has_run)))
+        memory->write(journalOf(graph, executor, options, output_cause, memory->journal()));
+    if (options.explain && !output_cause.empty())
+        print(fmt::format("{:<11}{}: {}", "pack", options.output, output_cause));
+}
+
+/// graph  is filled, and outlives the recorder
+void cookInto(const CookOptions& options, EventLog* log, std::optional<graph::Graph>& graph,
+              CookRecorder& recorder)
+{
+    const auto failed = [&](const Error& error) { fail(error, recorder.report()); };
+    if (const Status status = checkOutput(options); !status.ok())
+        return failed(status.error());
+    Result<graph::Graph> made = graph::makeCookGraph(options);
+    if (!made.ok())
+        return failed(made.error());
+    graph = std::move(made).value();
+    recorder.begin(*graph);
+    if (log != nullptr)
+        log->cook(*graph);
+    if (options.no_cache)
+        return cookGraph(*graph, nullptr, options, log, recorder);
+    const auto warn = [&](const Error& warning)
+    {
+        if (options.verbosity != Verbosity::quiet)
+            print(formatMessage(warning));
+    };
+    const auto memory = CookMemory::open(options.caches, options.output, graph::workingFolder(), warn);
+    if (!memory.ok())
+        return failed(memory.error());
+    if (!options.force)
+        (*memory)->expect(*graph);
+    cookGraph(*graph, (*memory)->cache().isEmpty() ? nullptr : memory->get(), options, log, recorder);
+    (*memory)->finish();
+}
+
+/// The exit code, where reports can be written.
+int writeReports(const CookOptions& options, CookOutcome& outcome)
+{
+    if (outcome.exit_code == 0)
+        outcome.bytes_of_chunks = bytesOfChunks(options.output);
+    const std::string json = report::reportJson(outcome);
+    for (const std::string& file : options.report_files)
+    {
+        PictureProgress progress(styleOf(options), printFaint);
+        const Status status =
+            report::writeReport(json, file, outcome.exit_code == 0 ? options.output : "", "report",
+                                [&](size_t drawn, size_t count) { progress.show(drawn, count); });
+        progress.end();
+        if (status.ok())
+            continue;
+        print(formatMessage(status.error()));
+        return outcome.exit_code != 0 ? outcome.exit_code : exitCode(status.error());
+    }
+    return outcome.exit_code;
+}
+
+} // namespace
+
+int cook(const CookOptions& chosen, std::vector<std::string>* looked_for)
+{
+    CookOptions options = chosen;
+    const std::vector<std::string> files_of_folders = options.verbosity == Verbosity::quiet
+                                                          ? std::vector<std::string>()
+                                                          : filesOfFolders(options.source_words);
+    options.lists_files = looked_for != nullptr || !options.depfile.empty() || !files_of_folders.empty();
+    if (options.dry_run)
+    {
+        command::passOn(options.setting_warnings, options.verbosity);
+        return dryRun(options);
+    }
+    std::optional<graph::Graph> graph;
+    CookRecorder recorder;
+    CookOutcome& outcome = recorder.report();
+    outcome.sources = options.sources;
+    outcome.output = options.output;
+    outcome.started = utcNow();
+    std::optional<EventLog> log;
+    if (!options.events_file.empty())
+    {
+        Result<EventLog> created = EventLog::create(options.events_file);
+        if (!created.ok())
+        {
+            print(formatMessage(created.error()));
+            return exitCode(created.error());
+        }
+        log.emplace(std::move(created).value());
+    }
+    cookInto(options, log ? &*log : nullptr, graph, recorder);
+    if (looked_for != nullptr)
+        *looked_for = recorder.lookedFor();
+    outcome.seconds = recorder.seconds();
+    int exit_code = outcome.exit_code;
+    if (!options.report_files.empty() && exit_code != kInterrupted)
+        exit_code = writeReports(options, outcome);
+    // with the time of the reports, whose pictures may take longer than the cook
+    const double seconds = recorder.seconds();
+    if (log)
+        log->done(exit_code, seconds);
+    if (outcome.exit_code == 0)
+        printLeftOutFiles(files_of_folders, options, recorder.lookedFor());
+    if (outcome.exit_code == 0 && options.verbosity != Verbosity::quiet)
+        print(fmt::format("{:<10}{:>8.2f} s {:>12}  {}", outcome.is_up_to_date ? "up to date" : "cooked",
+                          seconds, readableSize(outcome.output_bytes), options.output));
+    return exit_code;
+}
+
+} // namespace hearth::command

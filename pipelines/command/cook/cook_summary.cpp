@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "pipelines/command/cook/cook_summary.h"
+
+#include "formats/base/issues.h"
+#include "pipelines/command/shell/messages.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <numeric>
+
+namespace hearth::command
+{
+
+namespace
+{
+
+size_t sumOf(const std::map<std::string, size_t>& counts)
+{
+    return std::accumulate(counts.begin(), counts.end(), size_t{0},
+                           [](size_t sum, const auto& count) { return sum + count.second; });
+}
+
+/// "an image is missing; a placeholder is drawn" of "W1302"; empty of a code that is none of ours.
+std::string_view meaningOf(const std::string& code)
+{
+    const auto issues = allIssues();
+    const auto found = std::find_if(
+        issues.begin(), issues.end(),
+        [&](const IssueInfo& info) { return fmt::format("W{}", static_cast<unsigned>(info.issue)) == code; });
+    return found == issues.end() ? "" : found->summary;
+}
+
+std::string toldText(const std::map<std::string, size_t>& counts)
+{
+    std::string text;
+    for (const auto& [code, count] : counts)
+        text += fmt::format("{}{} {} ({})", text.empty() ? "" : ", ", count, code, meaningOf(code));
+    return text;
+}
+
+std::string foldedText(const std::map<std::string, size_t>& counts)
+{
+    std::string text;
+    for (const auto& [code, count] : counts)
+        text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, code);
+    return text;
+}
+
+std::string warningsWord(size_t count)
+{
+    return count == 1 ? "1 warning" : fmt::format("{} warnings", count);
+}
+
+} // namespace
+
+void CookSummary::addWarning(const std::string& line, bool is_folded)
+{
+    ++(is_folded ? folded_ : told_)[partsOf(line).code];
+}
+
+void CookSummary::addFailure(const std::string& line)
+{
+    if (failures_.empty())
+        lines_at_first_failure_ = countTold();
+    failures_.push_back(line);
+}
+
+std::vector<std::string> CookSummary::lines() const
+{
+    std::vector<std::string> lines;
+    const size_t told_since = countTold() - lines_at_first_failure_;
+    if (!failures_.empty() && told_since >= failures_.size())
+    {
+        lines.push_back(failures_.size() == 1 ? "the failure again:" : "all failures again:");
+        lines.insert(lines.end(), failures_.begin(), failures_.end());
+    }
+    if (const size_t count = sumOf(told_); count > 0)
+        lines.push_back(fmt::format("{}: {}", warningsWord(count), toldText(told_)));
+    if (const size_t count = sumOf(folded_); count > 0)
+        lines.push_back(
+            fmt::format("{} of unchanged sources, as in the cook before: {}; hearth cook -v lists them",
+                        warningsWord(count), foldedText(folded_)));
+    return lines;
+}
+
+} // namespace hearth::command

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "pipelines/command/cook/setting_options.h"
+#include "pipelines/command/cook/watch.h"
+#include "pipelines/command/shell/verb_tools.h"
+#include "pipelines/command/shell/verbs.h"
+
+#include <algorithm>
+#include <sstream>
+
+namespace hearth::command
+{
+
+namespace
+{
+
+/// "W1302,W1303"; none of "all".
+std::vector<std::string> codesOf(const std::string& text)
+{
+    std::vector<std::string> codes;
+    std::istringstream list(text);
+    for (std::string code; text != "all" && std::getline(list, code, ',');)
+        codes.push_back(code);
+    return codes;
+}
+
+std::string codesFault(const std::string& text)
+{
+    std::vector<std::string> known;
+    for (const IssueInfo& info : allIssues())
+        if (info.kind == IssueClass::warning)
+            known.push_back("W" + std::to_string(static_cast<unsigned>(info.issue)));
+    for (const std::string& code : codesOf(text))
+        if (std::find(known.begin(), known.end(), code) == known.end())
+            return "'" + code + "' is no warning: they are " + joined(known, ", ");
+    return "";
+}
+
+/// The options with what the configuration adds.
+/// files    gets those of the configuration
+Result<CookOptions> configured(const CookOptions& options, const SettingOptions& settings,
+                               std::vector<std::string>& files)
+{
+    HEARTH_ASSIGN_OR_RETURN(const profiles::Configuration configuration, settings.configuration());
+    for (const profiles::ConfigFile& file : configuration.files())
+        files.push_back(file.path);
+    CookOptions all = options;
+    HEARTH_TRY(configure(configuration, all));
+    return all;
+}
+
+int cookConfigured(const CookOptions& options, const SettingOptions& settings)
+{
+    std::vector<std::string> files;
+    const Result<CookOptions> all = configured(options, settings, files);
+    return all.ok() ? cook(*all) : fail(all.error());
+}
+
+int watchConfigured(const CookOptions& options, const SettingOptions& settings)
+{
+    return watch(options.sources,
+                 [&](std::vector<std::string>& files) { return configured(options, settings, files); });
+}
+
+} // namespace
+
+void addCook(cli::CommandLine& app, Work& run)
+{
+    cli::CommandLine& verb = app.addSubcommand("cook", "Turn sources into a pack");
+    struct Options : CookOptions
+    {
+        SettingOptions settings;
+        bool watches = false;
+        std::string fatal;
+    };
+    auto options = std::make_shared<Options>();
+    verb.addOption("SOURCE", options->sources,
+                   "glTF, GLB, OBJ, PLY, STL, OFF, Draco or image files; a folder: all models in it; "
+                   "a pattern in quotes, as 'props/**/*.glb'")
+        .required();
+    verb.addOption("-o,--output", options->output, "pack to write").required();
+    verb.addOption("--lod", options->lods,
+                   "N=FILE: level of detail N of the source's only mesh, made by hand")
+        .oneValueEach();
+    options->settings.addOfCommand(verb, {"profile", "jobs", "memory", "cache", "progress"});
+    options->settings.addOfProfiles(verb);
+    verb.addOption("--report", options->report_files,
+                   "write what became of it: FILE.html is a page with pictures, .xml JUnit's, .csv a table, "
+                   "all else JSON; may be repeated")
+        .oneValueEach();
+    verb.addOption("--events", options->events_file,
+                   "write what happens while it happens, a JSON object a line");
+    verb.addFlag("--warnings-as-errors{all}", options->fatal,
+                 "warnings keep the pack from being written; =W1302,W1303: these alone")
+        .check(codesFault);
+    const cli::Option fail_fast =
+        verb.addFlag("--fail-fast", options->fail_fast, "end at the first failure, not after all sources");
+    verb.addFlag("-k,--keep-going", "cook the other sources after a failure: the default")
+        .excludes(fail_fast);
+    const cli::Option no_cache =
+        verb.addFlag("--no-cache", options->no_cache, "run every cooker and keep nothing");
+    verb.addFlag("-f,--force", options->force, "run every cooker, whatever the cache has").excludes(no_cache);
+    const cli::Option depfile =
+        verb.addOption("--depfile", options->depfile,
+                       "write what was read, textures that were found too, for make or ninja");
+    const cli::Option dry_run =
+        verb.addFlag("-n,--dry-run", options->dry_run, "only say what would run, and why").excludes(depfile);
+    verb.addOption("--format", options->dry_run_format, "of --dry-run; json: the whole plan")
+        .choices({"text", "json"})
+        .needs(dry_run);
+    verb.addFlag("--check", options->dry_run_checks,
+                 "of --dry-run: end with code 1 where something would run")
+        .needs(dry_run);
+    verb.addFlag(
+            "--watch", options->watches,
+            "cook, and again whenever a file changes that it reads or looks for, or a source comes or goes; "
+            "Ctrl-C ends it")
+        .excludes(dry_run);
+    verb.addFlag("--explain", options->explain, "say why each cooker runs");
+    options->settings.addLog(verb, "print the command line of every stage");
+    verb.setFooter("Examples:\n"
+                   "  hearth cook house.glb tree.glb -o village.hearth\n"
+                   "  hearth cook assets/ --profile mobile-low -o village.hearth\n"
+                   "Several sources become one pack, their scenes side by side.\n"
+                   "A second cook runs only the cookers whose input has changed.");
+    verb.setAction(
+        [options, &run]
+        {
+            if (!options->fatal.empty())
+                options->fatal_warnings = codesOf(options->fatal);
+            run = [options]
+            {
+                return options->watches ? watchConfigured(*options, options->settings)
+                                        : cookConfigured(*options, options->settings);
+            };
+        });
+}
+
+} // namespace hearth::command

@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "formats/base/atomic_file.h"
+#include "formats/base/temp_directory.h"
+#include "pipelines/command/cook/cook.h"
+#include "pipelines/command/cook/cook_state.h"
+#include "pipelines/command/cook/cook_tools.h"
+#include "pipelines/command/farm/farm_run.h"
+#include "pipelines/farm/run_shard.h"
+#include "pipelines/farm/shard_record.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <set>
+
+namespace hearth::command
+{
+
+namespace
+{
+
+/// Shards of which results are missing for one reason.
+struct Incomplete
+{
+    std::string reason;
+    std::vector<size_t> shards; ///< ascending
+    size_t results = 0;         ///< that are missing
+};
+
+/// Actions of a shard that are missing.
+std::vector<size_t> missingOf(const farm::Plan& plan, size_t shard, const std::vector<size_t>& missing)
+{
+    std::vector<size_t> of_shard;
+    for (const size_t action : missing)
+        if (std::binary_search(plan.shards[shard].begin(), plan.shards[shard].end(),
+                               plan.graph.actions[action].source))
+            of_shard.push_back(action);
+    return of_shard;
+}
+
+std::string reasonOf(const OpenedPlan& opened, size_t shard, cache::Cache& cache)
+{
+    const auto fields = cache.entry(farm::recordKey(opened.hash, shard));
+    const auto record = fields ? farm::recordOf(*fields) : std::nullopt;
+    if (!record)
+        return "no record was left";
+    const std::string where = record->machine.empty() ? "" : " on " + record->machine;
+    if (record->exit_code == 0)
+        return "ended well" + where +
+               ", but what was made is not in the cache, not whole, or of files that have changed since";
+    return fmt::format("failed{} with code {}{}", where, record->exit_code,
+                       record->errors.empty() ? "" : ": " + record->errors.front());
+}
+
+std::vector<Incomplete> incompleteShards(const OpenedPlan& opened, const std::vector<size_t>& missing,
+                                         cache::Cache& cache)
+{
+    std::vector<Incomplete> groups;
+    for (size_t shard = 0; shard < opened.plan.shards.size(); ++shard)
+    {
+        const size_t results = missingOf(opened.plan, shard, missing).size();
+        if (results == 0)
+            continue;
+        const std::string reason = reasonOf(opened, shard, cache);
+        auto group = std::find_if(groups.begin(), groups.end(),
+                                  [&](const Incomplete& known) { return known.reason == reason; });
+        if (group == groups.end())
+            group = groups.insert(groups.end(), {reason, {}, 0});
+        group->shards.push_back(shard);
+        group->results += results;
+    }
+    return groups;
+}
+
+/// "shard 3/16" of one, "shards 0, 3-5 of 16" of several.
+std::string namesOf(const std::vector<size_t>& shards, size_t count)
+{
+    if (shards.size() == 1)
+        return fmt::format("shard {}/{}", shards.front(), count);
+    std::string text = "shards ";
+    for (size_t i = 0; i < shards.size();)
+    {
+        size_t last = i;
+        while (last + 1 < shards.size() && shards[last + 1] == shards[last] + 1)
+            ++last;
+        text += (i == 0 ? "" : ", ") + std::to_string(shards[i]) +
+                (last == i ? "" : "-" + std::to_string(shards[last]));
+        i = last + 1;
+    }
+    return text + fmt::format(" of {}", count);
+}
+
+/// Tell of shards that have left results out, a line for each reason.
+void printMissing(const OpenedPlan& opened, const std::vector<size_t>& missing, const MergeOptions& options,
+                  cache::Cache& cache)
+{
+    for (const Incomplete& group : incompleteShards(opened, missing, cache))
+        tell({Issue::shard_incomplete, options.plan_file, namesOf(group.shards, opened.plan.shards.size()),
+              fmt::format("{} results are missing{}: {}", group.results,
+                          options.cooks_missing ? ", and cooked here" : "", group.reason)});
+}
+
+/// The line behind that of the cook: what machines were to cook, and this one has.
+void printCookedHere(const farm::Plan& plan, const std::vector<size_t>& missing)
+{
+    std::set<size_t> sources;
+    for (const size_t action : missing)
+        sources.insert(plan.graph.actions[action].source);
+    std::vector<size_t> shards;
+    for (size_t shard = 0; shard < plan.shards.size(); ++shard)
+        if (!missingOf(plan, shard, missing).empty())
+            shards.push_back(shard);
+    print(fmt::format("{:<10}{} of {} sources were cooked here: those of {} were missing", "merged",
+                      sources.size(), plan.graph.source_count, namesOf(shards, plan.shards.size())));
+}
+
+std::string listOf(const farm::Plan& plan, const std::vector<size_t>& missing)
+{
+    std::string text;
+    for (size_t shard = 0; shard < plan.shards.size(); ++shard)
+        for (const size_t action : missingOf(plan, shard, missing))
+            text += fmt::format("{:<11}{}  shard {}/{}\n", plan.graph.actions[action].cooker,
+                                plan.graph.actions[action].subject, shard, plan.shards.size());
+    return text;
+}
+
+/// What cannot be had from the cache, by what was planned and is there.
+Result<std::vector<size_t>> findMissing(const OpenedPlan& opened, const MergeOptions& options,
+                                        CookMemory& memory)
+{
+    std::vector<size_t> all_sources(opened.plan.graph.source_count);
+    for (size_t i = 0; i < all_sources.size(); ++i)
+        all_sources[i] = i;
+    HEARTH_TRY(
+        farm::checkPlan(opened.plan, all_sources, tools::programFolder(), memory.actions(), memory.hashes()));
+    HEARTH_ASSIGN_OR_RETURN(const TempDirectory scratch,
+                            TempDirectory::create(temporaryOr("/tmp"), options.output));
+    std::vector<size_t> missing =
+        farm::missingResults(opened.plan.graph, memory.cache(), memory.actions(), scratch.path());
+    if (options.verbosity != Verbosity::quiet || !options.cooks_missing)
+        printMissing(opened, missing, options, memory.cache());
+    return missing;
+}
+
+/// The pack, as a cook of the same sources makes it; it finds the results in the cache.
+int cookPack(const OpenedPlan& opened, const MergeOptions& options)
+{
+    CookOptions cooked;
+    static_cast<graph::CookSettings&>(cooked) = opened.plan.settings;
+    static_cast<Effort&>(cooked) = options;
+    cooked.output = options.output;
+    cooked.caches = opened.caches;
+    cooked.report_files = options.report_files;
+    return cook(cooked);
+}
+
+Result<int> mergePlan(const MergeOptions& options)
+{
+    HEARTH_ASSIGN_OR_RETURN(const OpenedPlan opened, openPlan(options));
+    HEARTH_ASSIGN_OR_RETURN(const auto memory,
+                            CookMemory::open(opened.caches, opened.file, opened.plan.folder, tell));
+    if (memory->cache().isEmpty())
+        return Error{Issue::usage, "--cache", "", "results of shards are in a cache: say which"};
+    HEARTH_TRY(enterFolder(opened));
+    HEARTH_ASSIGN_OR_RETURN(const std::vector<size_t> missing, findMissing(opened, options, *memory));
+    if (!missing.empty() && !options.cooks_missing)
+    {
+        HEARTH_TRY(writeText("-", listOf(opened.plan, missing)));
+        return farm::kTryAgain;
+    }
+    const int exit_code = cookPack(opened, options);
+    if (exit_code == 0 && !missing.empty() && options.verbosity != Verbosity::quiet)
+        printCookedHere(opened.plan, missing);
+    return exit_code;
+}
+
+} // namespace
+
+int merge(const MergeOptions& chosen)
+{
+    MergeOptions options = chosen;
+    options.output = graph::absolutePath(options.output);
+    for (std::string& file : options.report_files)
+        if (file != "-")
+            file = graph::absolutePath(file);
+    const Result<int> merged = mergePlan(options);
+    return merged.ok() ? *merged : tell(merged.error());
+}
+
+} // namespace hearth::command

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "pipelines/cache/open_cache.h"
+#include "pipelines/command/cook/common_options.h"
+#include "pipelines/command/farm/farm_jobs.h"
+#include "pipelines/command/farm/verb_plan.h"
+#include "pipelines/command/shell/verb_tools.h"
+#include "pipelines/command/shell/verbs.h"
+
+namespace hearth::command
+{
+
+namespace
+{
+
+// One that a line of a script cannot end in.
+std::string partitionFault(const std::string& text)
+{
+    const bool is_name =
+        !text.empty() && text.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz"
+                                                "0123456789_.,-") == std::string::npos;
+    return is_name ? "" : "'" + text + "' is no name of a partition";
+}
+
+void addPack(cli::CommandLine& verb, std::string& pack)
+{
+    verb.addOption("--pack", pack, "what the merge writes; by default beside the plan, and named after it");
+}
+
+void addSlurm(cli::CommandLine& farm, Work& run)
+{
+    cli::CommandLine& verb =
+        farm.addSubcommand("slurm", "Submit shards to Slurm as an array, and the merge after them");
+    struct Options : SlurmVerbOptions
+    {
+        SettingOptions settings;
+        std::string memory = "auto";
+    };
+    auto options = std::make_shared<Options>();
+    addPlanFile(verb, *options, options->settings);
+    addPack(verb, options->pack);
+    verb.addOption("--partition", options->partition, "of the cluster; its own by default")
+        .check(partitionFault);
+    verb.addOption("--mem-per-shard", options->memory,
+                   "as 4G; auto: what its largest cooker is thought to need")
+        .check([](const std::string& text) { return text == "auto" ? std::string() : sizeFault(text); })
+        .showDefault();
+    verb.addOption("--max-retries", options->retries, "of a shard that ends with code 75")
+        .range(0u, 1000u)
+        .showDefault();
+    verb.addFlag("--print", options->prints, "print the script that would submit them");
+    verb.setFooter("Example: hearth farm slurm village.plan.json --pack village.hearth --partition cook");
+    verb.setAction(
+        [options, &run]
+        {
+            if (options->memory != "auto")
+                options->memory_bytes = cache::parseSize(options->memory, "").value();
+            run = withConfiguration(options->settings,
+                                    [options](const profiles::Configuration& configuration)
+                                    {
+                                        options->caches = cachesOf(configuration);
+                                        return farmSlurm(*options);
+                                    });
+        });
+}
+
+void addNinja(cli::CommandLine& farm, Work& run)
+{
+    cli::CommandLine& verb = farm.addSubcommand("ninja", "Write a build file for Ninja");
+    struct Options : NinjaVerbOptions
+    {
+        SettingOptions settings;
+    };
+    auto options = std::make_shared<Options>();
+    addPlanFile(verb, *options, options->settings);
+    addPack(verb, options->pack);
+    verb.addOption("-o,--output", options->output, "build file to write").required();
+    verb.addOption("--launcher", options->launcher,
+                   "what starts each shard, as \"srun -Q -n1\"; by default they run on this machine");
+    verb.setFooter("Example: hearth farm ninja village.plan.json -o build.ninja --launcher \"srun -Q -n1\"");
+    verb.setAction(
+        [options, &run]
+        {
+            run = withConfiguration(options->settings,
+                                    [options](const profiles::Configuration& configuration)
+                                    {
+                                        options->caches = cachesOf(configuration);
+                                        return farmNinja(*options);
+                                    });
+        });
+}
+
+void addStatus(cli::CommandLine& farm, Work& run)
+{
+    cli::CommandLine& verb =
+        farm.addSubcommand("status", "Say what each shard has left; code 1 where that is not all");
+    struct Options : PlanOptions
+    {
+        SettingOptions settings;
+        std::string format = "text";
+    };
+    auto options = std::make_shared<Options>();
+    addPlanFile(verb, *options, options->settings);
+    addFormat(verb, options->format);
+    verb.setFooter("Example: hearth farm status village.plan.json");
+    verb.setAction(
+        [options, &run]
+        {
+            run = withConfiguration(options->settings,
+                                    [options](const profiles::Configuration& configuration)
+                                    {
+                                        options->caches = cachesOf(configuration);
+                                        return farmStatus(*options, options->format);
+                                    });
+        });
+}
+
+} // namespace
+
+void addFarm(cli::CommandLine& app, Work& run)
+{
+    cli::CommandLine& verb = app.addSubcommand("farm", "Hand a plan to a batch system");
+    verb.requireSubcommand();
+    addSlurm(verb, run);
+    addNinja(verb, run);
+    addStatus(verb, run);
+    verb.setFooter("Examples:\n"
+                   "  hearth farm slurm village.plan.json --partition cook\n"
+                   "  hearth farm ninja village.plan.json -o build.ninja --launcher \"srun -Q -n1\"\n"
+                   "  hearth farm status village.plan.json");
+}
+
+} // namespace hearth::command

@@ -1,0 +1,275 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "pipelines/command/inspect/inspect.h"
+
+#include "cook/json/json.h"
+
+#include <algorithm>
+#include <set>
+
+namespace hearth::command
+{
+
+using namespace formats;
+
+namespace
+{
+
+LevelSummary summarizeLevel(const PackView& pack, const LevelRecord& level)
+{
+    LevelSummary summary;
+    summary.clusters = level.clusters.count;
+    summary.triangles = level.triangle_count;
+    summary.max_error = level.max_error;
+    for (const ClusterRecord& cluster : recordsOf(pack.clusters(), level.clusters))
+    {
+        // none, or nonsense in a part, whose records nobody has checked
+        if (cluster.refined_group >= pack.groups().size())
+            continue;
+        const GroupRecord& group = pack.groups()[cluster.refined_group];
+        summary.position_error = std::max(summary.position_error, group.position_error);
+        summary.normal_error = std::max(summary.normal_error, group.normal_error);
+        summary.uv_error = std::max(summary.uv_error, group.uv_error);
+    }
+    return summary;
+}
+
+void addAuthoredLevels(const PackView& pack, uint32_t mesh, std::span<LevelSummary> levels)
+{
+    for (const AuthoredLevelRecord& record : pack.authoredLevels())
+        if (record.mesh == mesh && record.level < levels.size())
+        {
+            AuthoredSummary& authored = levels[record.level].authored.emplace();
+            authored.name = pack.text(record.name);
+            if (record.number != kNone)
+                authored.number = record.number;
+        }
+}
+
+void addClusters(MeshSummary& summary, std::span<const ClusterRecord> clusters)
+{
+    for (const ClusterRecord& cluster : clusters)
+    {
+        const uint32_t layout = layoutOf(cluster, summary.attributes);
+        const uint64_t vertex_bytes = clusterBytes(layout, cluster.vertex_count, 0);
+        summary.triangles += cluster.triangle_count;
+        summary.vertices += cluster.vertex_count;
+        summary.vertex_bytes += vertex_bytes;
+        summary.index_bytes +=
+            clusterBytes(layout, cluster.vertex_count, cluster.triangle_count) - vertex_bytes;
+    }
+}
+
+void addPages(MeshSummary& summary, std::span<const PageRecord> pages)
+{
+    for (const PageRecord& page : pages)
+    {
+        summary.page_bytes += page.size;
+        summary.stored_page_bytes += page.stored_size;
+        summary.record_bytes += sizeof(PageRecord) + page.parents.count * sizeof(uint32_t);
+    }
+}
+
+/// 0 where the mesh is rigid, or nothing is known yet: bounds come last.
+uint64_t boundsBytes(const PackView& pack, uint32_t mesh)
+{
+    uint64_t bytes = 0;
+    for (const DeformedMeshRecord& record : pack.deformedMeshes())
+        if (record.mesh == mesh)
+        {
+            bytes += sizeof(DeformedMeshRecord);
+            for (const DeformedClusterRecord& cluster : recordsOf(pack.deformedClusters(), record.clusters))
+                bytes += sizeof(cluster) + cluster.joints.count * sizeof(uint32_t);
+        }
+    return bytes;
+}
+
+MeshSummary summarizeMesh(const PackView& pack, uint32_t index)
+{
+    const MeshRecord& mesh = pack.meshes()[index];
+    MeshSummary summary;
+    summary.name = pack.text(mesh.name);
+    summary.attributes = mesh.attributes;
+    summary.source_triangles = mesh.source_triangles;
+    summary.source_vertices = mesh.source_vertices;
+    summary.source_faces = mesh.source_faces;
+    summary.degenerate_triangles = mesh.degenerate_triangles;
+    summary.morph_targets = mesh.morph_target_count;
+    summary.skinned = mesh.skinned != 0;
+    summary.box_min = mesh.box_min;
+    summary.box_max = mesh.box_max;
+    summary.groups = mesh.groups.count;
+    summary.clusters = mesh.clusters.count;
+    summary.pages = mesh.pages.count;
+    for (const LevelRecord& level : recordsOf(pack.levels(), mesh.levels))
+        summary.levels.push_back(summarizeLevel(pack, level));
+    addAuthoredLevels(pack, index, summary.levels);
+    summary.record_bytes = sizeof(MeshRecord) + mesh.levels.count * sizeof(LevelRecord) +
+                           mesh.groups.count * sizeof(GroupRecord) +
+                           mesh.clusters.count * sizeof(ClusterRecord);
+    addClusters(summary, recordsOf(pack.clusters(), mesh.clusters));
+    addPages(summary, recordsOf(pack.pages(), mesh.pages));
+    summary.bounds_bytes = boundsBytes(pack, index);
+    return summary;
+}
+
+uint32_t countJointNodes(const PackView& pack)
+{
+    std::set<uint32_t> nodes;
+    for (const JointRecord& joint : pack.joints())
+        nodes.insert(joint.node);
+    return static_cast<uint32_t>(nodes.size());
+}
+
+uint64_t countInstancedTriangles(const PackView& pack, std::span<const MeshSummary> meshes)
+{
+    uint64_t triangles = 0;
+    for (const InstanceRecord& instance : pack.instances())
+        if (instance.mesh < meshes.size() && !meshes[instance.mesh].levels.empty())
+            triangles += meshes[instance.mesh].levels.front().triangles;
+    return triangles;
+}
+
+std::string stringOf(const Json& object, const char* key)
+{
+    const Json* found = object.find(key);
+    return found != nullptr && found->is_string() ? found->get<std::string>() : std::string();
+}
+
+uint64_t countOf(const Json& object, const char* key)
+{
+    const Json* found = object.find(key);
+    return found != nullptr && found->is_number_unsigned() ? found->get<uint64_t>() : 0;
+}
+
+double numberOf(const Json& object, const char* key)
+{
+    const Json* found = object.find(key);
+    return found != nullptr && found->is_number() ? found->get<double>() : 0;
+}
+
+/// The members of an array that are objects.
+std::vector<Json> objectsOf(const Json& object, const char* key)
+{
+    std::vector<Json> objects;
+    const Json* found = object.find(key);
+    if (found != nullptr && found->is_array())
+        for (const Json& item : *found)
+            if (item.is_object())
+                objects.push_back(item);
+    return objects;
+}
+
+} // namespace
+
+MetaSummary readMeta(std::string_view json)
+{
+    MetaSummary meta;
+    const Json root = Json::parse(json).value_or(Json());
+    if (!root.is_object())
+        return meta;
+    if (const Json* tool = root.find("tool"); tool != nullptr && tool->is_object())
+        meta.tool_version = stringOf(*tool, "version");
+    for (const Json& source : objectsOf(root, "sources"))
+        meta.sources.push_back(
+            {stringOf(source, "name"), countOf(source, "bytes"), stringOf(source, "xxh3")});
+    if (const Json* counts = root.find("counts"); counts != nullptr && counts->is_object())
+        for (const auto& [key, value] : counts->items())
+            if (value.is_number_unsigned())
+                meta.counts[key] = value.get<uint64_t>();
+    for (const Json& clip : objectsOf(root, "clips"))
+        meta.clips.push_back({countOf(clip, "keys_before"), countOf(clip, "keys"),
+                              countOf(clip, "bytes_before"), countOf(clip, "bytes"),
+                              numberOf(clip, "stated_error"), numberOf(clip, "proven_error")});
+    for (const Json& message : objectsOf(root, "messages"))
+        meta.messages.push_back({stringOf(message, "source"), stringOf(message, "code"),
+                                 stringOf(message, "pointer"), stringOf(message, "text")});
+    if (const Json* dropped = root.find("dropped"); dropped != nullptr && dropped->is_array())
+        for (const Json& item : *dropped)
+            if (item.is_string())
+                meta.dropped.push_back(item.get<std::string>());
+    return meta;
+}
+
+BricksSummary summarizeBricks(const PackView& pack)
+{
+    BricksSummary summary;
+    for (const ChunkEntry& entry : pack.container().chunks())
+        if (isBrickChunk(entry.type))
+        {
+            summary.bytes += entry.size;
+            summary.stored_bytes += entry.stored_size;
+        }
+    return summary;
+}
+
+PackSummary summarize(const PackView& pack)
+{
+    PackSummary summary;
+    summary.meta = readMeta(pack.meta());
+    for (uint32_t i = 0; i < pack.meshes().size(); ++i)
+        summary.meshes.push_back(summarizeMesh(pack, i));
+    for (const MeshSummary& mesh : summary.meshes)
+        summary.morph_targets += mesh.morph_targets;
+    summary.joint_nodes = countJointNodes(pack);
+    summary.instanced_triangles = countInstancedTriangles(pack, summary.meshes);
+    return summary;
+}
+
+std::string attributeNames(uint32_t attributes)
+{
+    const struct
+    {
+        uint32_t bit;
+        const char* name;
+    } kNames[] = {{kVertexNormal, "normal"}, {kVertexTangent, "tangent"},
+                  {kVertexUv0, "uv0"},       {kVertexUv1, "uv1"},
+                  {kVertexUv2, "uv2"},       {kVertexUv3, "uv3"},
+                  {kVertexColor, "color"},   {kVertexVisibility, "visibility"}};
+    std::string names = "position";
+    for (const auto& attribute : kNames)
+        if ((attributes & attribute.bit) != 0)
+            names += std::string(" ") + attribute.name;
+    return names;
+}
+
+const char* alphaModeName(uint32_t mode)
+{
+    switch (static_cast<AlphaMode>(mode))
+    {
+    case AlphaMode::opaque:
+        return "opaque";
+    case AlphaMode::mask:
+        return "mask";
+    case AlphaMode::blend:
+        return "blend";
+    }
+    return "unknown";
+}
+
+const char* lightTypeName(uint32_t type)
+{
+    switch (static_cast<LightType>(type))
+    {
+    case LightType::directional:
+        return "directional";
+    case LightType::point:
+        return "point";
+    case LightType::spot:
+        return "spot";
+    }
+    return "unknown";
+}
+
+const char* codecName(uint32_t codec)
+{
+    switch (static_cast<Codec>(codec))
+    {
+    case Codec::none:
+        return "none";
+    case Codec::zstd:
+        return "zstd";
+    }
+    return "unknown";
+}
+
+} // namespace hearth::command

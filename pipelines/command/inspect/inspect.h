@@ -1,0 +1,130 @@
+// hearth inspect: what is in a pack, as numbers.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "formats/pack/pack_view.h"
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace hearth::command
+{
+
+/// The file or node that a level made by hand came from.
+struct AuthoredSummary
+{
+    std::string name;               ///< of a file or node; may be empty
+    std::optional<uint32_t> number; ///< 3 of rock_LOD3
+};
+
+struct LevelSummary
+{
+    uint32_t clusters = 0;
+    uint32_t triangles = 0;
+    float max_error = 0; ///< object space; the others are what it is made of, each the largest
+    float position_error = 0;
+    float normal_error = 0;                  ///< radians
+    float uv_error = 0;                      ///< object space
+    std::optional<AuthoredSummary> authored; ///< none: it was generated, or is the source
+};
+
+struct MeshSummary
+{
+    std::string name;
+    uint32_t attributes = 0;
+    uint32_t source_triangles = 0;
+    uint32_t source_vertices = 0;
+    uint32_t source_faces = 0;
+    uint32_t degenerate_triangles = 0;
+    uint32_t morph_targets = 0;
+    bool skinned = false;
+    Float3 box_min;
+    Float3 box_max;
+    std::vector<LevelSummary> levels;
+    uint32_t groups = 0;
+    uint32_t clusters = 0;
+    uint32_t pages = 0;
+    uint64_t triangles = 0; ///< over all clusters
+    uint64_t vertices = 0;  ///< over all clusters
+    uint64_t vertex_bytes = 0;
+    uint64_t index_bytes = 0;
+    uint64_t page_bytes = 0;        ///< decoded
+    uint64_t stored_page_bytes = 0; ///< as they lie in the file
+    uint64_t record_bytes = 0;      ///< of its tables
+    uint64_t bounds_bytes = 0;      ///< of what chunks DMSH, DCLU and DJNT say of it
+};
+
+struct MessageSummary
+{
+    std::string source;
+    std::string code;
+    std::string where;
+    std::string text;
+};
+
+struct SourceSummary
+{
+    std::string name;
+    uint64_t bytes = 0;
+    std::string hash;
+};
+
+/// What import made of a clip.
+struct ClipSummary
+{
+    uint64_t keys_before = 0;
+    uint64_t keys = 0;
+    uint64_t bytes_before = 0;
+    uint64_t bytes = 0;
+    double stated_error = 0; ///< metres
+    double proven_error = 0;
+};
+
+/// META, as far as it could be read.
+struct MetaSummary
+{
+    std::string tool_version;
+    std::vector<SourceSummary> sources;
+    std::map<std::string, uint64_t> counts; ///< of the source files: "triangles", "vertices", "faces", ...
+    std::vector<ClipSummary> clips;         ///< in the order of the animations
+    std::vector<MessageSummary> messages;
+    std::vector<std::string> dropped;
+};
+
+struct PackSummary
+{
+    MetaSummary meta;
+    std::vector<MeshSummary> meshes;
+    uint32_t joint_nodes = 0; ///< distinct
+    uint32_t morph_targets = 0;
+    uint64_t instanced_triangles = 0; ///< of the finest level, over all instances
+};
+
+/// The grid of bricks; the pack has one.
+struct BricksSummary
+{
+    uint64_t bytes = 0;        ///< of its tables, as they lie in memory
+    uint64_t stored_bytes = 0; ///< as they lie in the file
+};
+BricksSummary summarizeBricks(const formats::PackView& pack);
+
+PackSummary summarize(const formats::PackView& pack);
+
+/// Chunk META of a part or a pack; what is not there or of the wrong type is left out.
+MetaSummary readMeta(std::string_view json);
+
+/// For people.
+std::string inspectText(const formats::PackView& pack, const PackSummary& summary);
+
+/// Schema "hearth.inspect/1".
+std::string inspectJson(const formats::PackView& pack, const PackSummary& summary);
+
+/// What a number in a record stands for.
+std::string attributeNames(uint32_t attributes);
+const char* alphaModeName(uint32_t mode);
+const char* lightTypeName(uint32_t type);
+const char* codecName(uint32_t codec);
+
+} // namespace hearth::command

@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "formats/records/texel_format_name.h"
+#include "pipelines/command/inspect/inspect.h"
+#include "pipelines/command/shell/terminal.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <numbers>
+
+namespace hearth::command
+{
+
+using namespace formats;
+
+namespace
+{
+
+/// A name from a file, without what would steer a terminal.
+std::string printable(std::string_view name)
+{
+    std::string text(name);
+    std::replace_if(
+        text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; },
+        '?');
+    return text;
+}
+
+std::string headText(const PackView& pack, const PackSummary& summary)
+{
+    const FileHeader& header = pack.container().header();
+    std::string text = fmt::format("{}: {} {}.{}, {}, {} meshes, {} instances\n", printable(pack.name()),
+                                   pack.container().kind() == ContainerKind::pack ? "pack" : "part",
+                                   header.version_major, header.version_minor, readableSize(header.file_size),
+                                   pack.meshes().size(), pack.instances().size());
+    for (const SourceSummary& source : summary.meta.sources)
+        text += fmt::format("source     {} ({})\n", printable(source.name), readableSize(source.bytes));
+    text += "counts    ";
+    for (const auto& [name, count] : summary.meta.counts)
+        text += fmt::format(" {} {}", count, printable(name));
+    return text + "\n";
+}
+
+std::string sceneText(const PackView& pack, const PackSummary& summary)
+{
+    return fmt::format(
+        "scene      {} nodes, {} instances ({} triangles), {} cameras, {} lights, {} materials, "
+        "{} images, {} skins, {} joints, {} animations, {} morph targets\n",
+        pack.nodes().size(), pack.instances().size(), summary.instanced_triangles, pack.cameras().size(),
+        pack.lights().size(), pack.materials().size(), pack.images().size(), pack.skins().size(),
+        summary.joint_nodes, pack.animations().size(), summary.morph_targets);
+}
+
+/// "495 x 310 x 290 m"
+std::string sizeText(Float3 size)
+{
+    return fmt::format("{:.3g} x {:.3g} x {:.3g} m", size.x, size.y, size.z);
+}
+
+std::string assetsText(const PackView& pack)
+{
+    std::string text;
+    for (const AssetRecord& asset : pack.assets())
+        text +=
+            fmt::format("asset      \"{}\": {}, {} meshes, {} instances\n", printable(pack.text(asset.name)),
+                        largestSide(asset) > 0 ? sizeText(asset.box_max - asset.box_min) : "draws nothing",
+                        asset.meshes.count, asset.instances.count);
+    return text;
+}
+
+std::string specularText(const PackView& pack)
+{
+    std::string text;
+    for (const SpecularTableRecord& table : pack.specularTables())
+        text += fmt::format("specular   table for {} masking, normal lambda {}, spaced by {}\n",
+                            table.masking == 0 ? "separable" : "correlated", table.normal_lambda,
+                            table.spacing == 0 ? "cosine" : "half sine");
+    return text;
+}
+
+std::string bricksText(const PackView& pack)
+{
+    std::string text;
+    const BricksSummary summary = summarizeBricks(pack);
+    for (const BrickGridRecord& grid : pack.brickGrid())
+        text += fmt::format(
+            "bricks     {} x {} x {} voxels of {} m from ({}, {}, {}): {} solid in {} bricks, {} faces; "
+            "{} stored of {}\n",
+            grid.voxels[0], grid.voxels[1], grid.voxels[2], grid.voxel_size, grid.origin.x, grid.origin.y,
+            grid.origin.z, grid.solid_count, grid.brick_count, grid.face_count,
+            readableSize(summary.stored_bytes), readableSize(summary.bytes));
+    return text;
+}
+
+/// "  by hand: rock_LOD3.ply (LOD 3)"; empty for other levels.
+std::string authoredText(const LevelSummary& level)
+{
+    if (!level.authored)
+        return "";
+    std::string text = "  by hand";
+    if (!level.authored->name.empty())
+        text += ": " + printable(level.authored->name);
+    return level.authored->number ? text + fmt::format(" (LOD {})", *level.authored->number) : text;
+}
+
+std::string meshText(const MeshSummary& mesh, size_t index)
+{
+    std::string text = fmt::format("\nmesh {} \"{}\": {} triangles, {} vertices, {} faces; {}\n", index,
+                                   printable(mesh.name), mesh.source_triangles, mesh.source_vertices,
+                                   mesh.source_faces, attributeNames(mesh.attributes));
+    if (mesh.degenerate_triangles > 0)
+        text += fmt::format("  {} triangles without area are left out\n", mesh.degenerate_triangles);
+    if (mesh.skinned || mesh.morph_targets > 0)
+        text += fmt::format("  {}{} morph targets, bounds {}\n", mesh.skinned ? "skinned, " : "",
+                            mesh.morph_targets, readableSize(mesh.bounds_bytes));
+    if (mesh.levels.empty())
+        return text + "  no triangles\n";
+    text += "  level  clusters   triangles  largest error      positions  normals            UVs\n";
+    for (size_t i = 0; i < mesh.levels.size(); ++i)
+    {
+        const LevelSummary& level = mesh.levels[i];
+        text += fmt::format("  {:>5}  {:>8}  {:>10}  {:>13.6g}  {:>13.6g}  {:>6.1f}\u00b0  {:>13.6g}{}\n", i,
+                            level.clusters, level.triangles, level.max_error, level.position_error,
+                            double{level.normal_error} * 180 / std::numbers::pi, level.uv_error,
+                            authoredText(level));
+    }
+    const double clusters = mesh.clusters == 0 ? 1 : mesh.clusters;
+    text += fmt::format(
+        "  groups: {}; clusters: {}, on average {:.1f} triangles and {:.1f} vertices ({:.0f} % full)\n",
+        mesh.groups, mesh.clusters, static_cast<double>(mesh.triangles) / clusters,
+        static_cast<double>(mesh.vertices) / clusters,
+        100.0 * static_cast<double>(mesh.triangles) / (clusters * kClusterMaxTriangles));
+    return text + fmt::format("  pages: {}, {} stored of {} (vertices {}, indices {}); records {}\n",
+                              mesh.pages, readableSize(mesh.stored_page_bytes), readableSize(mesh.page_bytes),
+                              readableSize(mesh.vertex_bytes), readableSize(mesh.index_bytes),
+                              readableSize(mesh.record_bytes));
+}
+
+std::string imagesText(const PackView& pack)
+{
+    std::string text;
+    for (uint32_t i = 0; i < pack.images().size(); ++i)
+    {
+        const ImageRecord& image = pack.images()[i];
+        const ChunkEntry* data = pack.container().find(kChunkImageData, i);
+        text +=
+            fmt::format("image {} \"{}\": {} x {}, {} mips, {}, {}{}\n", i, printable(pack.text(image.name)),
+                        image.width, image.height, image.mip_count, texelFormatName(image.format),
+                        readableSize(data == nullptr ? 0 : data->stored_size),
+                        (image.flags & kImagePlaceholder) != 0 ? ", placeholder" : "");
+    }
+    return text.empty() ? text : "\n" + text;
+}
+
+std::string messagesText(const MetaSummary& meta)
+{
+    std::string text;
+    for (const MessageSummary& message : meta.messages)
+        text +=
+            fmt::format("{} {}{}{}: {}\n", printable(message.code), printable(message.source),
+                        message.where.empty() ? "" : "|", printable(message.where), printable(message.text));
+    return text.empty() ? text : "\n" + text;
+}
+
+/// Every kind of chunk with its share of the file.
+std::string chunksText(const PackView& pack)
+{
+    struct Kind
+    {
+        uint64_t count = 0;
+        uint64_t size = 0;
+        uint64_t stored = 0;
+    };
+    std::map<std::string, Kind> kinds;
+    for (const ChunkEntry& entry : pack.container().chunks())
+    {
+        Kind& kind = kinds[chunkName(entry.type, entry.index).substr(6, 4)];
+        ++kind.count;
+        kind.size += entry.size;
+        kind.stored += entry.stored_size;
+    }
+    std::string text = "\nchunk  count        stored       decoded\n";
+    for (const auto& [name, kind] : kinds)
+        text += fmt::format("{:<5}  {:>5}  {:>12}  {:>12}\n", name, kind.count, readableSize(kind.stored),
+                            readableSize(kind.size));
+    return text;
+}
+
+} // namespace
+
+std::string inspectText(const PackView& pack, const PackSummary& summary)
+{
+    std::string text = headText(pack, summary) + sceneText(pack, summary) + assetsText(pack) +
+                       specularText(pack) + bricksText(pack);
+    for (size_t i = 0; i < summary.meshes.size(); ++i)
+        text += meshText(summary.meshes[i], i);
+    return text + imagesText(pack) + messagesText(summary.meta) + chunksText(pack);
+}
+
+} // namespace hearth::command

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "pipelines/command/inspect/extract.h"
+#include "pipelines/command/inspect/extract_bricks.h"
+#include "pipelines/command/inspect/extract_specular.h"
+#include "pipelines/command/shell/verb_tools.h"
+#include "pipelines/command/shell/verbs.h"
+
+#include <cmath>
+
+namespace hearth::command
+{
+
+void addExtract(cli::CommandLine& app, Work& run)
+{
+    cli::CommandLine& verb =
+        app.addSubcommand("extract", "Write a level of detail of a mesh as PLY, or a table as CSV");
+    struct Options
+    {
+        std::string file;
+        uint32_t mesh = 0;
+        float error = 0;
+        std::string part;
+        std::string animation;
+        double time = 0;
+        std::string output;
+    };
+    auto options = std::make_shared<Options>();
+    verb.addOption("FILE", options->file, "pack").required();
+    cli::Option mesh = verb.addOption("--mesh", options->mesh, "index of the mesh");
+    cli::Option error = verb.addOption("--error", options->error,
+                                       "largest error in the mesh's own units; 0: the source's triangles");
+    mesh.needs(error);
+    error.needs(mesh);
+    const cli::Option part =
+        verb.addOption("--part", options->part,
+                       "instead of a mesh; specular: its table, bricks: the faces of all solid voxels")
+            .choices({"specular", "bricks"})
+            .excludes(mesh);
+    cli::Option animation = verb.addOption("--animation", options->animation,
+                                           "clip that poses the mesh: its name, or its index if it has none");
+    animation.needs(mesh);
+    verb.addOption("--time", options->time, "seconds from the start of the clip").needs(animation);
+    verb.addOption("-o,--output", options->output, "PLY or CSV file to write").required();
+    verb.setFooter("Example: hearth extract village.hearth --mesh 0 --error 0.01 -o cut.ply");
+    verb.setCheck([mesh, part] { return mesh.count() + part.count() == 0 ? "--mesh is required" : ""; });
+    verb.setAction(
+        [options, part, animation, &run]
+        {
+            run = [options, part, animation]
+            {
+                if (part.count() > 0)
+                {
+                    const Status status = options->part == "bricks"
+                                              ? extractBricks(options->file, options->output)
+                                              : extractSpecular(options->file, options->output);
+                    return status.ok() ? 0 : fail(status.error());
+                }
+                if (!(options->error >= 0) || !std::isfinite(options->error))
+                    return usageError("--error must be a number from 0 on");
+                if (!std::isfinite(options->time))
+                    return usageError("--time must be a number");
+                std::optional<ClipTime> clip;
+                if (animation.count() > 0)
+                    clip = ClipTime{options->animation, options->time};
+                const Status status =
+                    extractCut(options->file, options->mesh, options->error, clip, options->output);
+                return status.ok() ? 0 : fail(status.error());
+            };
+        });
+}
+
+} // namespace hearth::command

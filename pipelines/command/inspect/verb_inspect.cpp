@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "pipelines/command/inspect/inspect.h"
+#include "pipelines/command/inspect/inspect_bounds.h"
+#include "pipelines/command/inspect/open_pack.h"
+#include "pipelines/command/shell/verb_tools.h"
+#include "pipelines/command/shell/verbs.h"
+
+#include <cmath>
+
+namespace hearth::command
+{
+
+namespace
+{
+
+int inspect(const std::string& file, const std::string& format)
+{
+    const auto pack = openContainer(file);
+    if (!pack.ok())
+        return fail(pack.error());
+    const PackSummary summary = summarize(*pack);
+    return printResult(format == "json" ? inspectJson(*pack, summary) : inspectText(*pack, summary));
+}
+
+} // namespace
+
+void addInspect(cli::CommandLine& app, Work& run)
+{
+    cli::CommandLine& verb = app.addSubcommand("inspect", "Say what is in a pack");
+    struct Options
+    {
+        std::string file;
+        std::string format = "text";
+        bool bounds = false;
+        std::string animation;
+        double time = 0;
+    };
+    auto options = std::make_shared<Options>();
+    verb.addOption("FILE", options->file, "pack or part").required();
+    addFormat(verb, options->format);
+    const cli::Option bounds = verb.addFlag(
+        "--bounds", options->bounds, "the boxes of all clusters of a pack in a pose, with --format json");
+    const cli::Option animation = verb.addOption("--animation", options->animation,
+                                                 "clip of the pose: its name, or its index if it has none")
+                                      .needs(bounds);
+    verb.addOption("--time", options->time, "seconds from the start of the clip").needs(animation);
+    verb.setFooter("Examples:\n"
+                   "  hearth inspect village.hearth --format json\n"
+                   "  hearth inspect fox.hearth --bounds --animation Run --time 0.5 --format json");
+    verb.setAction(
+        [options, animation, &run]
+        {
+            run = [options, animation]
+            {
+                if (!options->bounds)
+                    return inspect(options->file, options->format);
+                if (options->format != "json")
+                    return usageError("--bounds needs --format json");
+                if (!std::isfinite(options->time))
+                    return usageError("--time must be a number");
+                std::optional<ClipTime> clip;
+                if (animation.count() > 0)
+                    clip = ClipTime{options->animation, options->time};
+                return printResult(boundsJson(options->file, clip));
+            };
+        });
+}
+
+} // namespace hearth::command

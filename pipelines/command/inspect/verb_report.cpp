@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "pipelines/cache/directory_store.h"
+#include "pipelines/command/cook/cook_tools.h"
+#include "pipelines/command/cook/picture_progress.h"
+#include "pipelines/command/shell/verb_tools.h"
+#include "pipelines/command/shell/verbs.h"
+#include "pipelines/report/write_report.h"
+
+namespace hearth::command
+{
+
+namespace
+{
+
+struct Options
+{
+    std::string file;
+    std::string pack;
+    std::string page;
+    std::string junit;
+    std::string table;
+};
+
+/// The ending that an option's file must have; empty where it has it.
+std::string endingFault(const std::string& path, const std::string& ending)
+{
+    return path.empty() || path.ends_with(ending) ? "" : path + " does not end in " + ending;
+}
+
+int report(const Options& options)
+{
+    for (const std::string& fault : {endingFault(options.page, ".html"), endingFault(options.junit, ".xml"),
+                                     endingFault(options.table, ".csv")})
+        if (!fault.empty())
+            return usageError(fault);
+    if (options.page.empty() && options.junit.empty() && options.table.empty())
+        return usageError("report: nothing is asked for: name --html, --junit or --csv");
+    const std::optional<std::string> json = cache::readText(options.file);
+    if (!json)
+        return fail({Issue::input_missing, options.file, "", "cannot be read"});
+    for (const std::string& path : {options.page, options.junit, options.table})
+    {
+        if (path.empty())
+            continue;
+        PictureProgress progress(progressStyle("auto"), printFaint);
+        const Status status =
+            report::writeReport(*json, path, options.pack, options.file,
+                                [&](size_t drawn, size_t count) { progress.show(drawn, count); });
+        progress.end();
+        if (!status.ok())
+            return fail(status.error());
+    }
+    return 0;
+}
+
+} // namespace
+
+void addReport(cli::CommandLine& app, Work& run)
+{
+    cli::CommandLine& verb =
+        app.addSubcommand("report", "Turn the report of a cook into a page, or what machines read");
+    auto options = std::make_shared<Options>();
+    verb.addOption("FILE", options->file, "what hearth cook --report wrote as JSON").required();
+    verb.addOption("--html", options->page, "write a page that needs nothing else: FILE.html");
+    verb.addOption("--pack", options->pack, "what was cooked: the page has pictures of it");
+    verb.addOption("--junit", options->junit, "write a test case for each asset: FILE.xml");
+    verb.addOption("--csv", options->table, "write a row for each asset: FILE.csv");
+    verb.setFooter("Example: hearth report cook.json --html cook.html --pack house.hearth");
+    verb.setAction([options, &run] { run = [options] { return report(*options); }; });
+}
+
+} // namespace hearth::command

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "pipelines/command/shell/config_schema.h"
+
+#include "cook/json/json.h"
+#include "pipelines/profiles/setting.h"
+
+#include <cmath>
+
+namespace hearth::command
+{
+
+namespace
+{
+
+using profiles::Kind;
+using profiles::Scope;
+using profiles::Setting;
+
+Json schemaOf(const Setting& setting);
+
+Json objectOf(Json properties)
+{
+    return {{"type", "object"}, {"properties", std::move(properties)}, {"additionalProperties", false}};
+}
+
+Json tableOf(const std::vector<Setting>& members)
+{
+    Json properties = Json::object();
+    Json required = Json::array();
+    for (const Setting& member : members)
+    {
+        properties[member.key] = schemaOf(member);
+        if (member.is_required)
+            required.push_back(member.key);
+    }
+    Json table = objectOf(std::move(properties));
+    table["required"] = std::move(required);
+    return table;
+}
+
+Json numberOf(const Setting& setting)
+{
+    Json json{{"type", setting.kind == Kind::whole ? "integer" : "number"}};
+    if (!setting.choices.empty())
+        for (const std::string_view choice : setting.choices)
+            json["enum"].push_back(std::stoi(std::string(choice)));
+    else
+        json[setting.is_above_low ? "exclusiveMinimum" : "minimum"] = setting.low;
+    if (setting.choices.empty() && std::isfinite(setting.high))
+        json["maximum"] = setting.high;
+    return json;
+}
+
+Json typeOf(const Setting& setting)
+{
+    const Json text{{"type", "string"}, {"minLength", 1}};
+    switch (setting.kind)
+    {
+    case Kind::flag:
+        return {{"type", "boolean"}};
+    case Kind::whole:
+    case Kind::number:
+        return numberOf(setting);
+    case Kind::choice:
+        return {{"enum", setting.choices}};
+    case Kind::text:
+        return text;
+    case Kind::texts:
+        return {{"oneOf", {text, {{"type", "array"}, {"items", text}}}}};
+    case Kind::size:
+        return {{"oneOf",
+                 {{{"type", "integer"}, {"minimum", 1}},
+                  {{"type", "string"}, {"pattern", "^[1-9][0-9]*[KMGT]?$"}}}}};
+    case Kind::tables:
+        return {{"type", "array"}, {"minItems", 1}, {"items", tableOf(setting.members)}};
+    }
+    return {};
+}
+
+Json schemaOf(const Setting& setting)
+{
+    Json json = typeOf(setting);
+    std::string what(setting.what);
+    if (!setting.otherwise.empty())
+        what += ". By default " + std::string(setting.otherwise);
+    json["description"] = what;
+    return json;
+}
+
+/// The groups of settings as tables: of a profile, or of a rule, which has those of sources only.
+Json groupsOf(bool of_rule)
+{
+    Json groups = Json::object();
+    for (const Setting& setting : profiles::profileSettings())
+    {
+        if (of_rule && setting.scope != Scope::source)
+            continue;
+        const std::string group(profiles::groupOf(setting.key));
+        if (!groups.contains(group))
+            groups[group] = objectOf(Json::object());
+        groups[group]["properties"][setting.key.substr(group.size() + 1)] = schemaOf(setting);
+    }
+    return groups;
+}
+
+} // namespace
+
+std::string configSchema()
+{
+    Json defaults = Json::object();
+    for (const Setting& setting : profiles::commandSettings())
+        defaults[setting.key] = schemaOf(setting);
+    const Json text{{"type", "string"}, {"minLength", 1}};
+    Json profile = groupsOf(false);
+    profile["inherits"] = text;
+    profile["inherits"]["description"] =
+        "the name of another profile: mobile-high, mobile-low and desktop are built in";
+    Json rule = groupsOf(true);
+    rule["match"] = text;
+    rule["match"]["description"] = "which sources, by their path from here: * in a name, ** for any folders";
+    rule["in_profile"] = text;
+    rule["in_profile"]["description"] = "only where the profile is called so; * and ? are wildcards";
+    Json rule_table = objectOf(std::move(rule));
+    rule_table["required"] = {"match"};
+    Json schema{{"$schema", "https://json-schema.org/draft/2020-12/schema"},
+                {"title", "hearth.toml: the settings of a project"}};
+    schema.update(
+        objectOf({{"defaults", objectOf(std::move(defaults))},
+                  {"profile", {{"type", "object"}, {"additionalProperties", objectOf(std::move(profile))}}},
+                  {"rule", {{"type", "array"}, {"items", std::move(rule_table)}}}}));
+    return schema.dump(1) + "\n";
+}
+
+} // namespace hearth::command

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "pipelines/command/shell/messages.h"
+
+#include "cook/json/json.h"
+#include "pipelines/command/shell/progress.h"
+#include "pipelines/command/shell/terminal.h"
+
+#include <cstdio>
+#include <fmt/format.h>
+
+namespace hearth::command
+{
+
+namespace
+{
+
+constexpr std::string_view kError = "error: ";
+constexpr std::string_view kWarning = "warning: ";
+constexpr std::string_view kHint = " hint: ";
+
+MessageForm& form()
+{
+    static MessageForm form = MessageForm::text;
+    return form;
+}
+
+size_t& toldCount()
+{
+    static size_t count = 0;
+    return count;
+}
+
+/// Where "error: " or "warning: " stands, at the start or behind ": "; npos: nowhere.
+size_t severityAt(std::string_view line, std::string_view severity)
+{
+    if (line.starts_with(severity))
+        return 0;
+    const size_t at = line.find(": " + std::string(severity));
+    return at == std::string_view::npos ? at : at + 2;
+}
+
+bool isCode(std::string_view text)
+{
+    return text.size() >= 2 && (text[0] == 'E' || text[0] == 'W') &&
+           text.find_first_not_of("0123456789", 1) == std::string_view::npos;
+}
+
+std::string jsonOf(const MessageParts& parts)
+{
+    Json json{{"severity", parts.severity}};
+    for (const auto& [name, text] :
+         {std::pair("code", &parts.code), std::pair("file", &parts.file), std::pair("where", &parts.where),
+          std::pair("text", &parts.text), std::pair("hint", &parts.hint)})
+        if (!text->empty())
+            json[name] = *text;
+    return json.dump();
+}
+
+std::string colored(const std::string& line)
+{
+    for (const auto& [severity, color] : {std::pair(kError, "31"), std::pair(kWarning, "33")})
+        if (const size_t at = severityAt(line, severity); at != std::string::npos)
+            return fmt::format("{}\033[1;{}m{}\033[0m{}", line.substr(0, at), color,
+                               severity.substr(0, severity.size() - 1),
+                               line.substr(at + severity.size() - 1));
+    return line;
+}
+
+} // namespace
+
+void setMessageForm(MessageForm chosen)
+{
+    form() = chosen;
+}
+
+MessageForm messageForm()
+{
+    return form();
+}
+
+MessageParts partsOf(std::string_view line)
+{
+    MessageParts parts;
+    const size_t error = severityAt(line, kError);
+    const size_t warning = severityAt(line, kWarning);
+    // the first counts: a text may quote another message
+    const bool is_error = error <= warning;
+    const size_t at = is_error ? error : warning;
+    if (at == std::string_view::npos)
+    {
+        parts.severity = "note";
+        parts.text = line;
+        return parts;
+    }
+    parts.severity = is_error ? "error" : "warning";
+    std::string_view rest = line.substr(at + (is_error ? kError : kWarning).size());
+    if (at >= 2)
+    {
+        const std::string_view place = line.substr(0, at - 2);
+        const size_t bar = place.find('|');
+        parts.file = place.substr(0, bar);
+        parts.where = bar == std::string_view::npos ? "" : place.substr(bar + 1);
+    }
+    // " [E1203]" is the last of its kind: a text may have brackets
+    const size_t open = rest.rfind(" [");
+    const size_t close = open == std::string_view::npos ? open : rest.find(']', open);
+    if (close != std::string_view::npos && isCode(rest.substr(open + 2, close - open - 2)))
+    {
+        parts.code = rest.substr(open + 2, close - open - 2);
+        if (rest.substr(close + 1).starts_with(kHint))
+            parts.hint = rest.substr(close + 1 + kHint.size());
+        rest = rest.substr(0, open);
+    }
+    parts.text = rest;
+    return parts;
+}
+
+void tell(const std::string& line)
+{
+    clearBar();
+    const std::string text = form() == MessageForm::json ? jsonOf(partsOf(line))
+                             : colorOnStderr()           ? colored(line)
+                                                         : line;
+    std::fprintf(stderr, "%s\n", text.c_str());
+    ++toldCount();
+}
+
+size_t countTold()
+{
+    return toldCount();
+}
+
+} // namespace hearth::command

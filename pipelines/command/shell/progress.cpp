@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "pipelines/command/shell/progress.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <fmt/format.h>
+#include <string_view>
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+namespace hearth::command
+{
+
+namespace
+{
+
+// The eye sees no more, and a terminal far away has better things to do.
+constexpr std::chrono::milliseconds kBetweenDrawings{50};
+constexpr size_t kBarWidth = 24;
+
+/// stderr is one.
+bool& isBarShown()
+{
+    static bool shown = false;
+    return shown;
+}
+
+size_t columnsOfTerminal()
+{
+    winsize size{};
+    return ::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : 80;
+}
+
+bool isTerminal()
+{
+    const char* terminal = std::getenv("TERM");
+    const char* automatic = std::getenv("CI");
+    return ::isatty(STDERR_FILENO) == 1 && terminal != nullptr && std::string_view(terminal) != "dumb" &&
+           (automatic == nullptr || *automatic == '\0');
+}
+
+} // namespace
+
+ProgressStyle progressStyle(const std::string& name)
+{
+    if (name == "bar")
+        return ProgressStyle::bar;
+    if (name == "none")
+        return ProgressStyle::none;
+    return name == "auto" && isTerminal() ? ProgressStyle::bar : ProgressStyle::plain;
+}
+
+std::string barText(size_t ended, size_t count, const std::string& what, size_t columns)
+{
+    const size_t filled = count == 0 ? kBarWidth : kBarWidth * ended / count;
+    std::string text = fmt::format("[{:<{}}] {:>{}}/{}  ", std::string(filled, '#'), kBarWidth, ended,
+                                   std::to_string(count).size(), count);
+    // the last column stays free: some terminals go to the next line there
+    const size_t room = columns > text.size() + 1 ? columns - text.size() - 1 : 0;
+    text += what.substr(0, room);
+    return text.substr(0, columns > 0 ? columns - 1 : 0);
+}
+
+ProgressBar::ProgressBar(ProgressStyle style, size_t count)
+    : is_shown_(style == ProgressStyle::bar), count_(count)
+{
+}
+
+ProgressBar::~ProgressBar()
+{
+    clearBar();
+}
+
+void ProgressBar::started(const std::string& what)
+{
+    what_ = what;
+    draw();
+}
+
+void ProgressBar::ended()
+{
+    ++ended_;
+    draw();
+}
+
+void ProgressBar::show(size_t ended, const std::string& what)
+{
+    ended_ = ended;
+    what_ = what;
+    draw();
+}
+
+void ProgressBar::draw()
+{
+    const auto now = std::chrono::steady_clock::now();
+    if (!is_shown_ || (isBarShown() && now - last_drawn_ < kBetweenDrawings))
+        return;
+    last_drawn_ = now;
+    isBarShown() = true;
+    std::fprintf(stderr, "\r\033[K%s", barText(ended_, count_, what_, columnsOfTerminal()).c_str());
+    std::fflush(stderr);
+}
+
+void clearBar()
+{
+    if (!isBarShown())
+        return;
+    isBarShown() = false;
+    std::fputs("\r\033[K", stderr);
+}
+
+} // namespace hearth::command

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "pipelines/command/shell/progress_lines.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace hearth::command
+{
+
+namespace
+{
+
+// More names of what runs would not fit on a line: batches of small actions are long.
+constexpr size_t kMaxNames = 3;
+
+std::string nameOf(const graph::Action& action)
+{
+    return action.cooker + " " + action.subject;
+}
+
+std::string listOf(const std::vector<std::string>& names)
+{
+    std::string text;
+    for (size_t i = 0; i < std::min(names.size(), kMaxNames); ++i)
+        text += (i == 0 ? "" : ", ") + names[i];
+    return names.size() <= kMaxNames ? text : text + fmt::format(" and {} more", names.size() - kMaxNames);
+}
+
+} // namespace
+
+LineTimer::LineTimer(MonotonicClock clock) : clock_(std::move(clock)), start_(clock_()), last_(start_) {}
+
+double LineTimer::elapsedSeconds() const
+{
+    return std::chrono::duration<double>(clock_() - start_).count();
+}
+
+bool LineTimer::isDue()
+{
+    const auto now = clock_();
+    if (now - last_ < kBetweenProgressLines)
+        return false;
+    last_ = now;
+    return true;
+}
+
+ProgressLines::ProgressLines(const graph::Graph& graph, PrintLine print, MonotonicClock clock)
+    : print_(std::move(print)),
+      timer_(std::move(clock)),
+      action_count_(graph.actions.size()),
+      pack_(graph.source_count)
+{
+    for (const graph::Action& action : graph.actions)
+        sources_[action.source].open.insert(action.outputs.front());
+}
+
+size_t ProgressLines::countEnded() const
+{
+    size_t ended = action_count_;
+    for (const auto& [index, source] : sources_)
+        ended -= source.open.size();
+    return ended;
+}
+
+void ProgressLines::starting(const graph::Action& action)
+{
+    running_.push_back(nameOf(action));
+    waiting();
+}
+
+void ProgressLines::ended(const graph::Action& action, const graph::ActionOutcome& outcome)
+{
+    if (const auto found = std::find(running_.begin(), running_.end(), nameOf(action));
+        found != running_.end())
+        running_.erase(found);
+    Source& source = sources_[action.source];
+    if (outcome.ending == graph::Ending::cooked)
+    {
+        source.seconds += outcome.result.seconds;
+        ++source.cooked;
+    }
+    source.has_failed |= outcome.ending == graph::Ending::failed;
+    // an action ends again where the cache has lost its result: its source has had its line then
+    const bool is_last = source.open.erase(action.outputs.front()) == 1 && source.open.empty();
+    if (is_last && source.cooked > 0 && !source.has_failed && action.source != pack_)
+        printSource(source, action.subject);
+    waiting();
+}
+
+void ProgressLines::printSource(const Source& source, const std::string& subject) const
+{
+    print_(fmt::format("{:<10}{:>8.2f} s {:>12}  {}", "source", source.seconds,
+                       fmt::format("{} cooker{}", source.cooked, source.cooked == 1 ? "" : "s"), subject));
+}
+
+void ProgressLines::waiting()
+{
+    if (timer_.isDue())
+        print_(fmt::format("{:<10}{:>8.2f} s {:>12}  {}", "so far", timer_.elapsedSeconds(),
+                           fmt::format("{} of {}", countEnded(), action_count_), listOf(running_)));
+}
+
+} // namespace hearth::command

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "pipelines/command/sources/left_out_files.h"
+
+#include "pipelines/command/shell/name_list.h"
+#include "pipelines/command/sources/source_list.h"
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <fmt/format.h>
+#include <map>
+#include <set>
+
+namespace hearth::command
+{
+
+namespace
+{
+
+namespace fs = std::filesystem;
+
+constexpr std::array<std::string_view, 9> kImages{".png", ".jpg", ".jpeg", ".webp", ".tga",
+                                                  ".bmp", ".hdr", ".exr",  ".ktx2"};
+/// Other files that sources refer to.
+constexpr std::array<std::string_view, 2> kParts{".bin", ".mtl"};
+/// Files that Hearth itself writes, or reads its settings from.
+constexpr std::array<std::string_view, 2> kOwn{".hearth", ".toml"};
+
+template <size_t kCount>
+bool hasEnding(const std::string& path, const std::array<std::string_view, kCount>& endings)
+{
+    std::string ending = fs::path(path).extension().string();
+    std::transform(ending.begin(), ending.end(), ending.begin(),
+                   [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+    return std::find(endings.begin(), endings.end(), ending) != endings.end();
+}
+
+/// One path for a file, however it is typed: its name in the folder as the disk has that.
+class RealPaths
+{
+public:
+    std::string of(const std::string& path)
+    {
+        const fs::path file(path);
+        const auto [folder, is_new] = real_folder_.emplace(file.parent_path().string(), "");
+        if (is_new)
+        {
+            std::error_code error;
+            folder->second = fs::canonical(folder->first.empty() ? "." : folder->first, error).string();
+        }
+        return folder->second + "/" + file.filename().string();
+    }
+
+private:
+    std::map<std::string, std::string> real_folder_; ///< by folder as typed
+};
+
+/// Files that are left out for one reason.
+struct Group
+{
+    const char* of_one;
+    const char* of_several;
+    std::vector<std::string> files;
+};
+
+/// Returns the index of the file's group: textures, files that somebody could use, others.
+size_t groupOf(const std::string& file)
+{
+    if (hasEnding(file, kImages))
+        return 0;
+    return hasEnding(file, kParts) || isModel(file) ? 1 : 2;
+}
+
+std::string textOf(const Group& group)
+{
+    return fmt::format("{} {} ({})", group.files.size(),
+                       group.files.size() == 1 ? group.of_one : group.of_several, namesText(group.files));
+}
+
+} // namespace
+
+std::string leftOutText(const std::vector<std::string>& files, const std::vector<std::string>& known)
+{
+    RealPaths real;
+    std::set<std::string> used;
+    for (const std::string& path : known)
+        used.insert(real.of(path));
+    std::array<Group, 3> groups{
+        {{"texture that no source uses", "textures that no source uses", {}},
+         {"file that no source uses", "files that no source uses", {}},
+         {"file of a kind that is not read", "files of kinds that are not read", {}}}};
+    for (const std::string& file : files)
+        if (!hasEnding(file, kOwn) && !used.contains(real.of(file)))
+            groups[groupOf(file)].files.push_back(file);
+    std::string text;
+    for (const Group& group : groups)
+        if (!group.files.empty())
+            text += (text.empty() ? "" : ", ") + textOf(group);
+    return text.empty() ? "" : fmt::format("{:<10}{}", "left out", text);
+}
+
+} // namespace hearth::command

@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "pipelines/command/sources/lod_groups.h"
+
+#include "cook/tools/lod_files.h"
+#include "pipelines/command/sources/source_list.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <fmt/format.h>
+#include <map>
+#include <optional>
+#include <set>
+#include <utility>
+
+namespace hearth::command
+{
+
+namespace
+{
+
+namespace fs = std::filesystem;
+
+using Words = std::vector<std::string>;
+
+/// One spelling for a file, however it was typed.
+std::string normalPath(const std::string& file)
+{
+    return fs::path(file).lexically_normal().string();
+}
+
+std::string wordOf(size_t level, const std::string& file)
+{
+    return fmt::format("{}={}", level, file);
+}
+
+/// The levels that a setting lists for a source.
+struct ListedLevels
+{
+    Words files;        ///< normal paths, finest first
+    std::string origin; ///< of the setting
+};
+
+/// The level that a file's name says.
+struct NamedLevel
+{
+    std::string file; ///< normal path
+    uint32_t level = 0;
+};
+
+/// Files of one folder whose names differ in the level alone.
+struct NamedGroup
+{
+    std::map<uint32_t, std::string> file_of_level; ///< normal paths
+    std::vector<NamedLevel> repeated;              ///< levels that are there already
+};
+
+class Grouper
+{
+public:
+    Grouper(const std::vector<std::string>& files, const profiles::Configuration& configuration)
+        : files_(files), configuration_(configuration)
+    {
+    }
+
+    Result<LodGroups> group()
+    {
+        readSettings();
+        HEARTH_TRY(takeListed());
+        takeNamed();
+        for (const std::string& file : files_)
+        {
+            const std::string path = normalPath(file);
+            if (taken_.contains(path))
+                continue;
+            groups_.sources.push_back(file);
+            groups_.lods_of_source.push_back(lods_of_file_[path]);
+        }
+        return std::move(groups_);
+    }
+
+private:
+    void readSettings()
+    {
+        for (const std::string& file : files_)
+        {
+            const profiles::Values values = configuration_.ofSource(file);
+            const auto found = values.find(profiles::kImportLods);
+            if (found == values.end())
+                continue;
+            ListedLevels& listed = listed_[normalPath(file)];
+            listed = {{}, found->second.origin};
+            for (const std::string& name : profiles::textsOf(found->second))
+                listed.files.push_back(normalPath((fs::path(file).parent_path() / name).string()));
+        }
+    }
+
+    /// A list may be that of a rule which matches the levels too: whatever another file lists is a level.
+    Status takeListed()
+    {
+        for (const auto& [file, listed] : listed_)
+            for (const std::string& level : listed.files)
+                if (level != file)
+                    taken_.insert(level);
+        std::set<std::string> used;
+        for (const auto& [file, listed] : listed_)
+            if (!taken_.contains(file))
+                used.insert(listed.files.begin(), listed.files.end());
+        for (const auto& [file, listed] : listed_)
+        {
+            for (const std::string& level : listed.files)
+                if (level == file ? !taken_.contains(file) : !used.contains(level))
+                    return Error{Issue::profile_value, listed.origin, std::string(profiles::kImportLods),
+                                 fmt::format("makes {} a level of {}, which {}", level, file,
+                                             level == file ? "is the same file" : "is a level itself")};
+            if (!taken_.contains(file))
+                for (size_t i = 0; i < listed.files.size(); ++i)
+                    lods_of_file_[file].push_back(wordOf(i + 1, listed.files[i]));
+        }
+        return success();
+    }
+
+    /// Only of files that no setting speaks of.
+    void takeNamed()
+    {
+        std::map<std::pair<std::string, std::string>, NamedGroup> group_of_stem;
+        for (const std::string& file : files_)
+        {
+            const fs::path path(normalPath(file));
+            const auto name = tools::parseLodName(path.stem().string());
+            if (!name || !isModel(path.string()) || listed_.contains(path.string()) ||
+                taken_.contains(path.string()))
+                continue;
+            NamedGroup& group = group_of_stem[{path.parent_path().string(), name->stem}];
+            const auto [first, is_new] = group.file_of_level.emplace(name->level, path.string());
+            if (!is_new && first->second != path.string())
+                group.repeated.push_back({path.string(), name->level});
+        }
+        for (const auto& [stem, group] : group_of_stem)
+            if (group.file_of_level.size() > 1 && group.file_of_level.begin()->first == 0)
+                takeGroup(group);
+    }
+
+    void takeGroup(const NamedGroup& group)
+    {
+        const std::string& source = group.file_of_level.at(0);
+        for (const auto& [level, file] : group.file_of_level)
+            if (level > 0)
+            {
+                lods_of_file_[source].push_back(wordOf(level, file));
+                taken_.insert(file);
+            }
+        std::set<std::string> warned;
+        for (const NamedLevel& repeated : group.repeated)
+        {
+            if (!warned.insert(repeated.file).second)
+                continue;
+            const std::string& first = group.file_of_level.at(repeated.level);
+            if (repeated.level > 0)
+                taken_.insert(repeated.file);
+            groups_.warnings.push_back(
+                {Issue::lod_repeated, repeated.file, "",
+                 repeated.level > 0
+                     ? fmt::format("is level {} of {}, as is {}, which is used: this file is left out",
+                                   repeated.level, source, first)
+                     : fmt::format("is level 0, as is {}, which has the levels: this file is a source "
+                                   "without them, in the same place",
+                                   first)});
+        }
+    }
+
+    const std::vector<std::string>& files_;
+    const profiles::Configuration& configuration_;
+    std::map<std::string, ListedLevels> listed_; ///< by file, as all paths below
+    std::map<std::string, Words> lods_of_file_;
+    std::set<std::string> taken_; ///< files that are no sources
+    LodGroups groups_;
+};
+
+} // namespace
+
+Result<LodGroups> groupLods(const std::vector<std::string>& files,
+                            const profiles::Configuration& configuration)
+{
+    return Grouper(files, configuration).group();
+}
+
+} // namespace hearth::command

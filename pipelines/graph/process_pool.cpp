@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "pipelines/graph/process_pool.h"
+
+#include <algorithm>
+
+namespace hearth::graph
+{
+
+namespace
+{
+
+// Small: starting a process (2 to 8 ms) is a good part of its time, and a second thread would hardly shorten it.
+constexpr double kSmallSeconds = 0.1;
+// What an action makes of its source may be large where the source was not: parts of that size are read in that time.
+constexpr uint64_t kSmallPartBytes = uint64_t{1} << 20;
+// Fewer actions than these start their cooker each for itself: a crowd is what is worth a process that stays.
+constexpr std::ptrdiff_t kCrowd = 8;
+// What stands behind the first in a batch bridges the time until this process has looked at its end, and no more: another
+// process may come free.
+constexpr size_t kBehind = 4;
+
+} // namespace
+
+Crew::Crew(const Graph& graph, const CrewLimits& limits)
+    : graph_(graph), limits_(limits), is_small_(graph.actions.size())
+{
+    std::map<std::string, std::ptrdiff_t> count_of_cooker;
+    const auto isQuick = [](const Action& action) { return action.estimate.seconds <= kSmallSeconds; };
+    for (const Action& action : graph.actions)
+        count_of_cooker[action.cooker] += isQuick(action) ? 1 : 0;
+    for (size_t i = 0; i < graph.actions.size(); ++i)
+        is_small_[i] = isQuick(graph.actions[i]) && count_of_cooker[graph.actions[i].cooker] >= kCrowd;
+}
+
+bool Crew::isSmall(size_t action, uint64_t part_bytes) const
+{
+    return is_small_[action] && part_bytes <= kSmallPartBytes;
+}
+
+unsigned Crew::busy() const
+{
+    return static_cast<unsigned>(std::count_if(processes_.begin(), processes_.end(),
+                                               [](const auto& p) { return !p.second.actions.empty(); }));
+}
+
+bool Crew::isIdle() const
+{
+    return busy() == 0;
+}
+
+/// The batch where a small action is run soonest; none: a new one.
+std::optional<size_t> Crew::batchFor(size_t action) const
+{
+    auto best = processes_.end();
+    for (auto process = processes_.begin(); process != processes_.end(); ++process)
+        if (process->second.cooker == graph_.actions[action].cooker &&
+            (best == processes_.end() || process->second.actions.size() < best->second.actions.size()))
+            best = process;
+    if (best == processes_.end() || (!best->second.actions.empty() && busy() < limits_.all))
+        return std::nullopt;
+    return best->first;
+}
+
+/// batch  that the action would be run in; none: a process that is not there yet
+bool Crew::hasRoom(size_t action, std::optional<size_t> batch) const
+{
+    uint64_t others = 0;
+    uint64_t its = graph_.actions[action].estimate.memory_bytes;
+    for (const auto& [id, process] : processes_)
+        if (id == batch)
+            its = std::max(its, process.memory_bytes);
+        else
+            // what idles goes where there is need
+            others += process.actions.empty() ? 0 : process.memory_bytes;
+    return others == 0 || others + its <= limits_.memory_bytes;
+}
+
+bool Crew::canStart(size_t action, uint64_t part_bytes) const
+{
+    const unsigned at_work = busy();
+    if (!isSmall(action, part_bytes))
+    {
+        const auto large = std::count_if(processes_.begin(), processes_.end(),
+                                         [](const auto& process) { return process.second.cooker.empty(); });
+        return large < limits_.large && at_work < limits_.all && hasRoom(action, std::nullopt);
+    }
+    const std::optional<size_t> batch = batchFor(action);
+    const size_t ahead = batch ? processes_.at(*batch).actions.size() : 0;
+    return (ahead > 0 ? ahead <= kBehind : at_work < limits_.all) && hasRoom(action, batch);
+}
+
+/// What idles gives back what it holds.
+void Crew::retireIdle(std::optional<size_t> but)
+{
+    for (auto process = processes_.begin(); process != processes_.end();)
+    {
+        const bool goes = process->second.actions.empty() && process->first != but;
+        if (goes)
+            children_.close(process->first);
+        process = goes ? processes_.erase(process) : std::next(process);
+    }
+}
+
+Status Crew::startAlone(size_t action, const std::vector<std::string>& command)
+{
+    retireIdle(std::nullopt);
+    HEARTH_ASSIGN_OR_RETURN(const size_t child, children_.start(command));
+    processes_[child] = {"", {action}, graph_.actions[action].estimate.memory_bytes};
+    return success();
+}
+
+Status Crew::start(size_t action, uint64_t part_bytes, const std::vector<std::string>& command)
+{
+    if (!isSmall(action, part_bytes))
+        return startAlone(action, command);
+    const auto line = tools::batchLine(std::span(command).subspan(1));
+    if (!line)
+        return startAlone(action, command);
+
+    std::optional<size_t> batch = batchFor(action);
+    uint64_t in_all = graph_.actions[action].estimate.memory_bytes;
+    for (const auto& [id, process] : processes_)
+        in_all += process.memory_bytes;
+    if (in_all > limits_.memory_bytes)
+        retireIdle(batch);
+    if (!batch)
+    {
+        HEARTH_ASSIGN_OR_RETURN(batch, children_.startBatch(command[0]));
+        processes_[*batch].cooker = graph_.actions[action].cooker;
+    }
+    Process& process = processes_[*batch];
+    process.actions.push_back(action);
+    process.memory_bytes = std::max(process.memory_bytes, graph_.actions[action].estimate.memory_bytes);
+    children_.give(*batch, *line);
+    return success();
+}
+
+std::optional<CrewEnd> Crew::wait(const std::function<void()>& waiting)
+{
+    std::optional<tools::ChildEnd> end = children_.wait(waiting);
+    if (!end)
+        return std::nullopt;
+    CrewEnd crew_end;
+    if (const auto process = processes_.find(end->id); process != processes_.end())
+    {
+        std::deque<size_t>& actions = process->second.actions;
+        if (!actions.empty())
+        {
+            crew_end.action = actions.front();
+            actions.pop_front();
+        }
+        if (!end->is_alive)
+        {
+            crew_end.not_begun.assign(actions.begin(), actions.end());
+            processes_.erase(process);
+        }
+    }
+    crew_end.end = std::move(*end);
+    return crew_end;
+}
+
+} // namespace hearth::graph

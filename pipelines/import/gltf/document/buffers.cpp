@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "pipelines/import/gltf/document/buffers.h"
+
+#include "formats/base/byte_reader.h"
+#include "pipelines/import/gltf/document/meshopt.h"
+#include "pipelines/import/gltf/document/uri.h"
+
+#include <fmt/format.h>
+
+namespace hearth::import
+{
+
+using formats::kNone;
+
+namespace
+{
+
+using Bytes = std::span<const std::byte>;
+
+/// A URI in a message: data URIs can be megabytes long.
+std::string shortened(const std::string& uri)
+{
+    constexpr size_t kMax = 80;
+    return uri.size() <= kMax ? uri : uri.substr(0, kMax) + "...";
+}
+
+/// Which buffers must be there: one that only stands behind compressed views, as their fallback, may be absent.
+std::vector<bool> findNeeded(const GltfModel& model)
+{
+    std::vector<bool> needed(model.buffers.size());
+    for (size_t i = 0; i < model.buffers.size(); ++i)
+        needed[i] = model.buffers[i].uri && !model.buffers[i].fallback;
+    for (const GltfBufferView& view : model.buffer_views)
+        needed[view.meshopt ? view.meshopt->buffer : view.buffer] = true;
+    return needed;
+}
+
+Result<FileBytes> readBufferUri(const std::string& uri, const std::string& where, const GltfContext& context)
+{
+    Result<FileBytes> bytes = readUri(uri, where + "/uri", context);
+    if (!bytes.ok() && bytes.error().issue == Issue::input_missing)
+        return context.error(Issue::buffer_missing, where + "/uri",
+                             bytes.error().detail + suggestionForUri(uri, Issue::input_missing, context));
+    return bytes;
+}
+
+} // namespace
+
+Result<FileBytes> readUri(const std::string& uri, const std::string& where, const GltfContext& context)
+{
+    if (isDataUri(uri))
+    {
+        std::optional<std::vector<std::byte>> bytes = decodeDataUri(uri);
+        if (bytes)
+            return FileBytes(std::move(*bytes));
+        return context.error(Issue::uri_malformed, where, "the data URI is not valid base64");
+    }
+    const std::optional<std::string> path = percentDecoded(uri);
+    if (!path)
+        return context.error(Issue::uri_malformed, where,
+                             fmt::format("\"{}\" has a '%' without two digits", shortened(uri)));
+    Result<FileBytes> file = context.folder.read(*path, context.options.limits.max_file_bytes);
+    if (!file.ok())
+        return context.error(file.error().issue, where,
+                             fmt::format("\"{}\" beside {}: {}", shortened(*path), context.folder.assetName(),
+                                         file.error().detail));
+    context.part.addSource(*path, file->bytes().size(), file->hash());
+    return file;
+}
+
+std::string suggestionForUri(const std::string& uri, Issue issue, const GltfContext& context)
+{
+    const std::optional<std::string> path = isDataUri(uri) ? std::nullopt : percentDecoded(uri);
+    return path ? context.folder.suggestionFor(*path, issue) : "";
+}
+
+Result<GltfBuffers> GltfBuffers::load(const GltfModel& model, const FileBytes& source,
+                                      const GltfContainer& container, const GltfContext& context)
+{
+    GltfBuffers result(source);
+    const std::vector<bool> needed = findNeeded(model);
+    std::vector<Bytes> buffers(model.buffers.size());
+    for (size_t i = 0; i < buffers.size(); ++i)
+    {
+        const GltfBuffer& buffer = model.buffers[i];
+        const std::string where = fmt::format("/buffers/{}", i);
+        if (!needed[i])
+            continue;
+        if (buffer.uri)
+        {
+            HEARTH_ASSIGN_OR_RETURN(FileBytes bytes, readBufferUri(*buffer.uri, where, context));
+            result.owned_.push_back(std::move(bytes));
+            buffers[i] = result.owned_.back().bytes();
+        }
+        else if (i == 0 && container.binary)
+            buffers[i] = *container.binary;
+        else
+            return context.error(Issue::buffer_missing, where,
+                                 "the buffer has neither a URI nor a BIN chunk");
+        if (buffers[i].size() < buffer.byte_length)
+            return context.error(Issue::buffer_short, where,
+                                 fmt::format("byteLength is {}, but there are {} bytes", buffer.byte_length,
+                                             buffers[i].size()));
+    }
+
+    for (size_t i = 0; i < model.buffer_views.size(); ++i)
+    {
+        const GltfBufferView& view = model.buffer_views[i];
+        const std::string where = fmt::format("/bufferViews/{}", i);
+        Bytes bytes;
+        if (view.meshopt)
+        {
+            const auto compressed = checkedPart(buffers[view.meshopt->buffer], view.meshopt->byte_offset,
+                                                view.meshopt->byte_length);
+            HEARTH_ASSERT(compressed.has_value()); // the model has checked it against byteLength
+            HEARTH_ASSIGN_OR_RETURN(std::vector<std::byte> decoded,
+                                    decodeMeshopt(*view.meshopt, *compressed, context.file, where));
+            if (decoded.size() < view.byte_length)
+                return context.error(Issue::gltf_bounds, where,
+                                     fmt::format("{} bytes were compressed, but byteLength is {}",
+                                                 decoded.size(), view.byte_length));
+            result.owned_.emplace_back(std::move(decoded));
+            bytes = result.owned_.back().bytes().first(view.byte_length);
+        }
+        else
+        {
+            const auto part = checkedPart(buffers[view.buffer], view.byte_offset, view.byte_length);
+            HEARTH_ASSERT(part.has_value());
+            bytes = *part;
+        }
+        result.views_.push_back(bytes);
+    }
+    return result;
+}
+
+void GltfBuffers::forget() const
+{
+    source_->forget();
+    for (const FileBytes& file : owned_)
+        file.forget();
+}
+
+Status GltfBuffers::unchanged() const
+{
+    for (const FileBytes& file : owned_)
+        HEARTH_TRY(file.unchanged());
+    return success();
+}
+
+} // namespace hearth::import

@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "pipelines/import/gltf/document/json.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace hearth::import
+{
+
+using formats::kNone;
+
+namespace
+{
+
+// the largest double below which every integer is exact
+constexpr double kMaxExactInteger = 9007199254740992.0;
+
+} // namespace
+
+void GltfProblems::fail(Issue issue, const Json& at, std::string detail)
+{
+    if (!error_)
+        error_ = Error{issue, file_, at.pointer(), std::move(detail)};
+}
+
+void GltfProblems::warn(Issue issue, const Json& at, std::string detail)
+{
+    part_->warn(issue, at.pointer(), std::move(detail));
+}
+
+GltfObject::GltfObject(const Json& json, GltfProblems& problems) : json_(json), problems_(&problems)
+{
+    if (!json.isObject())
+        wrongType(json, "an object");
+}
+
+void GltfObject::wrongType(const Json& value, std::string_view wanted) const
+{
+    problems_->fail(Issue::gltf_structure, value,
+                    fmt::format("must be {}, but is {}", wanted, jsonTypeName(value.type())));
+}
+
+std::optional<Json> GltfObject::findNeeded(std::string_view name, Need need) const
+{
+    const std::optional<Json> value = find(name);
+    if (!value && need == Need::required)
+        problems_->fail(Issue::gltf_structure, json_, fmt::format("property \"{}\" is missing", name));
+    return value;
+}
+
+std::optional<Json> GltfObject::findArray(std::string_view name, Need need) const
+{
+    const std::optional<Json> value = findNeeded(name, need);
+    if (!value || value->isArray())
+        return value;
+    wrongType(*value, "an array");
+    return std::nullopt;
+}
+
+std::optional<double> GltfObject::readInteger(const Json& value) const
+{
+    if (!value.isNumber())
+    {
+        wrongType(value, "an integer");
+        return std::nullopt;
+    }
+    const double number = value.number();
+    if (number != std::floor(number))
+    {
+        problems_->fail(Issue::gltf_structure, value, fmt::format("must be an integer, but is {}", number));
+        return std::nullopt;
+    }
+    return number;
+}
+
+uint32_t GltfObject::readIndex(const Json& value, size_t size) const
+{
+    const std::optional<double> number = readInteger(value);
+    if (!number)
+        return kNone;
+    if (*number < 0 || *number >= static_cast<double>(size))
+    {
+        problems_->fail(Issue::gltf_reference, value, fmt::format("index {} of {}", *number, size));
+        return kNone;
+    }
+    return static_cast<uint32_t>(*number);
+}
+
+uint32_t GltfObject::index(std::string_view name, size_t size, Need need) const
+{
+    const std::optional<Json> value = findNeeded(name, need);
+    return value ? readIndex(*value, size) : kNone;
+}
+
+std::vector<uint32_t> GltfObject::indices(std::string_view name, size_t size, Need need) const
+{
+    std::vector<uint32_t> values;
+    if (const std::optional<Json> array = findArray(name, need))
+    {
+        values.reserve(array->size());
+        for (size_t i = 0; i < array->size(); ++i)
+            values.push_back(readIndex((*array)[i], size));
+    }
+    return values;
+}
+
+uint64_t GltfObject::integer(std::string_view name, IntegerRange range,
+                             std::optional<uint64_t> fallback) const
+{
+    const uint64_t harmless = fallback.value_or(range.min);
+    const std::optional<Json> value = findNeeded(name, fallback ? Need::optional : Need::required);
+    const std::optional<double> number = value ? readInteger(*value) : std::nullopt;
+    if (!number)
+        return harmless;
+    const double max = std::min(static_cast<double>(range.max), kMaxExactInteger);
+    if (*number < static_cast<double>(range.min) || *number > max)
+    {
+        problems_->fail(Issue::gltf_value, *value,
+                        fmt::format("must be in {} to {}, but is {}", range.min, max, *number));
+        return harmless;
+    }
+    return static_cast<uint64_t>(*number);
+}
+
+float GltfObject::readNumber(const Json& value) const
+{
+    if (!value.isNumber())
+    {
+        wrongType(value, "a number");
+        return 0;
+    }
+    const double number = value.number();
+    if (!(std::abs(number) <= static_cast<double>(std::numeric_limits<float>::max())))
+    {
+        problems_->fail(Issue::gltf_value, value, fmt::format("{} is too large for a 32-bit number", number));
+        return 0;
+    }
+    return static_cast<float>(number);
+}
+
+float GltfObject::number(std::string_view name, std::optional<float> fallback) const
+{
+    const std::optional<Json> value = findNeeded(name, fallback ? Need::optional : Need::required);
+    return value ? readNumber(*value) : fallback.value_or(0.0f);
+}
+
+float GltfObject::factor(std::string_view name, float fallback, float min, float max) const
+{
+    const std::optional<Json> value = find(name);
+    if (!value)
+        return fallback;
+    const float read = readNumber(*value);
+    const float inside = std::clamp(read, min, max);
+    if (inside != read)
+        problems_->warn(Issue::repaired, *value,
+                        fmt::format("{} is outside {} to {}: {} is used", read, min, max, inside));
+    return inside;
+}
+
+void GltfObject::readNumbers(std::string_view name, std::span<float> values) const
+{
+    const std::optional<Json> array = findArray(name, Need::optional);
+    if (!array)
+        return;
+    if (array->size() != values.size())
+    {
+        problems_->fail(Issue::gltf_structure, *array,
+                        fmt::format("must have {} numbers, but has {}", values.size(), array->size()));
+        return;
+    }
+    for (size_t i = 0; i < values.size(); ++i)
+        values[i] = readNumber((*array)[i]);
+}
+
+std::vector<float> GltfObject::numberList(std::string_view name) const
+{
+    std::vector<float> values;
+    if (const std::optional<Json> array = findArray(name, Need::optional))
+        for (size_t i = 0; i < array->size(); ++i)
+            values.push_back(readNumber((*array)[i]));
+    return values;
+}
+
+bool GltfObject::boolean(std::string_view name, bool fallback) const
+{
+    const std::optional<Json> value = find(name);
+    if (!value)
+        return fallback;
+    if (value->type() != JsonType::boolean)
+    {
+        wrongType(*value, "a boolean");
+        return fallback;
+    }
+    return value->boolean();
+}
+
+std::string GltfObject::text(std::string_view name, Need need) const
+{
+    const std::optional<Json> value = findNeeded(name, need);
+    if (!value)
+        return {};
+    if (!value->isString())
+    {
+        wrongType(*value, "a string");
+        return {};
+    }
+    return std::string(value->string());
+}
+
+uint32_t GltfObject::choice(std::string_view name, std::span<const Choice> choices,
+                            std::optional<uint32_t> fallback) const
+{
+    const uint32_t harmless = fallback.value_or(choices.front().value);
+    const std::optional<Json> value = findNeeded(name, fallback ? Need::optional : Need::required);
+    if (!value)
+        return harmless;
+    if (!value->isString())
+    {
+        wrongType(*value, "a string");
+        return harmless;
+    }
+    for (const Choice& choice : choices)
+        if (choice.name == value->string())
+            return choice.value;
+    problems_->fail(Issue::gltf_value, *value, fmt::format("\"{}\" is not known here", value->string()));
+    return harmless;
+}
+
+std::optional<GltfObject> GltfObject::object(std::string_view name, Need need) const
+{
+    const std::optional<Json> value = findNeeded(name, need);
+    if (!value)
+        return std::nullopt;
+    return GltfObject(*value, *problems_);
+}
+
+std::vector<GltfObject> GltfObject::objects(std::string_view name, Need need) const
+{
+    std::vector<GltfObject> values;
+    if (const std::optional<Json> array = findArray(name, need))
+    {
+        values.reserve(array->size());
+        for (size_t i = 0; i < array->size(); ++i)
+            values.emplace_back((*array)[i], *problems_);
+    }
+    return values;
+}
+
+std::optional<GltfObject> GltfObject::extension(std::string_view name) const
+{
+    const std::optional<GltfObject> extensions = object("extensions");
+    return extensions ? extensions->object(name) : std::nullopt;
+}
+
+} // namespace hearth::import

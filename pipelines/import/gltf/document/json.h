@@ -1,0 +1,126 @@
+// Strict, typed access to the JSON of a glTF file: every property is checked where it is read.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "formats/records/container.h"
+#include "pipelines/import/gltf/document/json_document.h"
+#include "pipelines/import/part/part_builder.h"
+
+#include <array>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace hearth::import
+{
+
+/// Remembers the first error of a document. Readers of properties go on after it with harmless values and test
+/// once at the end, which keeps them as plain as the tables of the specification.
+class GltfProblems
+{
+public:
+    GltfProblems(std::string file, PartBuilder& part) : file_(std::move(file)), part_(&part) {}
+
+    void fail(Issue issue, const Json& at, std::string detail);
+    void warn(Issue issue, const Json& at, std::string detail);
+
+    bool ok() const { return !error_.has_value(); }
+    Status status() const { return ok() ? success() : Status(*error_); }
+    const std::string& file() const { return file_; }
+
+private:
+    std::string file_;
+    PartBuilder* part_;
+    std::optional<Error> error_;
+};
+
+enum class Need
+{
+    optional,
+    required,
+};
+
+/// Closed range of integers that a property may have.
+struct IntegerRange
+{
+    uint64_t min = 0;
+    uint64_t max = UINT64_MAX;
+};
+
+struct Choice
+{
+    std::string_view name;
+    uint32_t value;
+};
+
+/// A JSON object of the document. Absent optional properties read as their default; wrong ones are remembered as
+/// errors and read as their default too.
+class GltfObject
+{
+public:
+    /// errors: gltf_structure where `json` is not an object.
+    GltfObject(const Json& json, GltfProblems& problems);
+
+    const Json& json() const { return json_; }
+    GltfProblems& problems() const { return *problems_; }
+
+    bool has(std::string_view name) const { return find(name).has_value(); }
+
+    /// An integer below `size` ("24.0" is one, "0.5", "\"24\"", null and -1 are not), or kNone where it is absent.
+    /// errors: gltf_structure, gltf_reference.
+    uint32_t index(std::string_view name, size_t size, Need need = Need::optional) const;
+
+    /// The elements of an array of such integers.
+    std::vector<uint32_t> indices(std::string_view name, size_t size, Need need = Need::optional) const;
+
+    /// errors: gltf_structure, gltf_value outside the range.
+    uint64_t integer(std::string_view name, IntegerRange range, std::optional<uint64_t> fallback) const;
+
+    /// A number that a float can hold. Without a fallback it must be there.
+    float number(std::string_view name, std::optional<float> fallback) const;
+
+    /// A number in [min, max]; one outside is moved inside with a warning, as exporters are careless with factors.
+    float factor(std::string_view name, float fallback, float min, float max) const;
+
+    template <size_t N>
+    std::array<float, N> numbers(std::string_view name, const std::array<float, N>& fallback) const
+    {
+        std::array<float, N> values = fallback;
+        readNumbers(name, values);
+        return values;
+    }
+
+    /// An array of numbers of any length; empty where it is absent.
+    std::vector<float> numberList(std::string_view name) const;
+
+    bool boolean(std::string_view name, bool fallback) const;
+    std::string text(std::string_view name, Need need = Need::optional) const;
+
+    /// A string that is one of `choices`, as its value. errors: gltf_value where it is another.
+    uint32_t choice(std::string_view name, std::span<const Choice> choices,
+                    std::optional<uint32_t> fallback) const;
+
+    std::optional<GltfObject> object(std::string_view name, Need need = Need::optional) const;
+
+    /// The elements of an array, each an object.
+    std::vector<GltfObject> objects(std::string_view name, Need need = Need::optional) const;
+
+    /// Object `name` of this object's "extensions".
+    std::optional<GltfObject> extension(std::string_view name) const;
+
+private:
+    std::optional<Json> find(std::string_view name) const { return json_.find(name); }
+    std::optional<Json> findNeeded(std::string_view name, Need need) const;
+    std::optional<Json> findArray(std::string_view name, Need need) const;
+    std::optional<double> readInteger(const Json& value) const;
+    uint32_t readIndex(const Json& value, size_t size) const;
+    float readNumber(const Json& value) const;
+    void readNumbers(std::string_view name, std::span<float> values) const;
+    void wrongType(const Json& value, std::string_view wanted) const;
+
+    Json json_;
+    GltfProblems* problems_;
+};
+
+} // namespace hearth::import

@@ -1,0 +1,230 @@
+// Images, textures, samplers and materials.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "pipelines/import/gltf/document/model_parts.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+
+namespace hearth::import
+{
+
+using formats::kNone;
+
+namespace
+{
+
+constexpr float kLargest = std::numeric_limits<float>::max();
+
+constexpr Choice kAlphaModes[] = {
+    {"OPAQUE", static_cast<uint32_t>(formats::AlphaMode::opaque)},
+    {"MASK", static_cast<uint32_t>(formats::AlphaMode::mask)},
+    {"BLEND", static_cast<uint32_t>(formats::AlphaMode::blend)},
+};
+
+struct Sampler
+{
+    formats::Wrap wrap_u = formats::Wrap::repeat;
+    formats::Wrap wrap_v = formats::Wrap::repeat;
+    bool nearest = false;
+};
+
+formats::Wrap readWrap(const GltfObject& object, std::string_view name)
+{
+    // OpenGL's numbers
+    switch (const uint64_t value = object.integer(name, {}, 10497))
+    {
+    case 10497:
+        return formats::Wrap::repeat;
+    case 33648:
+        return formats::Wrap::mirrored_repeat;
+    case 33071:
+        return formats::Wrap::clamp_to_edge;
+    default:
+        object.problems().fail(Issue::gltf_value, object.json(),
+                               fmt::format("{} {} is not known", name, value));
+        return formats::Wrap::repeat;
+    }
+}
+
+Sampler readSampler(const GltfObject& object)
+{
+    constexpr uint64_t kNearest = 9728;
+    constexpr uint64_t kLinear = 9729;
+    Sampler sampler;
+    sampler.wrap_u = readWrap(object, "wrapS");
+    sampler.wrap_v = readWrap(object, "wrapT");
+    sampler.nearest = object.integer("magFilter", {kNearest, kLinear}, kLinear) == kNearest;
+    // only checked: how a minified texture is filtered is the runtime's choice
+    (void)object.integer("minFilter", {kNearest, 9987}, kLinear);
+    return sampler;
+}
+
+/// The image of a texture: its own, or that of an extension where it has none that every reader can show.
+uint32_t readTextureImage(const GltfObject& object, const GltfModel& model)
+{
+    const uint32_t plain = object.index("source", model.images.size());
+    uint32_t extended = kNone;
+    for (const char* name : {"EXT_texture_webp", "KHR_texture_basisu"})
+        if (const auto extension = object.extension(name))
+        {
+            const uint32_t source = extension->index("source", model.images.size());
+            extended = extended == kNone ? source : extended;
+        }
+    return plain != kNone ? plain : extended;
+}
+
+/// KHR_texture_transform: translation * rotation * scale, applied to (u, v, 1).
+std::array<float, 6> readUvTransform(const GltfObject& object)
+{
+    const auto offset = object.numbers<2>("offset", {0, 0});
+    const auto scale = object.numbers<2>("scale", {1, 1});
+    const float rotation = object.number("rotation", 0.0f);
+    const float c = std::cos(rotation);
+    const float s = std::sin(rotation);
+    // the extension turns clockwise in UV space: its matrix is [[c s] [-s c]]
+    return {c * scale[0], s * scale[1], offset[0], -s * scale[0], c * scale[1], offset[1]};
+}
+
+GltfTextureUse readTextureUse(const GltfObject& object, const GltfModel& model)
+{
+    GltfTextureUse use;
+    use.texture = object.index("index", model.textures.size(), Need::required);
+    // a set that no mesh can have reads as the first one that is too many, and is dropped with a warning
+    use.uv_set = static_cast<uint32_t>(std::min<uint64_t>(object.integer("texCoord", {}, 0), UINT32_MAX));
+    if (const auto transform = object.extension("KHR_texture_transform"))
+    {
+        use.uv_transform = readUvTransform(*transform);
+        if (transform->has("texCoord"))
+            use.uv_set =
+                static_cast<uint32_t>(std::min<uint64_t>(transform->integer("texCoord", {}, 0), UINT32_MAX));
+    }
+    return use;
+}
+
+GltfTextureUse readOptionalTexture(const GltfObject& parent, std::string_view name, const GltfModel& model)
+{
+    const std::optional<GltfObject> object = parent.object(name);
+    return object ? readTextureUse(*object, model) : GltfTextureUse{};
+}
+
+template <size_t N>
+std::array<float, N> readColor(const GltfObject& object, std::string_view name,
+                               const std::array<float, N>& fallback)
+{
+    std::array<float, N> color = object.numbers<N>(name, fallback);
+    bool inside = true;
+    for (float& value : color)
+    {
+        inside = inside && value >= 0.0f && value <= 1.0f;
+        value = std::clamp(value, 0.0f, 1.0f);
+    }
+    if (!inside)
+        object.problems().warn(Issue::repaired, object.json(),
+                               fmt::format("{} is not in 0 to 1: it was clamped", name));
+    return color;
+}
+
+void readMetallicRoughness(const GltfObject& object, const GltfModel& model, GltfMaterial& material)
+{
+    material.base_color = readColor<4>(object, "baseColorFactor", {1, 1, 1, 1});
+    material.metallic = object.factor("metallicFactor", 1, 0, 1);
+    material.roughness = object.factor("roughnessFactor", 1, 0, 1);
+    material.base_color_texture = readOptionalTexture(object, "baseColorTexture", model);
+    material.metallic_roughness_texture = readOptionalTexture(object, "metallicRoughnessTexture", model);
+}
+
+GltfSpecularGlossiness readSpecularGlossiness(const GltfObject& object, const GltfModel& model)
+{
+    GltfSpecularGlossiness result;
+    result.diffuse = readColor<4>(object, "diffuseFactor", {1, 1, 1, 1});
+    result.specular = readColor<3>(object, "specularFactor", {1, 1, 1});
+    result.glossiness = object.factor("glossinessFactor", 1, 0, 1);
+    result.diffuse_texture = readOptionalTexture(object, "diffuseTexture", model);
+    result.specular_glossiness_texture = readOptionalTexture(object, "specularGlossinessTexture", model);
+    return result;
+}
+
+void readSurfaceTextures(const GltfObject& object, const GltfModel& model, GltfMaterial& material)
+{
+    if (const auto normal = object.object("normalTexture"))
+    {
+        material.normal_texture = readTextureUse(*normal, model);
+        material.normal_scale = normal->number("scale", 1.0f);
+    }
+    if (const auto occlusion = object.object("occlusionTexture"))
+    {
+        material.occlusion_texture = readTextureUse(*occlusion, model);
+        material.occlusion_strength = occlusion->factor("strength", 1, 0, 1);
+    }
+    material.emissive_texture = readOptionalTexture(object, "emissiveTexture", model);
+}
+
+GltfMaterial readMaterial(const GltfObject& object, const GltfModel& model)
+{
+    GltfMaterial material;
+    material.name = object.text("name");
+    if (const auto pbr = object.object("pbrMetallicRoughness"))
+        readMetallicRoughness(*pbr, model, material);
+    readSurfaceTextures(object, model, material);
+    material.emissive = object.numbers<3>("emissiveFactor", {0, 0, 0});
+    material.alpha_mode = static_cast<formats::AlphaMode>(
+        object.choice("alphaMode", kAlphaModes, static_cast<uint32_t>(formats::AlphaMode::opaque)));
+    material.alpha_cutoff = object.factor("alphaCutoff", 0.5f, 0, kLargest);
+    material.double_sided = object.boolean("doubleSided", false);
+    material.unlit = object.extension("KHR_materials_unlit").has_value();
+    if (const auto strength = object.extension("KHR_materials_emissive_strength"))
+        material.emissive_strength = strength->factor("emissiveStrength", 1, 0, kLargest);
+    if (const auto specular_glossiness = object.extension("KHR_materials_pbrSpecularGlossiness"))
+        material.specular_glossiness = readSpecularGlossiness(*specular_glossiness, model);
+    return material;
+}
+
+} // namespace
+
+void readImages(const GltfObject& root, GltfModel& model)
+{
+    for (const GltfObject& object : root.objects("images"))
+    {
+        GltfImage image;
+        image.name = object.text("name");
+        if (object.has("uri"))
+            image.uri = object.text("uri");
+        image.buffer_view = object.index("bufferView", model.buffer_views.size());
+        model.images.push_back(std::move(image));
+    }
+}
+
+void readTextures(const GltfObject& root, GltfModel& model)
+{
+    std::vector<Sampler> samplers;
+    for (const GltfObject& object : root.objects("samplers"))
+        samplers.push_back(readSampler(object));
+    for (const GltfObject& object : root.objects("textures"))
+    {
+        GltfTexture texture;
+        texture.image = readTextureImage(object, model);
+        const uint32_t sampler = object.index("sampler", samplers.size());
+        if (sampler != kNone)
+        {
+            texture.wrap_u = samplers[sampler].wrap_u;
+            texture.wrap_v = samplers[sampler].wrap_v;
+            texture.nearest = samplers[sampler].nearest;
+        }
+        model.textures.push_back(texture);
+    }
+}
+
+void readMaterials(const GltfObject& root, GltfModel& model)
+{
+    for (const GltfObject& object : root.objects("materials"))
+    {
+        model.materials.push_back(readMaterial(object, model));
+        if (object.extension("MSFT_lod"))
+            object.problems().warn(Issue::dropped, object.json(),
+                                   "levels of detail of materials (MSFT_lod) are not kept");
+    }
+}
+
+} // namespace hearth::import

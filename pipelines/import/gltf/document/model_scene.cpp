@@ -1,0 +1,266 @@
+// Nodes, scenes, cameras and punctual lights.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "pipelines/import/gltf/document/model_parts.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace hearth::import
+{
+
+using formats::kNone;
+
+namespace
+{
+
+constexpr float kLargest = std::numeric_limits<float>::max();
+constexpr float kSmallest = std::numeric_limits<float>::min();
+constexpr float kPi = std::numbers::pi_v<float>;
+
+constexpr Choice kCameraTypes[] = {
+    {"perspective", static_cast<uint32_t>(formats::CameraType::perspective)},
+    {"orthographic", static_cast<uint32_t>(formats::CameraType::orthographic)},
+};
+constexpr Choice kLightTypes[] = {
+    {"directional", static_cast<uint32_t>(formats::LightType::directional)},
+    {"point", static_cast<uint32_t>(formats::LightType::point)},
+    {"spot", static_cast<uint32_t>(formats::LightType::spot)},
+};
+
+void readPerspective(const GltfObject& object, GltfCamera& camera)
+{
+    // one tenth of a degree to almost a half turn: beyond that no picture can be made
+    camera.y_fov_rad = object.factor("yfov", 1, 0.0017f, kPi - 0.0017f);
+    camera.aspect = object.factor("aspectRatio", 0, 0, kLargest);
+    camera.z_near = object.factor("znear", 0.01f, kSmallest, kLargest);
+    camera.z_far = object.factor("zfar", 0, 0, kLargest);
+}
+
+void readOrthographic(const GltfObject& object, GltfCamera& camera)
+{
+    camera.x_magnification = object.number("xmag", std::nullopt);
+    camera.y_magnification = object.number("ymag", std::nullopt);
+    camera.z_near = object.factor("znear", 0, 0, kLargest);
+    camera.z_far = object.factor("zfar", 1, kSmallest, kLargest);
+    if (camera.x_magnification == 0 || camera.y_magnification == 0)
+        object.problems().fail(Issue::gltf_value, object.json(), "a magnification is 0");
+}
+
+/// The rotation with length 1; exporters that round to a few digits are not worth a message.
+std::array<float, 4> unitRotation(const GltfObject& object, const std::array<float, 4>& rotation)
+{
+    constexpr double kRounding = 1e-3;
+    double square = 0;
+    for (const float value : rotation)
+        square += static_cast<double>(value) * static_cast<double>(value);
+    const double length = std::sqrt(square);
+    if (std::abs(length - 1.0) > kRounding)
+        object.problems().warn(Issue::repaired, object.json(),
+                               fmt::format("the rotation has length {:.6g} instead of 1", length));
+    if (length == 0.0)
+        return {0, 0, 0, 1};
+    std::array<float, 4> unit;
+    for (size_t i = 0; i < 4; ++i)
+        unit[i] = static_cast<float>(static_cast<double>(rotation[i]) / length);
+    return unit;
+}
+
+void readMatrix(const GltfObject& object, GltfNode& node)
+{
+    constexpr float kTolerance = 1e-4f;
+    node.has_trs = false;
+    const auto matrix = object.numbers<16>("matrix", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1});
+    const auto differs = [&](size_t i, float wanted) { return std::abs(matrix[i] - wanted) > kTolerance; };
+    if (differs(3, 0) || differs(7, 0) || differs(11, 0) || differs(15, 1))
+        object.problems().fail(Issue::gltf_value, object.json(), "the last row of the matrix is not 0 0 0 1");
+    node.parent_from_node = transformFromColumns(matrix);
+}
+
+void readTransform(const GltfObject& object, GltfNode& node)
+{
+    if (object.has("matrix"))
+        return readMatrix(object, node);
+    node.translation = object.numbers<3>("translation", {0, 0, 0});
+    node.rotation = unitRotation(object, object.numbers<4>("rotation", {0, 0, 0, 1}));
+    node.scale = object.numbers<3>("scale", {1, 1, 1});
+    node.parent_from_node = transformFromTrs(node.translation, node.rotation, node.scale);
+}
+
+/// The nodes that are levels of detail; numbers that name none are left out.
+std::vector<uint32_t> readLods(const GltfObject& lod, size_t node_count)
+{
+    std::vector<uint32_t> nodes;
+    for (const float id : lod.numberList("ids"))
+    {
+        if (id >= 0 && static_cast<double>(id) < static_cast<double>(node_count) && std::floor(id) == id)
+            nodes.push_back(static_cast<uint32_t>(id));
+        else
+            lod.problems().warn(Issue::dropped, lod.json(),
+                                fmt::format("level of detail {:g} is no node: it is not kept", id));
+    }
+    return nodes;
+}
+
+void readNodeExtensions(const GltfObject& object, const GltfModel& model, size_t node_count, GltfNode& node)
+{
+    if (const auto lod = object.extension("MSFT_lod"))
+        node.lods = readLods(*lod, node_count);
+    if (const auto light = object.extension("KHR_lights_punctual"))
+        node.light = light->index("light", model.lights.size(), Need::required);
+    if (const auto instancing = object.extension("EXT_mesh_gpu_instancing"))
+    {
+        node.has_instancing = true;
+        if (const auto attributes = instancing->object("attributes"))
+            node.instancing = readAttributes(*attributes, model.accessors.size());
+    }
+}
+
+/// A node that stands for a shadow sphere, told by its custom properties (Blender writes them to extras).
+void readShadowSphere(const GltfObject& object, GltfNode& node)
+{
+    const std::optional<Json> json = object.json().find("extras");
+    if (!json || !json->isObject()) // anything may stand there
+        return;
+    const GltfObject extras(*json, object.problems());
+    if (!extras.has("hearth_shadow_radius"))
+        return;
+    GltfShadowSphere sphere;
+    sphere.radius = extras.number("hearth_shadow_radius", std::nullopt);
+    if (!(sphere.radius > 0))
+        extras.problems().fail(Issue::gltf_value, extras.json(), "hearth_shadow_radius must be above 0");
+    sphere.light = extras.text("hearth_shadow_light");
+    const uint64_t texels = extras.integer("hearth_shadow_texels", {}, 0);
+    if (texels != 0 && !formats::isShadowMapSize(texels))
+        extras.problems().fail(
+            Issue::gltf_value, extras.json(),
+            fmt::format("hearth_shadow_texels is {}, but must be a power of two from {} to {}", texels,
+                        formats::kMinShadowTexels, formats::kMaxShadowTexels));
+    sphere.texels = static_cast<uint32_t>(texels);
+    node.shadow_sphere = std::move(sphere);
+}
+
+/// Give every node its parent. errors: gltf_hierarchy where a node would have two.
+void linkParents(const std::vector<GltfObject>& objects, GltfModel& model)
+{
+    for (uint32_t parent = 0; parent < model.nodes.size(); ++parent)
+        for (const uint32_t child : model.nodes[parent].children)
+        {
+            if (child == kNone)
+                continue;
+            if (model.nodes[child].parent != kNone)
+                objects[parent].problems().fail(
+                    Issue::gltf_hierarchy, objects[parent].json(),
+                    fmt::format("node {} is also a child of node {}", child, model.nodes[child].parent));
+            model.nodes[child].parent = parent;
+        }
+}
+
+/// With one parent each, nodes that no root leads to go round in a circle.
+void checkForCycles(const std::vector<GltfObject>& objects, GltfModel& model)
+{
+    std::vector<bool> reached(model.nodes.size());
+    std::vector<uint32_t> open;
+    for (uint32_t node = 0; node < model.nodes.size(); ++node)
+        if (model.nodes[node].parent == kNone)
+            open.push_back(node);
+    while (!open.empty())
+    {
+        const uint32_t node = open.back();
+        open.pop_back();
+        reached[node] = true;
+        open.insert(open.end(), model.nodes[node].children.begin(), model.nodes[node].children.end());
+    }
+    for (uint32_t node = 0; node < model.nodes.size(); ++node)
+        if (!reached[node])
+            return objects[node].problems().fail(Issue::gltf_hierarchy, objects[node].json(),
+                                                 "the node is its own ancestor");
+}
+
+} // namespace
+
+void readCameras(const GltfObject& root, GltfModel& model)
+{
+    for (const GltfObject& object : root.objects("cameras"))
+    {
+        GltfCamera camera;
+        camera.name = object.text("name");
+        camera.type = static_cast<formats::CameraType>(object.choice("type", kCameraTypes, std::nullopt));
+        if (camera.type == formats::CameraType::perspective)
+        {
+            if (const auto perspective = object.object("perspective", Need::required))
+                readPerspective(*perspective, camera);
+        }
+        else if (const auto orthographic = object.object("orthographic", Need::required))
+            readOrthographic(*orthographic, camera);
+        if (camera.z_far != 0 && camera.z_far <= camera.z_near)
+        {
+            object.problems().warn(Issue::repaired, object.json(),
+                                   "zfar is not beyond znear: it is left out");
+            camera.z_far = 0;
+        }
+        model.cameras.push_back(std::move(camera));
+    }
+}
+
+void readLights(const GltfObject& root, GltfModel& model)
+{
+    const auto extension = root.extension("KHR_lights_punctual");
+    if (!extension)
+        return;
+    for (const GltfObject& object : extension->objects("lights", Need::required))
+    {
+        GltfLight light;
+        light.name = object.text("name");
+        light.type = static_cast<formats::LightType>(object.choice("type", kLightTypes, std::nullopt));
+        light.color = object.numbers<3>("color", {1, 1, 1});
+        light.intensity = object.factor("intensity", 1, 0, kLargest);
+        light.range = object.factor("range", 0, 0, kLargest);
+        if (light.type == formats::LightType::spot)
+        {
+            light.outer_cone_rad = kPi / 4;
+            if (const auto spot = object.object("spot"))
+            {
+                light.outer_cone_rad = spot->factor("outerConeAngle", kPi / 4, 0, kPi / 2);
+                light.inner_cone_rad = spot->factor("innerConeAngle", 0, 0, light.outer_cone_rad);
+            }
+        }
+        model.lights.push_back(std::move(light));
+    }
+}
+
+void readNodes(const GltfObject& root, size_t skin_count, GltfModel& model)
+{
+    const std::vector<GltfObject> objects = root.objects("nodes");
+    for (const GltfObject& object : objects)
+    {
+        GltfNode node;
+        node.name = object.text("name");
+        node.children = object.indices("children", objects.size());
+        node.mesh = object.index("mesh", model.meshes.size());
+        node.skin = object.index("skin", skin_count);
+        node.camera = object.index("camera", model.cameras.size());
+        node.weights = object.numberList("weights");
+        readTransform(object, node);
+        readNodeExtensions(object, model, objects.size(), node);
+        readShadowSphere(object, node);
+        model.nodes.push_back(std::move(node));
+    }
+    // a bad child index has been reported, and would lead outside the array
+    if (!root.problems().ok())
+        return;
+    linkParents(objects, model);
+    if (root.problems().ok())
+        checkForCycles(objects, model);
+}
+
+void readScenes(const GltfObject& root, GltfModel& model)
+{
+    for (const GltfObject& object : root.objects("scenes"))
+        model.scenes.push_back({object.text("name"), object.indices("nodes", model.nodes.size())});
+    model.scene = root.index("scene", model.scenes.size());
+}
+
+} // namespace hearth::import

@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "pipelines/import/gltf/materials.h"
+
+#include "pipelines/import/gltf/images.h"
+#include "pipelines/import/gltf/specular_glossiness.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace hearth::import
+{
+
+using namespace formats;
+
+namespace
+{
+
+constexpr TextureRef kNoTexture{kNone, 0, 0, 0, 0, {1, 0, 0, 0, 1, 0}};
+
+class MaterialWriter
+{
+public:
+    MaterialWriter(const GltfModel& model, const GltfBuffers& buffers, const GltfContext& context)
+        : model_(model), context_(context), images_(model, buffers, context)
+    {
+    }
+
+    Status writeAll();
+
+private:
+    void noteAlphaCutoffs();
+    Result<MaterialRecord> convert(const GltfMaterial& material);
+    Status convertSpecularGlossinessOf(const GltfMaterial& material, MaterialRecord& record);
+    Status convertTextures(const GltfMaterial& material, MaterialRecord& record);
+    Result<TextureRef> reference(const GltfTextureUse& use, ImagePurpose purpose, std::string_view name);
+    TextureRef referenceTo(uint32_t part_image, const GltfTextureUse& use) const;
+    uint32_t imageOf(const GltfTextureUse& use) const
+    {
+        return use.texture == kNone ? kNone : model_.textures[use.texture].image;
+    }
+
+    const GltfModel& model_;
+    const GltfContext& context_;
+    GltfImages images_;
+    // the material that is being written
+    std::string where_;
+    std::string called_; ///< for people: "material \"oak\""
+};
+
+/// The threshold for the texture's own alpha, which the shader multiplies with the factor's.
+float textureCutoff(float cutoff, float alpha_factor)
+{
+    return cutoff / std::max(alpha_factor, 1e-3f);
+}
+
+/// Before any image is written, because a material further down may test an image of one further up.
+void MaterialWriter::noteAlphaCutoffs()
+{
+    for (const GltfMaterial& material : model_.materials)
+    {
+        const auto& converted = material.specular_glossiness;
+        const uint32_t image = imageOf(converted ? converted->diffuse_texture : material.base_color_texture);
+        const float alpha_factor = converted ? converted->diffuse[3] : material.base_color[3];
+        if (material.alpha_mode == AlphaMode::mask && image != kNone)
+            images_.setAlphaCutoff(image, textureCutoff(material.alpha_cutoff, alpha_factor));
+    }
+}
+
+TextureRef MaterialWriter::referenceTo(uint32_t part_image, const GltfTextureUse& use) const
+{
+    const GltfTexture& texture = model_.textures[use.texture];
+    TextureRef reference = kNoTexture;
+    reference.image = part_image;
+    reference.uv_set = static_cast<uint8_t>(use.uv_set);
+    reference.wrap_u = static_cast<uint8_t>(texture.wrap_u);
+    reference.wrap_v = static_cast<uint8_t>(texture.wrap_v);
+    reference.nearest = texture.nearest ? 1 : 0;
+    std::copy(use.uv_transform.begin(), use.uv_transform.end(), reference.uv_transform);
+    return reference;
+}
+
+Result<TextureRef> MaterialWriter::reference(const GltfTextureUse& use, ImagePurpose purpose,
+                                             std::string_view name)
+{
+    if (use.texture == kNone)
+        return kNoTexture;
+    if (use.uv_set >= mesh::kUvSetCount)
+    {
+        context_.part.warn(Issue::dropped, where_,
+                           fmt::format("{} is not kept: there is no UV set {}", name, use.uv_set));
+        return kNoTexture;
+    }
+    HEARTH_ASSIGN_OR_RETURN(
+        const uint32_t image,
+        images_.write(imageOf(use), purpose, fmt::format("/textures/{}", use.texture), called_));
+    return referenceTo(image, use);
+}
+
+/// The factors alone where there is no texture, or where the two textures lie differently on the surface.
+Status MaterialWriter::convertSpecularGlossinessOf(const GltfMaterial& material, MaterialRecord& record)
+{
+    const GltfSpecularGlossiness& source = *material.specular_glossiness;
+    const GltfTextureUse& diffuse = source.diffuse_texture;
+    const GltfTextureUse& specular = source.specular_glossiness_texture;
+    context_.part.warn(Issue::degraded, where_, "specular-glossiness was converted to metallic-roughness");
+
+    const bool same_place = diffuse.texture == kNone || (diffuse.uv_set == specular.uv_set &&
+                                                         diffuse.uv_transform == specular.uv_transform);
+    if (specular.texture != kNone && specular.uv_set < mesh::kUvSetCount && same_place)
+    {
+        const auto decoded = [&](const GltfTextureUse& use)
+        {
+            const auto texels =
+                use.texture == kNone
+                    ? std::nullopt
+                    : images_.decode(imageOf(use), fmt::format("/textures/{}", use.texture), called_);
+            return texels && !texels->is_float ? *texels : DecodedImage{};
+        };
+        const DecodedImage specular_image = decoded(specular);
+        const MetallicRoughnessImages images =
+            convertSpecularGlossiness(source, decoded(diffuse), specular_image);
+        if (!images.base_color.texels.empty())
+        {
+            const auto cutoff =
+                material.alpha_mode == AlphaMode::mask ? std::optional(material.alpha_cutoff) : std::nullopt;
+            HEARTH_ASSIGN_OR_RETURN(const uint32_t base,
+                                    images_.writeMade(images.base_color, ImagePurpose::color,
+                                                      material.name + " base colour", cutoff));
+            HEARTH_ASSIGN_OR_RETURN(const uint32_t surface,
+                                    images_.writeMade(images.metallic_roughness, ImagePurpose::data,
+                                                      material.name + " metallic-roughness", std::nullopt));
+            record.base_color = {1, 1, 1, 1};
+            record.metallic = 1;
+            record.roughness = 1;
+            record.base_color_texture = referenceTo(base, diffuse.texture != kNone ? diffuse : specular);
+            record.metallic_roughness_texture = referenceTo(surface, specular);
+            return success();
+        }
+    }
+    const MetallicRoughness factors =
+        convertSpecularGlossiness({{source.diffuse[0], source.diffuse[1], source.diffuse[2]},
+                                   {source.specular[0], source.specular[1], source.specular[2]},
+                                   source.glossiness});
+    record.base_color = {factors.base_color.x, factors.base_color.y, factors.base_color.z, source.diffuse[3]};
+    record.metallic = factors.metallic;
+    record.roughness = factors.roughness;
+    HEARTH_ASSIGN_OR_RETURN(record.base_color_texture,
+                            reference(diffuse, ImagePurpose::color, "diffuseTexture"));
+    return success();
+}
+
+Status MaterialWriter::convertTextures(const GltfMaterial& material, MaterialRecord& record)
+{
+    if (material.specular_glossiness)
+        HEARTH_TRY(convertSpecularGlossinessOf(material, record));
+    else
+    {
+        HEARTH_ASSIGN_OR_RETURN(
+            record.base_color_texture,
+            reference(material.base_color_texture, ImagePurpose::color, "baseColorTexture"));
+        HEARTH_ASSIGN_OR_RETURN(
+            record.metallic_roughness_texture,
+            reference(material.metallic_roughness_texture, ImagePurpose::data, "metallicRoughnessTexture"));
+    }
+    HEARTH_ASSIGN_OR_RETURN(record.normal_texture,
+                            reference(material.normal_texture, ImagePurpose::normal, "normalTexture"));
+    HEARTH_ASSIGN_OR_RETURN(record.occlusion_texture,
+                            reference(material.occlusion_texture, ImagePurpose::data, "occlusionTexture"));
+    HEARTH_ASSIGN_OR_RETURN(record.emissive_texture,
+                            reference(material.emissive_texture, ImagePurpose::color, "emissiveTexture"));
+    return success();
+}
+
+Result<MaterialRecord> MaterialWriter::convert(const GltfMaterial& material)
+{
+    MaterialRecord record{};
+    record.name = context_.part.intern(material.name);
+    record.flags =
+        (material.double_sided ? kMaterialDoubleSided : 0u) | (material.unlit ? kMaterialUnlit : 0u);
+    record.alpha_mode = static_cast<uint32_t>(material.alpha_mode);
+    record.alpha_cutoff = material.alpha_cutoff;
+    record.base_color = {material.base_color[0], material.base_color[1], material.base_color[2],
+                         material.base_color[3]};
+    // a product of finite numbers that is not finite would poison the picture
+    const auto emitted = [&](size_t i)
+    {
+        return std::clamp(material.emissive[i] * material.emissive_strength, 0.0f,
+                          std::numeric_limits<float>::max());
+    };
+    record.emissive = {emitted(0), emitted(1), emitted(2)};
+    record.metallic = material.metallic;
+    record.roughness = material.roughness;
+    record.normal_scale = material.normal_scale;
+    record.occlusion_strength = material.occlusion_strength;
+    record.base_color_texture = kNoTexture;
+    record.metallic_roughness_texture = kNoTexture;
+    HEARTH_TRY(convertTextures(material, record));
+    return record;
+}
+
+Status MaterialWriter::writeAll()
+{
+    noteAlphaCutoffs();
+    for (size_t i = 0; i < model_.materials.size(); ++i)
+    {
+        where_ = fmt::format("/materials/{}", i);
+        called_ = model_.materials[i].name.empty() ? fmt::format("material {}", i)
+                                                   : fmt::format("material \"{}\"", model_.materials[i].name);
+        HEARTH_ASSIGN_OR_RETURN(const MaterialRecord record, convert(model_.materials[i]));
+        context_.part.materials.push_back(record);
+    }
+    images_.reportUnused();
+    context_.part.counts.materials = model_.materials.size();
+    return success();
+}
+
+} // namespace
+
+Status writeMaterials(const GltfModel& model, const GltfBuffers& buffers, const GltfContext& context)
+{
+    return MaterialWriter(model, buffers, context).writeAll();
+}
+
+} // namespace hearth::import

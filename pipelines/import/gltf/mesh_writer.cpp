@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "pipelines/import/gltf/mesh_writer.h"
+
+#include "pipelines/import/gltf/skinning.h"
+#include "pipelines/import/part/bake_transform.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace hearth::import
+{
+
+using formats::kNone;
+
+namespace
+{
+
+/// Joints and weights of a mesh that no skin moves have nothing to name.
+void dropInfluences(mesh::SourceMesh& mesh)
+{
+    mesh.joint_sets.clear();
+    mesh.weight_sets.clear();
+}
+
+class MeshWriter
+{
+public:
+    MeshWriter(const GltfModel& model, const MeshUses& uses, const GltfLods& lods, GltfMeshReader& reader,
+               std::span<const InverseBinds> inverse_binds, const GltfContext& context)
+        : model_(model),
+          uses_(uses),
+          lods_(lods),
+          reader_(reader),
+          inverse_binds_(inverse_binds),
+          context_(context),
+          world_from_node_(worldTransforms(model)),
+          counted_(model.meshes.size())
+    {
+    }
+
+    Status writeMesh(const MeshUse& use);
+    Status writeLods(const GltfLodChain& chain);
+    std::vector<MeshSummary> summaries() { return std::move(summaries_); }
+
+private:
+    struct Read
+    {
+        mesh::SourceMesh mesh;
+        MeshSummary summary;
+    };
+    Result<Read> read(const MeshUse& use);
+    MeshUse useOf(const GltfLodChain& chain, const GltfLod& lod) const;
+    tools::LodLabel labelOf(const GltfLod& lod) const;
+    std::optional<Transform> objectFromLod(const GltfLodChain& chain, const GltfLod& lod,
+                                           const MeshSummary& summary) const;
+
+    const GltfModel& model_;
+    const MeshUses& uses_;
+    const GltfLods& lods_;
+    GltfMeshReader& reader_;
+    std::span<const InverseBinds> inverse_binds_;
+    const GltfContext& context_;
+    std::vector<Transform> world_from_node_;
+    std::vector<bool> counted_; ///< meshes that are in the counts: a level may be one of several meshes
+    std::vector<MeshSummary> summaries_;
+};
+
+Result<MeshWriter::Read> MeshWriter::read(const MeshUse& use)
+{
+    HEARTH_ASSIGN_OR_RETURN(mesh::SourceMesh mesh, reader_.read(use.mesh));
+    MeshSummary summary{mesh.triangleCount() > 0, {}, SkinState::idle, false, mesh.morph_targets.size()};
+    if (use.skin != kNone)
+    {
+        summary.used_joints = usedJoints(mesh);
+        // a skin with too few joints is the scene's to refuse
+        if (const GltfSkin& skin = model_.skins[use.skin]; summary.used_joints.size() <= skin.joints.size())
+        {
+            const InverseBinds& inverse_binds = inverse_binds_[use.skin];
+            summary.skin = skinState(mesh, summary.used_joints, skin, inverse_binds, world_from_node_);
+            summary.skin_mirrors = skinMirrors(summary.used_joints, skin, inverse_binds, world_from_node_);
+        }
+    }
+    if (summary.skin != SkinState::usable)
+        dropInfluences(mesh);
+    if (!counted_[use.mesh])
+    {
+        counted_[use.mesh] = true;
+        context_.part.counts.triangles += mesh.triangleCount();
+        context_.part.counts.faces += mesh.face_count;
+        context_.part.counts.morph_targets += mesh.morph_targets.size();
+    }
+    return Read{std::move(mesh), std::move(summary)};
+}
+
+Status MeshWriter::writeMesh(const MeshUse& use)
+{
+    if (lods_.lod_only[use.mesh])
+    {
+        mesh::SourceMesh empty;
+        empty.name = model_.meshes[use.mesh].name;
+        summaries_.emplace_back();
+        return context_.part.addMesh(empty);
+    }
+    HEARTH_ASSIGN_OR_RETURN(Read read, this->read(use));
+    summaries_.push_back(std::move(read.summary));
+    return context_.part.addMesh(read.mesh);
+}
+
+/// A level that no node has is moved by the skin of the finer one.
+MeshUse MeshWriter::useOf(const GltfLodChain& chain, const GltfLod& lod) const
+{
+    return {lod.mesh, model_.nodes[lod.node == kNone ? chain.node : lod.node].skin};
+}
+
+/// From the level's vertices to those of its mesh. Where joints move both, they are in the same bind pose.
+std::optional<Transform> MeshWriter::objectFromLod(const GltfLodChain& chain, const GltfLod& lod,
+                                                   const MeshSummary& summary) const
+{
+    if (lod.node == kNone || summary.skin == SkinState::usable)
+        return Transform{};
+    const Transform& world_from_object = lods_.world_from_node[chain.node];
+    const Transform& world_from_lod = lods_.world_from_node[lod.node];
+    if (distance(world_from_object, world_from_lod) == 0)
+        return Transform{};
+    const std::optional<Transform> object_from_world = inverted(world_from_object);
+    return object_from_world ? std::optional(*object_from_world * world_from_lod) : std::nullopt;
+}
+
+/// The name of the node, or of its mesh where that alone has a number, or the node has no name.
+tools::LodLabel MeshWriter::labelOf(const GltfLod& lod) const
+{
+    const std::string& of_mesh = model_.meshes[lod.mesh].name;
+    const std::string& of_node = lod.node == kNone ? of_mesh : model_.nodes[lod.node].name;
+    for (const std::string& name : {of_node, of_mesh})
+        if (const auto parsed = tools::parseLodName(name))
+            return {parsed->level, name};
+    return {std::nullopt, of_node.empty() ? of_mesh : of_node};
+}
+
+Status MeshWriter::writeLods(const GltfLodChain& chain)
+{
+    const uint32_t finest = uses_.of_node[chain.node];
+    const MeshSummary& base = summaries_[finest];
+    if (!base.has_triangles)
+        return success();
+    for (const GltfLod& lod : chain.lods)
+    {
+        const MeshUse use = useOf(chain, lod);
+        HEARTH_ASSIGN_OR_RETURN(Read level, read(use));
+        const std::string where = fmt::format("/meshes/{}", lod.mesh);
+        const auto drop = [&](const char* why)
+        {
+            context_.part.warn(
+                Issue::dropped, where,
+                fmt::format("a level of detail of mesh {} {}: it is not kept", chain.mesh, why));
+        };
+        const std::optional<Transform> object_from_lod = objectFromLod(chain, lod, level.summary);
+        if (!level.summary.has_triangles)
+            drop("has no triangles");
+        else if (level.summary.skin != base.skin ||
+                 (base.skin == SkinState::usable && use.skin != uses_.uses[finest].skin))
+            drop("has not the skin of that");
+        else if (!object_from_lod || !bakeTransform(level.mesh, *object_from_lod))
+            drop("cannot be moved to where that stands");
+        else
+            HEARTH_TRY(context_.part.addLod(finest, level.mesh, labelOf(lod)));
+    }
+    return success();
+}
+
+} // namespace
+
+Result<std::vector<MeshSummary>> writeMeshes(const GltfModel& model, const MeshUses& uses,
+                                             const GltfLods& lods, GltfMeshReader& reader,
+                                             std::span<const InverseBinds> inverse_binds,
+                                             const GltfContext& context)
+{
+    MeshWriter writer(model, uses, lods, reader, inverse_binds, context);
+    for (const MeshUse& use : uses.uses)
+        HEARTH_TRY(writer.writeMesh(use));
+    for (const GltfLodChain& chain : lods.chains)
+        HEARTH_TRY(writer.writeLods(chain));
+    return writer.summaries();
+}
+
+} // namespace hearth::import

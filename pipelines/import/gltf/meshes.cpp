@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "pipelines/import/gltf/meshes.h"
+
+#include "pipelines/import/part/generate_normals.h"
+#include "pipelines/import/part/generate_tangents.h"
+
+#include "pipelines/import/gltf/triangles.h"
+#include "pipelines/import/part/mesh_pieces.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <set>
+
+namespace hearth::import
+{
+
+using formats::kNone;
+
+namespace
+{
+
+// glTF asks for flat normals where there are none: no edge is smooth
+constexpr float kFlat = 0;
+
+// a triangle that all of them move still fits into a geometry page; models of faces have a hundred or two
+constexpr size_t kMostMorphTargets = 1024;
+
+std::string_view modeName(PrimitiveMode mode)
+{
+    return mode == PrimitiveMode::points ? "points" : "lines";
+}
+
+/// A target that moves nothing has its number too, which a part would lose with its last array.
+void keepEmptyTargets(mesh::SourceMesh& mesh)
+{
+    for (mesh::MorphTarget& target : mesh.morph_targets)
+        if (target.positions.empty() && target.normals.empty() && target.tangents.empty())
+            target.positions.resize(mesh.vertexCount());
+}
+
+} // namespace
+
+Result<mesh::SourceMesh> GltfMeshReader::read(uint32_t mesh_index)
+{
+    const GltfMesh& mesh = model_.meshes[mesh_index];
+    // of the mesh before
+    buffers_.forget();
+    piece_of_key_.clear();
+    pieces_.clear();
+    for (size_t i = 0; i < mesh.primitives.size(); ++i)
+    {
+        const GltfPrimitive& primitive = mesh.primitives[i];
+        const std::string where = fmt::format("/meshes/{}/primitives/{}", mesh_index, i);
+        if (primitive.mode < PrimitiveMode::triangles)
+            tally_.dropped(fmt::format("primitive of {} is not kept", modeName(primitive.mode)), where);
+        else if (findAttribute(primitive.attributes, "POSITION") == kNone)
+            tally_.dropped("primitive without POSITION is not kept", where);
+        else
+        {
+            HEARTH_ASSIGN_OR_RETURN(const uint32_t piece, pieceOf(primitive, where));
+            HEARTH_TRY(addTriangles(primitive, where, pieces_[piece]));
+        }
+    }
+
+    std::vector<mesh::SourceMesh> parts;
+    for (Piece& piece : pieces_)
+    {
+        finishPiece(piece);
+        parts.push_back(std::move(piece.vertices.mesh));
+    }
+    mesh::SourceMesh result = mergedPieces(std::move(parts));
+    keepEmptyTargets(result);
+    result.name = mesh.name;
+    result.face_count = static_cast<uint32_t>(result.triangleCount());
+    result.source_vertex_count = static_cast<uint32_t>(sourceVertexCount(mesh));
+    if (result.vertexCount() > context_.options.limits.max_vertices ||
+        result.triangleCount() > context_.options.limits.max_triangles)
+        return context_.error(
+            Issue::input_too_large, fmt::format("/meshes/{}", mesh_index),
+            fmt::format("{} vertices and {} triangles", result.vertexCount(), result.triangleCount()));
+    if (result.morph_targets.size() > kMostMorphTargets)
+        return context_.error(Issue::input_too_large, fmt::format("/meshes/{}", mesh_index),
+                              fmt::format("{} morph targets", result.morph_targets.size()));
+    return result;
+}
+
+uint64_t GltfMeshReader::sourceVertexCount(const GltfMesh& mesh) const
+{
+    std::set<uint32_t> positions;
+    for (const GltfPrimitive& primitive : mesh.primitives)
+        positions.insert(findAttribute(primitive.attributes, "POSITION"));
+    positions.erase(kNone);
+    uint64_t count = 0;
+    for (const uint32_t accessor : positions)
+        count += model_.accessors[accessor].count;
+    return std::min<uint64_t>(count, UINT32_MAX);
+}
+
+Result<uint32_t> GltfMeshReader::pieceOf(const GltfPrimitive& primitive, const std::string& where)
+{
+    const auto next = static_cast<uint32_t>(pieces_.size());
+    const auto [found, added] =
+        piece_of_key_.try_emplace({primitive.attributes, primitive.targets, primitive.draco}, next);
+    if (added)
+    {
+        HEARTH_ASSIGN_OR_RETURN(GltfVertices vertices, readVertices(primitive, where, accessors_, model_,
+                                                                    buffers_, context_, tally_));
+        pieces_.push_back({std::move(vertices), where});
+    }
+    return found->second;
+}
+
+Result<std::vector<uint32_t>> GltfMeshReader::readIndices(const GltfPrimitive& primitive, const Piece& piece)
+{
+    const size_t vertex_count = piece.vertices.mesh.vertexCount();
+    if (piece.vertices.draco_indices)
+        return *piece.vertices.draco_indices;
+    if (primitive.indices == kNone)
+    {
+        std::vector<uint32_t> indices(vertex_count);
+        std::iota(indices.begin(), indices.end(), 0u);
+        return indices;
+    }
+    const GltfAccessor& accessor = accessors_.accessor(primitive.indices);
+    if (accessor.type != ElementType::scalar ||
+        (accessor.component != ComponentType::u8 && accessor.component != ComponentType::u16 &&
+         accessor.component != ComponentType::u32))
+        return accessors_.error(primitive.indices, Issue::gltf_value,
+                                fmt::format("indices cannot be a {}", formatName(accessor)));
+    HEARTH_ASSIGN_OR_RETURN(std::vector<uint32_t> indices, accessors_.integers(primitive.indices));
+    const auto bad =
+        std::find_if(indices.begin(), indices.end(), [&](uint32_t index) { return index >= vertex_count; });
+    if (bad != indices.end())
+        return accessors_.error(primitive.indices, Issue::index_out_of_range,
+                                fmt::format("index {} is {}, but there are {} vertices",
+                                            bad - indices.begin(), *bad, vertex_count));
+    return indices;
+}
+
+Status GltfMeshReader::addTriangles(const GltfPrimitive& primitive, const std::string& where, Piece& piece)
+{
+    HEARTH_ASSIGN_OR_RETURN(std::vector<uint32_t> indices, readIndices(primitive, piece));
+    // what Draco decodes are triangles, whatever the mode says
+    const PrimitiveMode mode = piece.vertices.draco_indices ? PrimitiveMode::triangles : primitive.mode;
+    const size_t index_count = indices.size();
+    const std::vector<uint32_t> triangles = triangulated(std::move(indices), mode);
+    const bool whole = mode == PrimitiveMode::triangles ? index_count % 3 == 0 : index_count >= 3;
+    if (!whole)
+        tally_.dropped("indices that make no whole triangle are not kept", where);
+
+    mesh::SourceMesh& mesh = piece.vertices.mesh;
+    if (triangles.size() / 3 > context_.options.limits.max_triangles - mesh.triangleCount())
+        return context_.error(Issue::input_too_large, where,
+                              fmt::format("{} triangles", triangles.size() / 3));
+    mesh.indices.insert(mesh.indices.end(), triangles.begin(), triangles.end());
+    mesh.triangle_materials.resize(mesh.triangleCount(), primitive.material);
+    return success();
+}
+
+void GltfMeshReader::finishPiece(Piece& piece)
+{
+    mesh::SourceMesh& mesh = piece.vertices.mesh;
+    reportMissingUvs(piece);
+    if (mesh.normals.empty())
+        generateNormals(mesh, kFlat);
+    else
+        fillZeroNormals(mesh);
+    finishTangents(piece);
+}
+
+/// Keep or make tangents for the first normal texture of the piece; without one they have no use.
+void GltfMeshReader::finishTangents(Piece& piece)
+{
+    mesh::SourceMesh& mesh = piece.vertices.mesh;
+    const auto material = std::find_if(
+        mesh.triangle_materials.begin(), mesh.triangle_materials.end(),
+        [&](uint32_t m) { return m != kNone && model_.materials[m].normal_texture.texture != kNone; });
+    if (material == mesh.triangle_materials.end())
+    {
+        if (!mesh.tangents.empty())
+            tally_.dropped("TANGENT that no normal texture uses is not kept", piece.where);
+        mesh.tangents.clear();
+        return;
+    }
+    const uint32_t uv_set = model_.materials[*material].normal_texture.uv_set;
+    if (mesh.tangents.empty() && uv_set < mesh::kUvSetCount && !mesh.uvs[uv_set].empty())
+        generateTangents(mesh, uv_set);
+}
+
+void GltfMeshReader::reportMissingUvs(const Piece& piece)
+{
+    const mesh::SourceMesh& mesh = piece.vertices.mesh;
+    uint32_t last = kNone;
+    for (const uint32_t material : mesh.triangle_materials)
+    {
+        if (material == kNone || material == last)
+            continue;
+        last = material;
+        const GltfMaterial& m = model_.materials[material];
+        for (const GltfTextureUse* use : {&m.base_color_texture, &m.metallic_roughness_texture,
+                                          &m.normal_texture, &m.occlusion_texture, &m.emissive_texture})
+            if (use->texture != kNone && use->uv_set < mesh::kUvSetCount && mesh.uvs[use->uv_set].empty())
+                tally_.degraded(fmt::format("material {} needs TEXCOORD_{}, which the primitive lacks",
+                                            material, use->uv_set),
+                                piece.where);
+    }
+}
+
+} // namespace hearth::import

@@ -1,0 +1,52 @@
+// Meshes: the primitives of a glTF mesh become one SourceMesh.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "pipelines/import/gltf/vertices.h"
+
+namespace hearth::import
+{
+
+class GltfMeshReader
+{
+public:
+    GltfMeshReader(const GltfModel& model, const GltfBuffers& buffers, GltfAccessors& accessors,
+                   const GltfContext& context, GltfTally& tally)
+        : model_(model), buffers_(buffers), accessors_(accessors), context_(context), tally_(tally)
+    {
+    }
+
+    /// Triangles of all primitives, with one material each. Vertices that primitives share stay shared. Points and
+    /// lines are left out and named. Normals are generated flat where they are missing, as the specification asks;
+    /// tangents where a normal texture needs them. Neither skin nor morph targets move anything.
+    /// errors: those of readVertices, gltf_value, gltf_data, index_out_of_range, input_too_large.
+    Result<mesh::SourceMesh> read(uint32_t mesh_index);
+
+private:
+    /// Primitives that use the same vertices.
+    struct Piece
+    {
+        GltfVertices vertices;
+        std::string where;
+    };
+
+    uint64_t sourceVertexCount(const GltfMesh& mesh) const;
+    Result<uint32_t> pieceOf(const GltfPrimitive& primitive, const std::string& where);
+    Status addTriangles(const GltfPrimitive& primitive, const std::string& where, Piece& piece);
+    Result<std::vector<uint32_t>> readIndices(const GltfPrimitive& primitive, const Piece& piece);
+    void finishPiece(Piece& piece);
+    void finishTangents(Piece& piece);
+    void reportMissingUvs(const Piece& piece);
+
+    using PieceKey = std::tuple<GltfAttributes, std::vector<GltfAttributes>, std::optional<GltfDraco>>;
+
+    const GltfModel& model_;
+    const GltfBuffers& buffers_;
+    GltfAccessors& accessors_;
+    const GltfContext& context_;
+    GltfTally& tally_;
+    std::map<PieceKey, uint32_t> piece_of_key_; ///< of the mesh that is being read
+    std::vector<Piece> pieces_;
+};
+
+} // namespace hearth::import

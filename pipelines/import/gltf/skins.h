@@ -1,0 +1,17 @@
+// Skins: which nodes move which mesh.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "pipelines/import/gltf/document/accessors.h"
+
+namespace hearth::import
+{
+
+/// The inverse bind matrices of one skin, one for each joint.
+using InverseBinds = std::vector<Transform>;
+
+/// Write all skins to the part and return their matrices. errors: gltf_value, gltf_data.
+Result<std::vector<InverseBinds>> writeSkins(const GltfModel& model, GltfAccessors& accessors,
+                                             const GltfContext& context);
+
+} // namespace hearth::import

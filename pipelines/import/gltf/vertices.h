@@ -1,0 +1,53 @@
+// The vertices of a primitive: its attributes, read, checked and repaired, as the arrays of a SourceMesh.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "pipelines/import/gltf/document/accessors.h"
+
+#include <map>
+
+namespace hearth::import
+{
+
+/// What the reader of meshes leaves out or mends, counted by name, so that a message comes once and not for every
+/// primitive.
+class GltfTally
+{
+public:
+    void dropped(const std::string& what, const std::string& where) { add(Issue::dropped, what, where); }
+    void repaired(const std::string& what, const std::string& where) { add(Issue::repaired, what, where); }
+    void degraded(const std::string& what, const std::string& where) { add(Issue::degraded, what, where); }
+
+    /// Say all of it, each with its first place and how often it happened.
+    void report(PartBuilder& part) const;
+
+private:
+    struct Entry
+    {
+        std::string first_where;
+        uint64_t count = 0;
+    };
+    void add(Issue issue, const std::string& what, const std::string& where);
+
+    std::map<std::pair<Issue, std::string>, Entry> entries_;
+};
+
+struct GltfVertices
+{
+    /// Vertices and morph targets; no triangles, and no normals where the source has none.
+    mesh::SourceMesh mesh;
+    /// Triangles of the compressed data, if the primitive has such.
+    std::optional<std::vector<uint32_t>> draco_indices;
+};
+
+/// The primitive has a POSITION. `where` is its JSON pointer.
+/// errors: gltf_value (format of an accessor), gltf_data (counts that differ, positions that are not finite),
+/// codec_failed, input_too_large.
+Result<GltfVertices> readVertices(const GltfPrimitive& primitive, const std::string& where,
+                                  GltfAccessors& accessors, const GltfModel& model,
+                                  const GltfBuffers& buffers, const GltfContext& context, GltfTally& tally);
+
+/// The accessor of an attribute, or kNone.
+uint32_t findAttribute(const GltfAttributes& attributes, std::string_view semantic);
+
+} // namespace hearth::import

@@ -1,0 +1,51 @@
+// The decoders behind decodeImage, one file for each image format, and what they share.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "pipelines/import/part/import_options.h"
+#include "pipelines/import/part/part_builder.h"
+
+namespace hearth::import
+{
+
+/// An encoded image and the name it has in messages.
+struct EncodedImage
+{
+    std::span<const std::byte> bytes;
+    const std::string& name;
+    const ImportLimits& limits;
+
+    Error malformed(std::string detail) const
+    {
+        return {Issue::image_malformed, name, "", std::move(detail)};
+    }
+    Error unsupported(std::string detail) const
+    {
+        return {Issue::image_unsupported, name, "", std::move(detail)};
+    }
+    const uint8_t* data() const { return reinterpret_cast<const uint8_t*>(bytes.data()); }
+};
+
+/// An image of this size with zero texels; nothing is allocated before the size is checked.
+/// errors: image_malformed (no texels), input_too_large.
+Result<DecodedImage> allocateImage(const EncodedImage& source, uint64_t width, uint64_t height,
+                                   bool is_float);
+
+/// The same check without the image.
+Status checkImageSize(const EncodedImage& source, uint64_t width, uint64_t height);
+
+inline uint8_t* bytesOf(DecodedImage& image)
+{
+    return reinterpret_cast<uint8_t*>(image.texels.data());
+}
+
+Result<DecodedImage> decodePng(const EncodedImage& source);
+Result<DecodedImage> decodeJpeg(const EncodedImage& source);
+Result<DecodedImage> decodeWebp(const EncodedImage& source);
+Result<DecodedImage> decodeTga(const EncodedImage& source);
+Result<DecodedImage> decodeBmp(const EncodedImage& source);
+Result<DecodedImage> decodeHdr(const EncodedImage& source);
+Result<DecodedImage> decodeExr(const EncodedImage& source);
+Result<DecodedImage> decodeKtx2(const EncodedImage& source);
+
+} // namespace hearth::import

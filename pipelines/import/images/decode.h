@@ -1,0 +1,23 @@
+// Decodes images of any supported format.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "pipelines/import/part/import_options.h"
+#include "pipelines/import/part/part_builder.h"
+
+#include <cstddef>
+#include <span>
+#include <string>
+
+namespace hearth::import
+{
+
+/// Decode PNG, JPEG, WebP, TGA, BMP, HDR, EXR or KTX2 by content. `name` stands in messages.
+/// errors: image_malformed, image_unsupported, input_too_large.
+Result<DecodedImage> decodeImage(std::span<const std::byte> bytes, const std::string& name,
+                                 const ImportLimits& limits);
+
+/// Whether the bytes start as one of the image formats that decodeImage knows, whatever their state.
+bool looksLikeImage(const std::string& path, std::span<const std::byte> bytes);
+
+} // namespace hearth::import

@@ -1,0 +1,139 @@
+// OpenEXR: scanlines and tiles, every lossless and lossy compression, RGB(A), grey, and luminance with chroma.
+// The image is the data window, as other texture tools read it: a texture has no frame that it is shown in.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "pipelines/import/images/codecs.h"
+
+#include <OpenEXR/IexBaseExc.h>
+#include <OpenEXR/ImfArray.h>
+#include <OpenEXR/ImfHeader.h>
+#include <OpenEXR/ImfIO.h>
+#include <OpenEXR/ImfRgbaFile.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <exception>
+
+namespace hearth::import
+{
+
+namespace
+{
+
+class MemoryStream final : public Imf::IStream
+{
+public:
+    MemoryStream(std::span<const std::byte> bytes, const char* name) : IStream(name), bytes_(bytes) {}
+
+    bool isMemoryMapped() const override { return false; }
+
+    bool read(char out[], int count) override
+    {
+        if (count < 0 || static_cast<uint64_t>(count) > bytes_.size() - position_)
+            throw Iex::InputExc("the file ends too early");
+        std::memcpy(out, bytes_.data() + position_, static_cast<size_t>(count));
+        position_ += static_cast<uint64_t>(count);
+        return position_ < bytes_.size();
+    }
+
+    uint64_t tellg() override { return position_; }
+
+    void seekg(uint64_t position) override
+    {
+        if (position > bytes_.size())
+            throw Iex::InputExc("an offset lies outside the file");
+        position_ = position;
+    }
+
+private:
+    std::span<const std::byte> bytes_;
+    uint64_t position_ = 0;
+};
+
+struct Window
+{
+    int64_t left, top, right, bottom; ///< inclusive, as OpenEXR has it
+
+    explicit Window(const Imath::Box2i& box)
+        : left(box.min.x), top(box.min.y), right(box.max.x), bottom(box.max.y)
+    {
+    }
+    uint64_t width() const { return static_cast<uint64_t>(std::max<int64_t>(0, right - left + 1)); }
+    uint64_t height() const { return static_cast<uint64_t>(std::max<int64_t>(0, bottom - top + 1)); }
+};
+
+/// OpenEXR keeps infinities and NaN; a stored image is finite.
+uint16_t finiteBits(half value)
+{
+    if (value.isNan())
+        return 0;
+    if (value.isInfinity())
+        return value.isNegative() ? uint16_t{0xFBFF} : uint16_t{0x7BFF};
+    return value.bits();
+}
+
+/// Store row `y` of the image.
+void storeRow(std::span<const Imf::Rgba> row, size_t y, DecodedImage& image)
+{
+    for (size_t x = 0; x < row.size(); ++x)
+    {
+        const uint16_t bits[4] = {finiteBits(row[x].r), finiteBits(row[x].g), finiteBits(row[x].b),
+                                  finiteBits(row[x].a)};
+        std::memcpy(image.texels.data() + (y * row.size() + x) * sizeof(bits), bits, sizeof(bits));
+    }
+}
+
+// OpenEXR holds a row of whole tiles, and tiles may be larger than the image. Programs write 64 to 512.
+constexpr int kMaxTileSide = 4096;
+
+/// OpenEXR checks these before it allocates anything by the header.
+void setLibraryLimits(const ImportLimits& limits)
+{
+    const int side = static_cast<int>(limits.max_image_size);
+    Imf::Header::setMaxImageSize(side, side);
+    Imf::Header::setMaxTileSize(kMaxTileSide, kMaxTileSide);
+}
+
+Result<DecodedImage> decode(const EncodedImage& source)
+{
+    setLibraryLimits(source.limits);
+    MemoryStream stream(source.bytes, source.name.c_str());
+    Imf::RgbaInputFile file(stream, 0);
+    const Window data(file.dataWindow());
+    HEARTH_TRY(checkImageSize(source, data.width(), data.height()));
+    if (!file.isComplete())
+        return source.malformed("EXR: parts of the image are missing");
+    if ((file.channels() & (Imf::WRITE_RGB | Imf::WRITE_YC)) == 0)
+        return source.unsupported("EXR images without a channel R, G, B or Y are not read");
+    HEARTH_ASSIGN_OR_RETURN(DecodedImage image, allocateImage(source, data.width(), data.height(), true));
+
+    // one row at a time: OpenEXR addresses the frame buffer by absolute coordinates, with a row stride of 0 here
+    std::vector<Imf::Rgba> row(static_cast<size_t>(data.width()));
+    file.setFrameBuffer(row.data() - data.left, 1, 0);
+    for (int64_t y = data.top; y <= data.bottom; ++y)
+    {
+        file.readPixels(static_cast<int>(y));
+        storeRow(row, static_cast<size_t>(y - data.top), image);
+    }
+    return image;
+}
+
+} // namespace
+
+Result<DecodedImage> decodeExr(const EncodedImage& source)
+{
+    try
+    {
+        return decode(source);
+    }
+    catch (const std::exception& problem)
+    {
+        return source.malformed(std::string("EXR: ") + problem.what());
+    }
+    catch (...)
+    {
+        return source.malformed("EXR: the file cannot be read");
+    }
+}
+
+} // namespace hearth::import

@@ -1,0 +1,212 @@
+// Radiance pictures (.hdr): RGBE, flat, with old or new run-length coding, all eight orientations.
+// Source: G. Ward, "Real Pixels", Graphics Gems II, 1991, and the Radiance file formats document.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "formats/base/byte_reader.h"
+#include "formats/base/half.h"
+#include "pipelines/import/images/codecs.h"
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstring>
+
+namespace hearth::import
+{
+
+namespace
+{
+
+using Rgbe = std::array<uint8_t, 4>;
+
+/// Header lines are short; a longer one is not a Radiance header.
+constexpr size_t kMaxLine = 4096;
+
+struct HdrHeader
+{
+    double exposure = 1; ///< product of all EXPOSURE lines; the stored values are radiance times this
+    bool xyze = false;
+    bool rows_are_columns = false; ///< the resolution line names X first: scanlines are columns
+    bool x_descends = false;
+    bool y_descends = true; ///< -Y: from top to bottom
+    uint64_t width = 0;
+    uint64_t height = 0;
+};
+
+std::optional<std::string_view> readLine(ByteReader& reader, std::span<const std::byte> bytes)
+{
+    const size_t start = reader.position();
+    const size_t length = std::min(kMaxLine, reader.remaining());
+    const auto* text = reinterpret_cast<const char*>(bytes.data()) + start;
+    const auto* end = static_cast<const char*>(std::memchr(text, '\n', length));
+    if (end == nullptr || !reader.skip(static_cast<uint64_t>(end - text) + 1))
+        return std::nullopt;
+    std::string_view line(text, static_cast<size_t>(end - text));
+    if (line.ends_with('\r'))
+        line.remove_suffix(1);
+    return line;
+}
+
+bool readNumber(std::string_view& text, uint64_t& number)
+{
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (error != std::errc())
+        return false;
+    text.remove_prefix(static_cast<size_t>(end - text.data()));
+    return true;
+}
+
+/// "-Y 512 +X 1024": sign, axis, size, twice.
+bool readResolution(std::string_view line, HdrHeader& header)
+{
+    bool seen[2] = {false, false};
+    for (int i = 0; i < 2; ++i)
+    {
+        if (line.size() < 4 || (line[0] != '-' && line[0] != '+') || (line[1] != 'X' && line[1] != 'Y') ||
+            line[2] != ' ')
+            return false;
+        const bool is_x = line[1] == 'X';
+        (is_x ? header.x_descends : header.y_descends) = line[0] == '-';
+        seen[is_x ? 0 : 1] = true;
+        header.rows_are_columns = i == 0 ? is_x : header.rows_are_columns;
+        line.remove_prefix(3);
+        if (!readNumber(line, is_x ? header.width : header.height))
+            return false;
+        if (i == 0 && !line.starts_with(' '))
+            return false;
+        if (i == 0)
+            line.remove_prefix(1);
+    }
+    return seen[0] && seen[1] && line.find_first_not_of(' ') == std::string_view::npos;
+}
+
+std::optional<HdrHeader> readHeader(ByteReader& reader, std::span<const std::byte> bytes)
+{
+    HdrHeader header;
+    for (;;)
+    {
+        const auto line = readLine(reader, bytes);
+        if (!line)
+            return std::nullopt;
+        if (line->empty())
+            break;
+        if (line->starts_with("FORMAT=32-bit_rle_xyze"))
+            header.xyze = true;
+        if (line->starts_with("EXPOSURE="))
+        {
+            double exposure = 0;
+            const size_t digits = std::min(line->find_first_not_of(' ', 9), line->size());
+            const auto result = std::from_chars(line->data() + digits, line->data() + line->size(), exposure);
+            if (result.ec != std::errc() || !std::isfinite(exposure) || exposure <= 0)
+                return std::nullopt;
+            header.exposure *= exposure;
+        }
+    }
+    const auto resolution = readLine(reader, bytes);
+    if (!resolution || !readResolution(*resolution, header))
+        return std::nullopt;
+    return header;
+}
+
+/// New coding: each of the four components by itself; a count above 128 repeats one value.
+bool readComponents(ByteReader& reader, std::vector<Rgbe>& scanline)
+{
+    for (size_t component = 0; component < 4; ++component)
+        for (size_t x = 0; x < scanline.size();)
+        {
+            const auto head = reader.read<uint8_t>();
+            const bool repeated = head && *head > 128;
+            const size_t count = !head ? 0 : repeated ? *head - 128u : *head;
+            const auto values = reader.readBytes(repeated ? 1 : count);
+            if (count == 0 || !values || count > scanline.size() - x)
+                return false;
+            for (size_t k = 0; k < count; ++k)
+                scanline[x++][component] = static_cast<uint8_t>((*values)[repeated ? 0 : k]);
+        }
+    return true;
+}
+
+/// Flat, or old coding: the texel (1, 1, 1, n) repeats the one before n times, shifted by 8 bits for each such
+/// texel in a row.
+bool readFlat(ByteReader& reader, Rgbe first, std::vector<Rgbe>& scanline)
+{
+    uint32_t shift = 0;
+    size_t x = 0;
+    std::optional<Rgbe> texel = first;
+    for (;;)
+    {
+        if (!texel)
+            return false;
+        const Rgbe& t = *texel;
+        if (t[0] == 1 && t[1] == 1 && t[2] == 1)
+        {
+            const uint64_t count = shift < 32 ? uint64_t{t[3]} << shift : scanline.size() + 1;
+            if (x == 0 || count > scanline.size() - x)
+                return false;
+            std::fill_n(scanline.begin() + static_cast<std::ptrdiff_t>(x), count, scanline[x - 1]);
+            x += static_cast<size_t>(count);
+            shift += 8;
+        }
+        else
+        {
+            scanline[x++] = t;
+            shift = 0;
+        }
+        if (x == scanline.size())
+            return true;
+        texel = reader.read<Rgbe>();
+    }
+}
+
+bool readScanline(ByteReader& reader, std::vector<Rgbe>& scanline)
+{
+    const auto first = reader.read<Rgbe>();
+    if (!first)
+        return false;
+    const bool coded = (*first)[0] == 2 && (*first)[1] == 2 && (*first)[2] < 128 &&
+                       ((*first)[2] * size_t{256} + (*first)[3]) == scanline.size();
+    return coded ? readComponents(reader, scanline) : readFlat(reader, *first, scanline);
+}
+
+} // namespace
+
+Result<DecodedImage> decodeHdr(const EncodedImage& source)
+{
+    ByteReader reader(source.bytes);
+    const auto header = readHeader(reader, source.bytes);
+    if (!header)
+        return source.malformed("HDR: the header is damaged");
+    if (header->xyze)
+        return source.unsupported("HDR images in XYZ are not read");
+    HEARTH_TRY(checkImageSize(source, header->width, header->height));
+    // a repeated run of the new coding makes 127 texels of 2 bytes for each component, an old run 255 of 4 and more
+    if (header->width * header->height / 32768 > source.bytes.size())
+        return source.malformed("HDR: the file ends too early");
+
+    HEARTH_ASSIGN_OR_RETURN(DecodedImage image, allocateImage(source, header->width, header->height, true));
+    const bool columns = header->rows_are_columns;
+    std::vector<Rgbe> scanline(columns ? image.height : image.width);
+    const size_t scanline_count = columns ? image.width : image.height;
+    for (size_t i = 0; i < scanline_count; ++i)
+    {
+        if (!readScanline(reader, scanline))
+            return source.malformed("HDR: scanline " + std::to_string(i) +
+                                    " is damaged or the file ends too early");
+        for (size_t k = 0; k < scanline.size(); ++k)
+        {
+            const size_t along_x = columns ? i : k;
+            const size_t along_y = columns ? k : i;
+            const size_t x = header->x_descends ? image.width - 1 - along_x : along_x;
+            const size_t y = header->y_descends ? along_y : image.height - 1 - along_y;
+            const Rgbe& t = scanline[k];
+            const double scale = t[3] == 0 ? 0.0 : std::ldexp(1.0 / header->exposure, t[3] - (128 + 8));
+            const std::array<uint16_t, 4> half = {
+                finiteHalf(static_cast<float>(t[0] * scale)), finiteHalf(static_cast<float>(t[1] * scale)),
+                finiteHalf(static_cast<float>(t[2] * scale)), finiteHalf(1)};
+            std::memcpy(image.texels.data() + (y * image.width + x) * sizeof(half), half.data(),
+                        sizeof(half));
+        }
+    }
+    return image;
+}
+
+} // namespace hearth::import

@@ -1,0 +1,220 @@
+// KTX2 images: uncompressed formats, Zstandard supercompression, and Basis Universal. Only the finest level is
+// decoded, because hearth-textures makes the mips. GPU block formats (BC, ETC2, ASTC) are not read.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "formats/base/half.h"
+#include "formats/container/container_reader.h"
+#include "pipelines/import/images/basis_etc1s.h"
+#include "pipelines/import/images/basis_uastc.h"
+#include "pipelines/import/images/ktx2_container.h"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <numeric>
+
+namespace hearth::import
+{
+
+namespace
+{
+
+enum class Component : uint8_t
+{
+    unorm8,
+    unorm16,
+    float16,
+    float32,
+};
+
+/// How one uncompressed VkFormat lies in memory.
+struct TexelLayout
+{
+    uint32_t vk_format;
+    Component component;
+    uint8_t channels;
+    bool blue_first = false;
+};
+
+// Numbers of VkFormat. sRGB formats lie like their UNORM twins: what an image means is decided where it is used.
+constexpr std::array kLayouts = {
+    TexelLayout{9, Component::unorm8, 1},        TexelLayout{15, Component::unorm8, 1},
+    TexelLayout{16, Component::unorm8, 2},       TexelLayout{22, Component::unorm8, 2},
+    TexelLayout{23, Component::unorm8, 3},       TexelLayout{29, Component::unorm8, 3},
+    TexelLayout{30, Component::unorm8, 3, true}, TexelLayout{36, Component::unorm8, 3, true},
+    TexelLayout{37, Component::unorm8, 4},       TexelLayout{43, Component::unorm8, 4},
+    TexelLayout{44, Component::unorm8, 4, true}, TexelLayout{50, Component::unorm8, 4, true},
+    TexelLayout{70, Component::unorm16, 1},      TexelLayout{77, Component::unorm16, 2},
+    TexelLayout{84, Component::unorm16, 3},      TexelLayout{91, Component::unorm16, 4},
+    TexelLayout{76, Component::float16, 1},      TexelLayout{83, Component::float16, 2},
+    TexelLayout{90, Component::float16, 3},      TexelLayout{97, Component::float16, 4},
+    TexelLayout{100, Component::float32, 1},     TexelLayout{103, Component::float32, 2},
+    TexelLayout{106, Component::float32, 3},     TexelLayout{109, Component::float32, 4},
+};
+
+uint32_t bytesOfComponent(Component component)
+{
+    return component == Component::unorm8 ? 1 : component == Component::float32 ? 4 : 2;
+}
+
+bool isFloat(Component component)
+{
+    return component == Component::float16 || component == Component::float32;
+}
+
+/// One stored component as the image has it: 8 bits, or the bits of a half.
+uint16_t convert(const uint8_t* bytes, Component component)
+{
+    uint16_t word = 0;
+    float value = 0;
+    switch (component)
+    {
+    case Component::unorm8:
+        return bytes[0];
+    case Component::unorm16:
+        std::memcpy(&word, bytes, sizeof(word));
+        return static_cast<uint16_t>((word * 255u + 32767u) / 65535u);
+    case Component::float16:
+        std::memcpy(&word, bytes, sizeof(word));
+        return finiteHalf(floatFromHalf(word));
+    case Component::float32:
+        std::memcpy(&value, bytes, sizeof(value));
+        return finiteHalf(value);
+    }
+    return 0;
+}
+
+void copyTexels(std::span<const std::byte> bytes, const TexelLayout& layout, DecodedImage& image)
+{
+    const auto* in = reinterpret_cast<const uint8_t*>(bytes.data());
+    const uint32_t step = bytesOfComponent(layout.component);
+    const uint16_t one = isFloat(layout.component) ? finiteHalf(1) : uint16_t{255};
+    const size_t count = size_t{image.width} * image.height;
+    for (size_t i = 0; i < count; ++i)
+    {
+        std::array<uint16_t, 4> texel = {0, 0, 0, one};
+        for (size_t c = 0; c < layout.channels; ++c, in += step)
+            texel[c] = convert(in, layout.component);
+        if (layout.blue_first)
+            std::swap(texel[0], texel[2]);
+        // one channel is grey, and two are grey with alpha only in formats that KTX2 cannot name: red and green
+        if (layout.channels == 1)
+            texel[1] = texel[2] = texel[0];
+        if (isFloat(layout.component))
+            std::memcpy(image.texels.data() + i * sizeof(texel), texel.data(), sizeof(texel));
+        else
+            std::transform(texel.begin(), texel.end(), bytesOf(image) + i * 4,
+                           [](uint16_t c) { return static_cast<uint8_t>(c); });
+    }
+}
+
+/// How the texels of a format come in blocks; a single texel is a block too.
+struct BlockSize
+{
+    uint32_t side;
+    uint64_t bytes;
+
+    uint64_t levelBytes(uint32_t width, uint32_t height) const
+    {
+        return ((uint64_t{width} + side - 1) / side) * ((uint64_t{height} + side - 1) / side) * bytes;
+    }
+};
+
+/// Sizes of all levels must be those of the format; each level starts on a multiple of 4 and of the block.
+bool levelsFit(const EncodedImage& source, const Ktx2File& file, BlockSize block)
+{
+    const uint64_t alignment = std::lcm(block.bytes, uint64_t{4});
+    for (size_t i = 0; i < file.levels.size(); ++i)
+    {
+        const Ktx2Level& level = file.levels[i];
+        const auto offset = static_cast<uint64_t>(level.bytes.data() - source.bytes.data());
+        if (level.uncompressed_size !=
+            block.levelBytes(std::max(1u, file.width >> i), std::max(1u, file.height >> i)))
+            return false;
+        if (file.scheme == Ktx2Scheme::none &&
+            (level.bytes.size() != level.uncompressed_size || offset % alignment != 0))
+            return false;
+    }
+    return true;
+}
+
+/// The finest level without its supercompression.
+Result<std::vector<std::byte>> finestLevel(const EncodedImage& source, const Ktx2File& file, BlockSize block)
+{
+    if (!levelsFit(source, file, block))
+        return source.malformed("KTX2: a mip level does not have the size or place that the format asks for");
+    const Ktx2Level& level = file.levels[0];
+    if (file.scheme == Ktx2Scheme::none)
+        return std::vector<std::byte>(level.bytes.begin(), level.bytes.end());
+    if (file.scheme != Ktx2Scheme::zstd)
+        return source.unsupported("KTX2: ZLIB supercompression is not read");
+    std::vector<std::byte> texels(static_cast<size_t>(level.uncompressed_size));
+    if (!formats::decompress(level.bytes, texels))
+        return source.malformed("KTX2: the Zstandard data is damaged");
+    return texels;
+}
+
+Result<DecodedImage> decodeUncompressed(const EncodedImage& source, const Ktx2File& file,
+                                        const TexelLayout& layout)
+{
+    const BlockSize texel{1, uint64_t{layout.channels} * bytesOfComponent(layout.component)};
+    HEARTH_ASSIGN_OR_RETURN(const std::vector<std::byte> texels, finestLevel(source, file, texel));
+    HEARTH_ASSIGN_OR_RETURN(DecodedImage image,
+                            allocateImage(source, file.width, file.height, isFloat(layout.component)));
+    copyTexels(texels, layout, image);
+    return image;
+}
+
+/// What glTF asks of Basis Universal textures.
+Status checkBasisSize(const EncodedImage& source, const Ktx2File& file)
+{
+    if (file.width % 4 == 0 && file.height % 4 == 0)
+        return success();
+    return source.malformed("KTX2: KHR_texture_basisu asks for sizes that are multiples of 4, this is " +
+                            std::to_string(file.width) + " x " + std::to_string(file.height));
+}
+
+Result<DecodedImage> decodeUastcImage(const EncodedImage& source, const Ktx2File& file)
+{
+    HEARTH_TRY(checkBasisSize(source, file));
+    HEARTH_ASSIGN_OR_RETURN(const std::vector<std::byte> blocks,
+                            finestLevel(source, file, {4, kUastcBlockBytes}));
+    HEARTH_ASSIGN_OR_RETURN(DecodedImage image, allocateImage(source, file.width, file.height, false));
+    if (!decodeUastc(blocks, file.is_srgb, image))
+        return source.malformed("KTX2: UASTC: a block is damaged");
+    return image;
+}
+
+Result<DecodedImage> decodeEtc1s(const EncodedImage& source, const Ktx2File& file)
+{
+    HEARTH_TRY(checkBasisSize(source, file));
+    const bool sizes_zero = std::all_of(file.levels.begin(), file.levels.end(),
+                                        [](const Ktx2Level& level) { return level.uncompressed_size == 0; });
+    if (!sizes_zero || file.color_model != kModelEtc1s || file.sample_channels.size() > 2)
+        return source.malformed("KTX2: BasisLZ needs one or two ETC1S samples and no uncompressed sizes");
+    HEARTH_ASSIGN_OR_RETURN(DecodedImage image, allocateImage(source, file.width, file.height, false));
+    const std::string_view problem =
+        decodeBasisEtc1s(file.global_data, file.levels[0].bytes,
+                         {static_cast<uint32_t>(file.levels.size()), file.sample_channels}, image);
+    if (!problem.empty())
+        return source.malformed("KTX2: ETC1S: " + std::string(problem));
+    return image;
+}
+
+} // namespace
+
+Result<DecodedImage> decodeKtx2(const EncodedImage& source)
+{
+    HEARTH_ASSIGN_OR_RETURN(const Ktx2File file, readKtx2(source));
+    if (file.scheme == Ktx2Scheme::basis_lz)
+        return decodeEtc1s(source, file);
+    if (file.vk_format == 0 && file.color_model == kModelUastc)
+        return decodeUastcImage(source, file);
+    const auto layout = std::find_if(kLayouts.begin(), kLayouts.end(),
+                                     [&](const TexelLayout& l) { return l.vk_format == file.vk_format; });
+    if (layout == kLayouts.end())
+        return source.unsupported("KTX2: VkFormat " + std::to_string(file.vk_format) + " with colour model " +
+                                  std::to_string(file.color_model) + " is not read");
+    return decodeUncompressed(source, file, *layout);
+}
+
+} // namespace hearth::import

@@ -1,0 +1,45 @@
+// The KTX 2.0 container (Khronos KTX File Format Specification 2.0): everything is checked, nothing is decoded.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "pipelines/import/images/codecs.h"
+
+namespace hearth::import
+{
+
+enum class Ktx2Scheme : uint32_t
+{
+    none = 0,
+    basis_lz = 1,
+    zstd = 2,
+    zlib = 3,
+};
+
+/// Colour models of the Khronos data format descriptor that mean a Basis Universal texture.
+inline constexpr uint32_t kModelEtc1s = 163;
+inline constexpr uint32_t kModelUastc = 166;
+
+struct Ktx2Level
+{
+    std::span<const std::byte> bytes;
+    uint64_t uncompressed_size = 0;
+};
+
+struct Ktx2File
+{
+    uint32_t vk_format = 0;
+    uint32_t width = 0;
+    uint32_t height = 0;
+    Ktx2Scheme scheme = Ktx2Scheme::none;
+    uint32_t color_model = 0;
+    bool is_srgb = false;                  ///< transfer function of the data format descriptor
+    std::vector<uint32_t> sample_channels; ///< channel of each sample of the data format descriptor
+    std::span<const std::byte> global_data;
+    std::vector<Ktx2Level> levels; ///< finest first
+};
+
+/// A texture of one image: two dimensions, one layer, one face.
+/// errors: image_malformed, image_unsupported (arrays, cubes, volumes), input_too_large.
+Result<Ktx2File> readKtx2(const EncodedImage& source);
+
+} // namespace hearth::import

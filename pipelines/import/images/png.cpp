@@ -1,0 +1,103 @@
+// PNG through libpng: damaged checksums, missing rows and a missing end are errors.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "pipelines/import/images/codecs.h"
+
+#include <png.h>
+
+#include <array>
+#include <cstdio>
+#include <cstring>
+
+namespace hearth::import
+{
+
+namespace
+{
+
+/// What libpng's callbacks see. libpng reports errors by longjmp: no function between setjmp and libpng may own
+/// anything, so that the memory is held by decodePng.
+struct PngState
+{
+    png_structp png = nullptr;
+    png_infop info = nullptr;
+    std::span<const std::byte> rest;
+    std::array<char, 160> message{};
+
+    PngState() = default;
+    PngState(const PngState&) = delete;
+    PngState& operator=(const PngState&) = delete;
+    ~PngState() { png_destroy_read_struct(&png, &info, nullptr); }
+};
+
+[[noreturn]] void onError(png_structp png, png_const_charp text)
+{
+    auto* state = static_cast<PngState*>(png_get_error_ptr(png));
+    std::snprintf(state->message.data(), state->message.size(), "%s", text);
+    png_longjmp(png, 1);
+}
+
+void onWarning(png_structp, png_const_charp) {}
+
+void onRead(png_structp png, png_bytep out, size_t count)
+{
+    auto* state = static_cast<PngState*>(png_get_io_ptr(png));
+    if (count > state->rest.size())
+        png_error(png, "the file ends too early");
+    std::memcpy(out, state->rest.data(), count);
+    state->rest = state->rest.subspan(count);
+}
+
+bool readHeader(PngState& state)
+{
+    if (setjmp(png_jmpbuf(state.png)) != 0)
+        return false;
+    png_set_read_fn(state.png, &state, onRead);
+    png_set_user_limits(state.png, PNG_UINT_31_MAX, PNG_UINT_31_MAX); // checkImageSize has the last word
+    png_read_info(state.png, state.info);
+    return true;
+}
+
+/// Have libpng deliver every kind of PNG as RGBA8 and read it.
+bool readTexels(PngState& state, png_bytepp rows)
+{
+    if (setjmp(png_jmpbuf(state.png)) != 0)
+        return false;
+    png_set_scale_16(state.png);
+    png_set_expand(state.png);
+    png_set_gray_to_rgb(state.png);
+    png_set_add_alpha(state.png, 0xFF, PNG_FILLER_AFTER);
+    png_set_interlace_handling(state.png);
+    png_read_update_info(state.png, state.info);
+    if (png_get_rowbytes(state.png, state.info) != size_t{4} * png_get_image_width(state.png, state.info))
+        png_error(state.png, "unexpected size of a row");
+    png_read_image(state.png, rows);
+    png_read_end(state.png, nullptr);
+    return true;
+}
+
+} // namespace
+
+Result<DecodedImage> decodePng(const EncodedImage& source)
+{
+    PngState state;
+    state.rest = source.bytes;
+    state.png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &state, onError, onWarning);
+    state.info = state.png == nullptr ? nullptr : png_create_info_struct(state.png);
+    if (state.info == nullptr)
+        return source.malformed("libpng cannot be set up");
+    const auto failed = [&] { return source.malformed(std::string("PNG: ") + state.message.data()); };
+
+    if (!readHeader(state))
+        return failed();
+    HEARTH_ASSIGN_OR_RETURN(DecodedImage image,
+                            allocateImage(source, png_get_image_width(state.png, state.info),
+                                          png_get_image_height(state.png, state.info), false));
+    std::vector<png_bytep> rows(image.height);
+    for (size_t y = 0; y < rows.size(); ++y)
+        rows[y] = bytesOf(image) + y * image.width * 4;
+    if (!readTexels(state, rows.data()))
+        return failed();
+    return image;
+}
+
+} // namespace hearth::import

@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "pipelines/import/part/part_builder.h"
+
+#include "cook/json/json.h"
+#include "formats/container/container_reader.h"
+
+#include <fmt/format.h>
+
+namespace hearth::import
+{
+
+using namespace formats;
+
+namespace
+{
+
+// A hostile file can provoke a message for every element; a person reads the first few.
+constexpr size_t kMaxWarnings = 100;
+
+/// The text with every byte that is not part of valid UTF-8 replaced by '?': names go into the string table as UTF-8.
+std::string validUtf8(std::string_view text)
+{
+    const auto continues = [&](size_t i)
+    { return i < text.size() && (static_cast<unsigned char>(text[i]) & 0xC0u) == 0x80u; };
+    std::string valid;
+    valid.reserve(text.size());
+    for (size_t i = 0; i < text.size();)
+    {
+        const auto first = static_cast<unsigned char>(text[i]);
+        const size_t length = first < 0x80                    ? 1
+                              : first >= 0xC2 && first < 0xE0 ? 2
+                              : first >= 0xE0 && first < 0xF0 ? 3
+                              : first >= 0xF0 && first < 0xF5 ? 4
+                                                              : 0;
+        bool whole = length > 0;
+        for (size_t k = 1; k < length; ++k)
+            whole = whole && continues(i + k);
+        // overlong forms, surrogates and numbers above U+10FFFF
+        const auto second = whole && length > 1 ? static_cast<unsigned char>(text[i + 1]) : 0u;
+        whole = whole && !(first == 0xE0 && second < 0xA0) && !(first == 0xED && second > 0x9F) &&
+                !(first == 0xF0 && second < 0x90) && !(first == 0xF4 && second > 0x8F);
+        valid += whole ? text.substr(i, length) : std::string_view("?");
+        i += whole ? length : 1;
+    }
+    return valid;
+}
+
+std::string messageJson(const Error& warning)
+{
+    const IssueInfo& info = issueInfo(warning.issue);
+    return fmt::format(R"({{"code":"W{}","severity":"warning","pointer":{},"text":{},"hint":{}}})",
+                       static_cast<unsigned>(warning.issue), quoteJson(warning.where),
+                       quoteJson(warning.detail.empty() ? info.summary : std::string_view(warning.detail)),
+                       quoteJson(info.hint));
+}
+
+std::string joined(const std::vector<std::string>& items)
+{
+    std::string text;
+    for (const std::string& item : items)
+        text += (text.empty() ? "" : ",") + item;
+    return "[" + text + "]";
+}
+
+std::string countsJson(const SourceCounts& counts, size_t meshes, size_t images, size_t instances)
+{
+    return fmt::format(R"({{"meshes":{},"instances":{},"images":{},"triangles":{},"faces":{},"vertices":{},)"
+                       R"("materials":{},"joints":{},"animations":{},"morph_targets":{}}})",
+                       meshes, instances, images, counts.triangles, counts.faces, counts.vertices,
+                       counts.materials, counts.joints, counts.animations, counts.morph_targets);
+}
+
+std::string clipJson(const clips::ClipStatistics& clip)
+{
+    return fmt::format(R"({{"keys_before":{},"keys":{},"bytes_before":{},"bytes":{},"stated_error":{},)"
+                       R"("proven_error":{}}})",
+                       clip.keys_before, clip.keys_after, clip.bytes_before, clip.bytes_after,
+                       clip.stated_error, clip.proven_error);
+}
+
+void cut(std::string& text)
+{
+    constexpr size_t kMaxLength = 300;
+    if (text.size() > kMaxLength)
+        text = text.substr(0, kMaxLength) + "...";
+}
+
+} // namespace
+
+Error shortened(Error error)
+{
+    cut(error.where);
+    cut(error.detail);
+    return error;
+}
+
+PartBuilder::PartBuilder(ContainerWriter writer, std::string source_name)
+    : writer_(std::move(writer)), source_name_(std::move(source_name))
+{
+}
+
+Result<PartBuilder> PartBuilder::create(const std::string& path, std::string source_name)
+{
+    HEARTH_ASSIGN_OR_RETURN(ContainerWriter writer, ContainerWriter::create(path, ContainerKind::part));
+    return PartBuilder(std::move(writer), std::move(source_name));
+}
+
+StringRef PartBuilder::intern(std::string_view text)
+{
+    if (text.empty())
+        return {};
+    const auto found = string_refs_.find(text);
+    if (found != string_refs_.end())
+        return found->second;
+    const std::string valid = validUtf8(text);
+    const StringRef ref{static_cast<uint32_t>(strings_.size()), static_cast<uint32_t>(valid.size())};
+    strings_ += valid;
+    string_refs_.emplace(text, ref);
+    return ref;
+}
+
+Status PartBuilder::addMesh(const mesh::SourceMesh& mesh)
+{
+    moved_vertices_.push_back(movedVertices(mesh));
+    return mesh::writeSourceMesh(writer_, mesh_count_++, mesh);
+}
+
+Status PartBuilder::addLod(uint32_t of, const mesh::SourceMesh& mesh, const tools::LodLabel& label)
+{
+    HEARTH_ASSERT(of < mesh_count_);
+    lods_.push_back({of, mesh_count_, label.number.value_or(kNone), intern(label.name)});
+    HEARTH_TRY(addMesh(mesh));
+    add(moved_vertices_[of], moved_vertices_.back());
+    return success();
+}
+
+Result<uint32_t> PartBuilder::addImage(ImageRecord record, const DecodedImage& image)
+{
+    const size_t texel_bytes = image.is_float ? 8 : 4;
+    HEARTH_ASSERT(image.texels.size() == size_t{image.width} * image.height * texel_bytes);
+    const auto index = static_cast<uint32_t>(images_.size());
+    record.width = image.width;
+    record.height = image.height;
+    record.mip_count = 1;
+    if (image.is_float)
+        record.format = static_cast<uint32_t>(TexelFormat::rgba16_float);
+    images_.push_back(record);
+    HEARTH_TRY(writer_.addChunk({.type = kChunkImageData, .index = index}, image.texels,
+                                static_cast<uint32_t>(texel_bytes), Codec::none));
+    return index;
+}
+
+void PartBuilder::warn(Issue issue, std::string where, std::string detail)
+{
+    warn(issue, std::move(where), std::move(detail), "");
+}
+
+void PartBuilder::warn(Issue issue, std::string where, std::string detail, std::string_view remark)
+{
+    HEARTH_ASSERT(issueInfo(issue).kind == IssueClass::warning);
+    if (warnings_.size() >= kMaxWarnings)
+    {
+        ++warnings_left_out_;
+        return;
+    }
+    Error error = shortened({issue, source_name_, std::move(where), std::move(detail)});
+    warnings_.push_back({std::move(error), std::string(remark)});
+    cut(warnings_.back().remark);
+}
+
+std::vector<Error> PartBuilder::warnings() const
+{
+    std::vector<Error> told;
+    for (const Warning& warning : warnings_)
+    {
+        told.push_back(warning.error);
+        told.back().detail += warning.remark;
+    }
+    return told;
+}
+
+void PartBuilder::addSource(std::string name, std::span<const std::byte> content)
+{
+    addSource(std::move(name), content.size(), hashBytes(content));
+}
+
+void PartBuilder::addSource(std::string name, uint64_t size, uint64_t hash)
+{
+    sources_.push_back({std::move(name), size, hash});
+}
+
+void PartBuilder::adoptReport(const PartBuilder& other)
+{
+    sources_.insert(sources_.end(), other.sources_.begin(), other.sources_.end());
+    warnings_left_out_ += other.warnings_left_out_;
+    for (const Warning& warning : other.warnings_)
+        if (warnings_.size() < kMaxWarnings)
+            warnings_.push_back(warning);
+        else
+            ++warnings_left_out_;
+}
+
+std::string PartBuilder::report() const
+{
+    std::vector<std::string> sources;
+    for (const SourceFile& source : sources_)
+        sources.push_back(fmt::format(R"({{"name":{},"bytes":{},"xxh3":"{:016x}"}})", quoteJson(source.name),
+                                      source.size, source.hash));
+    std::vector<std::string> messages;
+    std::vector<std::string> dropped;
+    for (const Warning& warning : warnings_)
+    {
+        messages.push_back(messageJson(warning.error));
+        if (warning.error.issue == Issue::dropped)
+            dropped.push_back(quoteJson(warning.error.detail));
+    }
+    std::vector<std::string> clips;
+    for (const clips::ClipStatistics& clip : clip_statistics)
+        clips.push_back(clipJson(clip));
+    return fmt::format(
+        R"({{"schema":"hearth.import/1","tool":{{"name":"hearth-import","version":{}}},"source":{},)"
+        R"("sources":{},"counts":{},"clips":{},"messages":{},"messages_left_out":{},"dropped":{}}})",
+        quoteJson(HEARTH_VERSION), quoteJson(source_name_.substr(source_name_.rfind('/') + 1)),
+        joined(sources), countsJson(counts, mesh_count_ - lods_.size(), images_.size(), instances.size()),
+        joined(clips), joined(messages), warnings_left_out_, joined(dropped));
+}
+
+Status PartBuilder::finish()
+{
+    HEARTH_TRY(writer_.addText(kChunkMeta, report()));
+    HEARTH_TRY(writer_.addText(kChunkStrings, strings_));
+    HEARTH_TRY(writer_.addRecords<NodeRecord>(kChunkNodes, nodes));
+    HEARTH_TRY(writer_.addRecords<InstanceRecord>(kChunkInstances, instances));
+    HEARTH_TRY(writer_.addRecords<CameraRecord>(kChunkCameras, cameras));
+    HEARTH_TRY(writer_.addRecords<LightRecord>(kChunkLights, lights));
+    HEARTH_TRY(writer_.addRecords<ShadowSphereRecord>(kChunkShadowSpheres, shadow_spheres));
+    HEARTH_TRY(writer_.addRecords<MaterialRecord>(kChunkMaterials, materials));
+    HEARTH_TRY(writer_.addRecords<ImageRecord>(kChunkImages, images_));
+    HEARTH_TRY(writer_.addRecords<SkinRecord>(kChunkSkins, skins));
+    HEARTH_TRY(writer_.addRecords<JointRecord>(kChunkJoints, joints));
+    HEARTH_TRY(writer_.addRecords<AnimationRecord>(kChunkAnimations, animations));
+    HEARTH_TRY(writer_.addRecords<AnimationChannelRecord>(kChunkChannels, channels));
+    HEARTH_TRY(writer_.addRecords<float>(kChunkKeys, keys));
+    if (!key_bits.empty())
+        HEARTH_TRY(writer_.addRecords<uint32_t>(kChunkKeyBits, key_bits));
+    HEARTH_TRY(writer_.addRecords<float>(kChunkMorphWeights, morph_weights));
+    if (!lods_.empty())
+        HEARTH_TRY(writer_.addRecords<AuthoredLodRecord>(kChunkAuthoredLods, lods_));
+    return writer_.finish();
+}
+
+} // namespace hearth::import

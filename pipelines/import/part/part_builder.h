@@ -1,0 +1,146 @@
+// Receives what import reads, mesh by mesh and image by image, and writes the import part.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "cook/animation_compression/compress.h"
+#include "cook/mesh/source_mesh.h"
+#include "cook/tools/lod_files.h"
+#include "formats/container/container_writer.h"
+#include "formats/records/scene.h"
+#include "pipelines/import/part/moved_vertices.h"
+
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace hearth::import
+{
+
+/// An image as decoded: rows top to bottom, tightly packed.
+struct DecodedImage
+{
+    uint32_t width = 0;
+    uint32_t height = 0;
+    bool is_float = false;         ///< texels are RGBA16 float (linear), else RGBA8 as stored in the file
+    std::vector<std::byte> texels; ///< width * height * (is_float ? 8 : 4)
+};
+
+/// How the source counts itself, for the report.
+struct SourceCounts
+{
+    uint64_t triangles = 0; ///< over meshes, not instances
+    uint64_t faces = 0;     ///< polygons before triangulation
+    uint64_t vertices = 0;  ///< glTF: over the distinct POSITION accessors; scans: vertices of the file
+    uint64_t materials = 0;
+    uint64_t joints = 0; ///< distinct joint nodes
+    uint64_t animations = 0;
+    uint64_t morph_targets = 0;
+};
+
+/// The error with its texts cut to what a person reads: names in a hostile file can be megabytes long.
+Error shortened(Error error);
+
+/// The import part being written. Small records collect in the public vectors; meshes and images go to the file
+/// at once, so that one mesh and one image are in memory at a time.
+class PartBuilder
+{
+public:
+    static Result<PartBuilder> create(const std::string& path, std::string source_name);
+
+    /// The name's place in the string table; equal names share it.
+    formats::StringRef intern(std::string_view text);
+
+    /// A text of the string table.
+    std::string_view text(formats::StringRef ref) const
+    {
+        return std::string_view(strings_).substr(ref.offset, ref.length);
+    }
+
+    /// Next mesh; meshes get the indices 0, 1, ... in call order.
+    Status addMesh(const mesh::SourceMesh& mesh);
+
+    /// A mesh that is the next coarser level of detail of mesh `of`, in its object space, moved by the same joints. It is a
+    /// mesh of its own number. `label` says what people know the level by.
+    Status addLod(uint32_t of, const mesh::SourceMesh& mesh, const tools::LodLabel& label);
+
+    /// Next image (finest mip only); returns its index. `record` brings name, format and flags.
+    Result<uint32_t> addImage(formats::ImageRecord record, const DecodedImage& image);
+
+    /// Note something that the user should know; printed to stderr by the program and kept in META.
+    void warn(Issue issue, std::string where, std::string detail);
+    /// The same with a remark that stands behind the detail on stderr alone: it goes by more than the files
+    /// that are read, such as names of files beside them, and a part must be the same wherever those are.
+    void warn(Issue issue, std::string where, std::string detail, std::string_view remark);
+
+    /// A source file that was read: name relative to the asset's folder, and its content for the hash.
+    void addSource(std::string name, std::span<const std::byte> content);
+    /// The same where the content is not in memory at once; hash of formats::hashBytes.
+    void addSource(std::string name, uint64_t size, uint64_t hash);
+
+    Status finish();
+
+    std::vector<formats::NodeRecord> nodes;
+    std::vector<formats::InstanceRecord> instances;
+    std::vector<formats::CameraRecord> cameras;
+    std::vector<formats::LightRecord> lights;
+    std::vector<formats::ShadowSphereRecord> shadow_spheres;
+    std::vector<formats::MaterialRecord> materials;
+    std::vector<formats::SkinRecord> skins;
+    std::vector<formats::JointRecord> joints;
+    std::vector<formats::AnimationRecord> animations;
+    std::vector<formats::AnimationChannelRecord> channels;
+    std::vector<float> keys;
+    std::vector<uint32_t> key_bits;
+    std::vector<float> morph_weights;
+    std::vector<clips::ClipStatistics> clip_statistics; ///< of compressed animations, for the report
+    SourceCounts counts;
+
+    const std::string& sourceName() const { return source_name_; }
+    uint32_t imageCount() const { return static_cast<uint32_t>(images_.size()); }
+    /// Of a mesh and its levels of detail.
+    const MovedVertices& movedVerticesOf(uint32_t mesh) const { return moved_vertices_[mesh]; }
+    bool hasLods() const { return !lods_.empty(); }
+
+    /// Take over the sources and messages of another part, whose meshes become part of this one.
+    void adoptReport(const PartBuilder& other);
+
+    /// As a person is told of them, with their remarks.
+    std::vector<Error> warnings() const;
+
+    /// Messages beyond the first hundred, which are only counted.
+    uint64_t warningsLeftOut() const { return warnings_left_out_; }
+
+    /// The text of chunk META, schema hearth.import/1.
+    std::string report() const;
+
+private:
+    PartBuilder(formats::ContainerWriter writer, std::string source_name);
+
+    struct SourceFile
+    {
+        std::string name;
+        uint64_t size = 0;
+        uint64_t hash = 0;
+    };
+
+    struct Warning
+    {
+        Error error;
+        std::string remark;
+    };
+
+    formats::ContainerWriter writer_;
+    std::string source_name_;
+    std::string strings_;
+    std::map<std::string, formats::StringRef, std::less<>> string_refs_;
+    std::vector<formats::ImageRecord> images_;
+    uint32_t mesh_count_ = 0;
+    std::vector<formats::AuthoredLodRecord> lods_;
+    std::vector<MovedVertices> moved_vertices_; ///< of each mesh
+    std::vector<Warning> warnings_;
+    uint64_t warnings_left_out_ = 0;
+    std::vector<SourceFile> sources_;
+};
+
+} // namespace hearth::import

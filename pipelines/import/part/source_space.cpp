@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "pipelines/import/part/source_space.h"
+
+#include "formats/base/scale_bound.h"
+#include "formats/scene/animation.h"
+
+#include <cmath>
+#include <fmt/format.h>
+
+namespace hearth::import
+{
+
+using namespace formats;
+
+namespace
+{
+
+Affine3d turnOf(UpAxis up)
+{
+    Affine3d turn;
+    if (up == UpAxis::z)
+    {
+        turn.m[1][1] = 0;
+        turn.m[1][2] = 1;
+        turn.m[2][1] = -1;
+        turn.m[2][2] = 0;
+    }
+    return turn;
+}
+
+Affine3d scaled(Affine3d transform, double factor)
+{
+    for (auto& row : transform.m)
+        for (double& entry : row)
+            entry *= factor;
+    return transform;
+}
+
+std::vector<Affine3d> restPlaces(std::span<const NodeRecord> nodes)
+{
+    MotionTables tables;
+    tables.nodes = nodes;
+    std::vector<Affine3d> world_from_node(nodes.size());
+    poseNodes(tables, restPose(tables), parentsFirst(nodes), world_from_node);
+    return world_from_node;
+}
+
+/// Moves all that a part has in the world.
+class Mover
+{
+public:
+    Mover(const SourceSpace& space, PartBuilder& part)
+        : factor_(space.metres_per_unit),
+          turn_(turnOf(space.up)),
+          world_from_source_(scaled(turn_, factor_)),
+          part_(part)
+    {
+    }
+
+    Status move()
+    {
+        const std::vector<Affine3d> before = restPlaces(part_.nodes);
+        HEARTH_TRY(addRoot());
+        const std::vector<Affine3d> after = restPlaces(part_.nodes);
+        for (InstanceRecord& instance : part_.instances)
+            HEARTH_TRY(moveInstance(instance, before, after));
+        for (CameraRecord& camera : part_.cameras)
+            HEARTH_TRY(moveCamera(camera));
+        for (LightRecord& light : part_.lights)
+            HEARTH_TRY(moveLight(light));
+        for (ShadowSphereRecord& sphere : part_.shadow_spheres)
+            HEARTH_TRY(moveSphere(sphere));
+        return success();
+    }
+
+private:
+    Error outOfRange() const
+    {
+        return {Issue::input_too_large, part_.sourceName(), "",
+                fmt::format("scaled by {}, a place or a length does not fit 32-bit numbers", factor_)};
+    }
+
+    Result<Affine3> narrow(const Affine3d& transform) const
+    {
+        const std::optional<Affine3> result = narrowed(transform);
+        return result ? Result<Affine3>(*result) : outOfRange();
+    }
+
+    /// 0 stands for no limit and stays; no other length may become it.
+    Status scaleLength(float& length) const
+    {
+        const auto metres = static_cast<float>(double{length} * factor_);
+        if (!std::isfinite(metres) || (metres == 0) != (length == 0))
+            return outOfRange();
+        length = metres;
+        return success();
+    }
+
+    Status addRoot()
+    {
+        NodeRecord root{};
+        root.parent = root.mesh = root.skin = kNone;
+        root.rotation = {0, 0, 0, 1};
+        root.scale = {1, 1, 1};
+        HEARTH_ASSIGN_OR_RETURN(root.parent_from_node, narrow(world_from_source_));
+        const auto index = static_cast<uint32_t>(part_.nodes.size());
+        for (NodeRecord& node : part_.nodes)
+            if (node.parent == kNone)
+                node.parent = index;
+        part_.nodes.push_back(root);
+        return success();
+    }
+
+    /// Moves an instance. One that stands where its node does must do so to the last bit afterwards: a runtime knows by that
+    /// that nothing is between them. A skinned one stands where its joints are, which have moved already.
+    Status moveInstance(InstanceRecord& instance, std::span<const Affine3d> before,
+                        std::span<const Affine3d> after)
+    {
+        if (part_.nodes[instance.node].skin != kNone)
+            return success();
+        const bool stands_at_node = narrowed(before[instance.node]) == instance.world_from_object;
+        HEARTH_ASSIGN_OR_RETURN(instance.world_from_object,
+                                narrow(stands_at_node
+                                           ? after[instance.node]
+                                           : world_from_source_ * widened(instance.world_from_object)));
+        instance.scale_max = scaleBound(instance.world_from_object);
+        return success();
+    }
+
+    /// The place of what has lengths of its own: it is turned and moved, and its axes keep their lengths.
+    Result<Affine3> placeOf(const Affine3& world_from_thing) const
+    {
+        Affine3d place = turn_ * widened(world_from_thing);
+        for (auto& row : place.m)
+            row[3] *= factor_;
+        return narrow(place);
+    }
+
+    Status moveCamera(CameraRecord& camera)
+    {
+        HEARTH_ASSIGN_OR_RETURN(camera.world_from_camera, placeOf(camera.world_from_camera));
+        for (float* length :
+             {&camera.z_near, &camera.z_far, &camera.x_magnification, &camera.y_magnification})
+            HEARTH_TRY(scaleLength(*length));
+        return success();
+    }
+
+    Status moveLight(LightRecord& light)
+    {
+        HEARTH_ASSIGN_OR_RETURN(light.world_from_light, placeOf(light.world_from_light));
+        return scaleLength(light.range);
+    }
+
+    Status moveSphere(ShadowSphereRecord& sphere)
+    {
+        const Double3 center = transformPoint(world_from_source_, widen(sphere.center));
+        if (!isFinite(hearth::narrow(center)))
+            return outOfRange();
+        sphere.center = hearth::narrow(center);
+        return scaleLength(sphere.radius);
+    }
+
+    const double factor_;
+    const Affine3d turn_;
+    const Affine3d world_from_source_;
+    PartBuilder& part_;
+};
+
+} // namespace
+
+Status bringIntoMetres(const SourceSpace& space, PartBuilder& part)
+{
+    if (space.metres_per_unit == 1 && space.up == UpAxis::y)
+        return success();
+    return Mover(space, part).move();
+}
+
+} // namespace hearth::import

@@ -1,0 +1,342 @@
+// The materials of a scan as materials of the part: libraries and images from the asset's folder.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "pipelines/import/scans/obj_materials.h"
+
+#include "pipelines/import/images/decode.h"
+#include "pipelines/import/part/import_options.h"
+#include "pipelines/import/part/part_builder.h"
+#include "pipelines/import/source/file_bytes.h"
+
+#include "pipelines/import/images/placeholder.h"
+#include "pipelines/import/source/asset_folder.h"
+
+#include <algorithm>
+#include <cstring>
+
+namespace hearth::import
+{
+
+namespace
+{
+
+using formats::kNone;
+
+constexpr float kAlphaCutoff = 0.5f;
+// A surface that says nothing of its gloss, as clay or plaster: scans carry light and shade in their colours.
+constexpr float kDefaultRoughness = 0.8f;
+
+enum class Purpose : uint32_t
+{
+    color,
+    normals,
+};
+
+class ScanMaterials
+{
+public:
+    ScanMaterials(const ScanFile& scan, const std::string& path, const ImportOptions& options,
+                  PartBuilder& part)
+        : scan_(scan), options_(options), part_(part), folder_(path, options.reads)
+    {
+    }
+
+    Result<ScanMaterialIndices> add()
+    {
+        for (const std::string& library : scan_.material_libraries)
+            readLibraries(library);
+        for (const ScanNote& note : library_.notes)
+            part_.warn(note.issue, note.where, note.detail);
+
+        ScanMaterialIndices indices;
+        for (const std::string& name : scan_.material_names)
+        {
+            material_ = name;
+            const auto found = library_.materials.find(name);
+            if (found == library_.materials.end())
+                ++undefined_;
+            HEARTH_ASSIGN_OR_RETURN(
+                const formats::MaterialRecord record,
+                materialOf(found == library_.materials.end() ? MtlMaterial{} : found->second));
+            indices.of_name.push_back(static_cast<uint32_t>(part_.materials.size()));
+            part_.materials.push_back(record);
+            part_.materials.back().name = part_.intern(name);
+        }
+        if (undefined_ > 0)
+            part_.warn(Issue::degraded, "",
+                       std::to_string(undefined_) +
+                           " materials are not in the material libraries and are drawn grey");
+        material_.clear();
+        indices.fallback = defaultScanMaterial();
+        if (!scan_.texture_file.empty() && !scan_.uvs.empty())
+        {
+            MtlMaterial textured;
+            textured.diffuse_map.file = scan_.texture_file;
+            HEARTH_TRY(addBaseColor(textured, indices.fallback));
+        }
+        return indices;
+    }
+
+private:
+    /// The names of a mtllib statement: one that may have blanks, else several.
+    void readLibraries(const std::string& names)
+    {
+        if (readLibrary(names))
+            return;
+        bool all = names.find(' ') != std::string::npos;
+        for (size_t at = 0; all && at < names.size();)
+        {
+            const size_t end = std::min(names.find(' ', at), names.size());
+            all = end == at || readLibrary(names.substr(at, end - at));
+            at = end + 1;
+        }
+        if (!all)
+            part_.warn(Issue::material_missing, "",
+                       "material library '" + names + "' beside " + folder_.assetName() + ": " + failure_,
+                       suggestion_);
+    }
+
+    bool readLibrary(std::string name)
+    {
+        std::replace(name.begin(), name.end(), '\\', '/');
+        if (std::find(libraries_read_.begin(), libraries_read_.end(), name) != libraries_read_.end())
+            return true;
+        const auto file = folder_.read(name, options_.limits.max_file_bytes);
+        if (!file)
+        {
+            failure_ = file.error().detail;
+            suggestion_ = folder_.suggestionFor(name, file.error().issue);
+            return false;
+        }
+        libraries_read_.push_back(name);
+        const std::span<const std::byte> bytes = file->bytes();
+        part_.addSource(name, bytes);
+        readMtl({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, name, library_);
+        return true;
+    }
+
+    Result<formats::MaterialRecord> materialOf(const MtlMaterial& mtl)
+    {
+        formats::MaterialRecord record = defaultScanMaterial();
+        const bool has_map = !mtl.diffuse_map.file.empty();
+        // programs write Kd 0 beside a map, or none: the map alone counts then
+        const bool black = mtl.diffuse.x == 0 && mtl.diffuse.y == 0 && mtl.diffuse.z == 0;
+        const Float3 diffuse = has_map && (black || !mtl.has_diffuse) ? Float3{1, 1, 1} : mtl.diffuse;
+        record.base_color = {diffuse.x, diffuse.y, diffuse.z, mtl.opacity};
+        record.emissive = mtl.emissive;
+        if (mtl.has_shininess)
+            record.roughness = roughnessFromShininess(mtl.shininess);
+        if (mtl.opacity < 1)
+            record.alpha_mode = static_cast<uint32_t>(formats::AlphaMode::blend);
+        HEARTH_TRY(addBaseColor(mtl, record));
+        HEARTH_TRY(addEmissive(mtl, record));
+        HEARTH_TRY(addNormals(mtl, record));
+        return record;
+    }
+
+    Status addBaseColor(const MtlMaterial& mtl, formats::MaterialRecord& record)
+    {
+        const bool has_opacity = !mtl.opacity_map.file.empty();
+        if (mtl.diffuse_map.file.empty() && !has_opacity)
+            return success();
+        const MtlTexture& placement = mtl.diffuse_map.file.empty() ? mtl.opacity_map : mtl.diffuse_map;
+        const std::string key = "color\n" + mtl.diffuse_map.file + "\n" + mtl.opacity_map.file;
+        if (has_opacity)
+            record.alpha_mode = static_cast<uint32_t>(formats::AlphaMode::mask);
+        const auto known = image_of_key_.find(key);
+        if (known != image_of_key_.end())
+        {
+            setTexture(record.base_color_texture, placement, known->second);
+            return success();
+        }
+        bool placeholder = false;
+        DecodedImage image = has_opacity && mtl.diffuse_map.file.empty()
+                                 ? DecodedImage{}
+                                 : load(mtl.diffuse_map.file, placeholder);
+        if (has_opacity)
+            takeOpacity(mtl, image);
+        const uint32_t flags =
+            (placeholder ? formats::kImagePlaceholder : 0u) | (has_opacity ? formats::kImageAlphaTested : 0u);
+        HEARTH_ASSIGN_OR_RETURN(const uint32_t index, addImage(placement.file, image, Purpose::color, flags));
+        image_of_key_.emplace(key, index);
+        setTexture(record.base_color_texture, placement, index);
+        return success();
+    }
+
+    Status addEmissive(const MtlMaterial& mtl, formats::MaterialRecord& record)
+    {
+        if (mtl.emissive_map.file.empty())
+            return success();
+        HEARTH_ASSIGN_OR_RETURN(const uint32_t image, textureImage(mtl.emissive_map, Purpose::color, false));
+        const bool black = mtl.emissive.x == 0 && mtl.emissive.y == 0 && mtl.emissive.z == 0;
+        record.emissive = black ? Float3{1, 1, 1} : mtl.emissive;
+        setTexture(record.emissive_texture, mtl.emissive_map, image);
+        return success();
+    }
+
+    Status addNormals(const MtlMaterial& mtl, formats::MaterialRecord& record)
+    {
+        if (mtl.normal_map.file.empty())
+            return success();
+        HEARTH_ASSIGN_OR_RETURN(const uint32_t image,
+                                textureImage(mtl.normal_map, Purpose::normals, mtl.normal_is_bump));
+        record.normal_scale = mtl.normal_map.bump_multiplier;
+        setTexture(record.normal_texture, mtl.normal_map, image);
+        return success();
+    }
+
+    /// The image of a texture, none where the surface is better without one.
+    Result<uint32_t> textureImage(const MtlTexture& texture, Purpose purpose, bool may_be_height_map)
+    {
+        const std::string key = (purpose == Purpose::color ? "color\n" : "normals\n") + texture.file + "\n";
+        const auto known = image_of_key_.find(key);
+        if (known != image_of_key_.end())
+            return known->second;
+        bool placeholder = false;
+        const DecodedImage image = load(texture.file, placeholder);
+        const bool height_map = may_be_height_map && !placeholder && isGrey(image);
+        if (height_map)
+            part_.warn(Issue::dropped, "", "height map '" + texture.file + "' is not kept (normal maps are)");
+        // a placeholder says nothing of normals
+        uint32_t index = kNone;
+        if (!height_map && (!placeholder || purpose != Purpose::normals))
+        {
+            HEARTH_ASSIGN_OR_RETURN(
+                index, addImage(texture.file, image, purpose, placeholder ? formats::kImagePlaceholder : 0u));
+        }
+        image_of_key_.emplace(key, index);
+        return index;
+    }
+
+    Result<uint32_t> addImage(const std::string& name, const DecodedImage& image, Purpose purpose,
+                              uint32_t flags)
+    {
+        formats::ImageRecord record{};
+        record.name = part_.intern(name);
+        const auto format = image.is_float              ? formats::TexelFormat::rgba16_float
+                            : purpose == Purpose::color ? formats::TexelFormat::rgba8_srgb
+                                                        : formats::TexelFormat::rgba8_unorm;
+        record.format = static_cast<uint32_t>(format);
+        record.flags = flags | (purpose == Purpose::normals ? formats::kImageNormalMap : 0u);
+        record.alpha_cutoff = (flags & formats::kImageAlphaTested) != 0 ? kAlphaCutoff : 0;
+        return part_.addImage(record, image);
+    }
+
+    static void setTexture(formats::TextureRef& ref, const MtlTexture& texture, uint32_t image)
+    {
+        const auto wrap =
+            static_cast<uint8_t>(texture.clamp ? formats::Wrap::clamp_to_edge : formats::Wrap::repeat);
+        ref.image = image;
+        ref.wrap_u = ref.wrap_v = wrap;
+        // v counts from the top here: 1 - ((1 - v) * s + o) = v * s + 1 - s - o
+        const float transform[6] = {
+            texture.scale.x, 0, texture.offset.x, 0, texture.scale.y, 1 - texture.scale.y - texture.offset.y};
+        std::memcpy(ref.uv_transform, transform, sizeof(transform));
+    }
+
+    Result<DecodedImage> read(const std::string& name)
+    {
+        HEARTH_ASSIGN_OR_RETURN(const FileBytes file, folder_.read(name, options_.limits.max_file_bytes));
+        part_.addSource(name, file.bytes());
+        return decodeImage(file.bytes(), name, options_.limits);
+    }
+
+    /// The image, or the placeholder with a warning.
+    DecodedImage load(const std::string& file, bool& placeholder)
+    {
+        auto image = read(file);
+        placeholder = !image.ok();
+        if (image.ok())
+            return std::move(image).value();
+        warnOfImage(file, image.error());
+        return placeholderImage();
+    }
+
+    void warnOfImage(const std::string& file, const Error& error)
+    {
+        const bool missing = error.issue == Issue::input_missing;
+        part_.warn(missing ? Issue::image_missing : Issue::image_replaced, "",
+                   "image '" + file + "'" + (material_.empty() ? "" : " of material '" + material_ + "'") +
+                       " beside " + folder_.assetName() + ": " + error.detail,
+                   folder_.suggestionFor(file, error.issue));
+    }
+
+    /// Height maps are grey; the flat normal is (128, 128, 255).
+    static bool isGrey(const DecodedImage& image)
+    {
+        for (size_t at = 0; at < image.texels.size() && !image.is_float; at += 4)
+            if (image.texels[at] != image.texels[at + 1] || image.texels[at] != image.texels[at + 2])
+                return false;
+        return !image.is_float;
+    }
+
+    /// Put the opacity map into the alpha of `image` (which is made white if there is none). An opacity map with
+    /// transparent texels brings its alpha, any other its brightness.
+    void takeOpacity(const MtlMaterial& mtl, DecodedImage& image)
+    {
+        const auto opacity = read(mtl.opacity_map.file);
+        if (!opacity.ok() || opacity->is_float || image.is_float)
+        {
+            warnOfImage(mtl.opacity_map.file, opacity.ok()
+                                                  ? Error{Issue::image_replaced, "", "", "floating point"}
+                                                  : opacity.error());
+            if (image.texels.empty())
+                image = placeholderImage();
+            return;
+        }
+        if (image.texels.empty())
+        {
+            image = {opacity->width, opacity->height, false, {}};
+            image.texels.assign(opacity->texels.size(), std::byte{0xFF});
+        }
+        bool has_alpha = false;
+        for (size_t at = 3; at < opacity->texels.size(); at += 4)
+            has_alpha = has_alpha || opacity->texels[at] != std::byte{0xFF};
+        for (size_t y = 0; y < image.height; ++y)
+            for (size_t x = 0; x < image.width; ++x)
+            {
+                const size_t from =
+                    (y * opacity->height / image.height) * opacity->width + x * opacity->width / image.width;
+                image.texels[(y * image.width + x) * 4 + 3] = opacity->texels[from * 4 + (has_alpha ? 3 : 0)];
+            }
+    }
+
+    const ScanFile& scan_;
+    const ImportOptions& options_;
+    PartBuilder& part_;
+    AssetFolder folder_;
+    MtlLibrary library_;
+    std::vector<std::string> libraries_read_;
+    std::string failure_;
+    std::string suggestion_;
+    std::string material_; ///< that is being made; empty: the one of faces without any
+    std::map<std::string, uint32_t> image_of_key_;
+    size_t undefined_ = 0;
+};
+
+} // namespace
+
+formats::MaterialRecord defaultScanMaterial()
+{
+    formats::MaterialRecord record{};
+    record.base_color = {1, 1, 1, 1};
+    record.alpha_cutoff = kAlphaCutoff;
+    record.roughness = kDefaultRoughness;
+    record.normal_scale = 1;
+    record.occlusion_strength = 1;
+    for (formats::TextureRef* ref :
+         {&record.base_color_texture, &record.metallic_roughness_texture, &record.normal_texture,
+          &record.occlusion_texture, &record.emissive_texture})
+    {
+        ref->image = kNone;
+        ref->uv_transform[0] = ref->uv_transform[4] = 1;
+    }
+    return record;
+}
+
+Result<ScanMaterialIndices> addScanMaterials(const ScanFile& scan, const std::string& path,
+                                             const ImportOptions& options, PartBuilder& part)
+{
+    return ScanMaterials(scan, path, options, part).add();
+}
+
+} // namespace hearth::import

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "pipelines/import/source/file_bytes.h"
+
+#include "formats/base/hash_pieces.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <unistd.h>
+#include <utility>
+
+namespace hearth::import
+{
+
+namespace
+{
+
+// Smaller files are copied: from under a copy nobody can pull anything, and it costs no more than the mapping.
+constexpr size_t kMappedFrom = size_t{64} << 20;
+constexpr size_t kPiece = size_t{16} << 20;
+
+struct FileDescriptor
+{
+    int number;
+    explicit FileDescriptor(int opened) : number(opened) {}
+    FileDescriptor(const FileDescriptor&) = delete;
+    FileDescriptor& operator=(const FileDescriptor&) = delete;
+    ~FileDescriptor()
+    {
+        if (number >= 0)
+            ::close(number);
+    }
+};
+
+bool isSame(const struct stat& a, const struct stat& b)
+{
+    return a.st_ino == b.st_ino && a.st_size == b.st_size && a.st_mtim.tv_sec == b.st_mtim.tv_sec &&
+           a.st_mtim.tv_nsec == b.st_mtim.tv_nsec;
+}
+
+Error failure(Issue issue, const std::string& path, std::string detail)
+{
+    return {issue, path, "", std::move(detail)};
+}
+
+Result<std::vector<std::byte>> copyOf(int file, size_t size, const std::string& path)
+{
+    std::vector<std::byte> bytes(size);
+    size_t filled = 0;
+    while (filled < bytes.size())
+    {
+        const ssize_t count = ::read(file, bytes.data() + filled, bytes.size() - filled);
+        if (count < 0 && errno == EINTR)
+            continue;
+        if (count < 0)
+            return failure(Issue::read_failed, path, std::strerror(errno));
+        if (count == 0)
+            return failure(Issue::read_failed, path, "the file shrank while it was read");
+        filled += static_cast<size_t>(count);
+    }
+    return bytes;
+}
+
+} // namespace
+
+Result<FileBytes> FileBytes::read(const std::string& path, uint64_t max_bytes)
+{
+    // without O_NONBLOCK the open of a pipe waits for a writer
+    const FileDescriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY));
+    if (file.number < 0)
+        return failure(Issue::input_missing, path, std::strerror(errno));
+    struct stat info = {};
+    if (::fstat(file.number, &info) != 0)
+        return failure(Issue::read_failed, path, std::strerror(errno));
+    if (!S_ISREG(info.st_mode))
+        return failure(Issue::input_missing, path, "not a regular file");
+    if (static_cast<uint64_t>(info.st_size) > max_bytes)
+        return failure(Issue::input_too_large, path, std::to_string(info.st_size) + " bytes");
+
+    const auto size = static_cast<size_t>(info.st_size);
+    if (size >= kMappedFrom)
+        if (void* at = ::mmap(nullptr, size, PROT_READ, MAP_PRIVATE, file.number, 0); at != MAP_FAILED)
+        {
+            FileBytes mapping{std::vector<std::byte>()};
+            mapping.mapped_ = {static_cast<const std::byte*>(at), size};
+            mapping.path_ = path;
+            mapping.then_ = info;
+            return mapping;
+        }
+    HEARTH_ASSIGN_OR_RETURN(std::vector<std::byte> bytes, copyOf(file.number, size, path));
+    return FileBytes(std::move(bytes));
+}
+
+FileBytes::FileBytes(FileBytes&& other) noexcept
+    : owned_(std::move(other.owned_)),
+      mapped_(std::exchange(other.mapped_, {})),
+      path_(std::move(other.path_)),
+      then_(other.then_)
+{
+}
+
+FileBytes::~FileBytes()
+{
+    if (!mapped_.empty())
+        ::munmap(const_cast<std::byte*>(mapped_.data()), mapped_.size());
+}
+
+uint64_t FileBytes::hash() const
+{
+    std::span<const std::byte> rest = bytes();
+    return hashPieces(
+        [&]
+        {
+            forget();
+            const std::span<const std::byte> piece = rest.first(std::min(rest.size(), kPiece));
+            rest = rest.subspan(piece.size());
+            return piece;
+        });
+}
+
+void FileBytes::forget() const
+{
+    if (!mapped_.empty())
+        ::madvise(const_cast<std::byte*>(mapped_.data()), mapped_.size(), MADV_DONTNEED);
+}
+
+Status FileBytes::unchanged() const
+{
+    struct stat now = {};
+    if (mapped_.empty() || (::stat(path_.c_str(), &now) == 0 && isSame(now, then_)))
+        return success();
+    return failure(Issue::read_failed, path_, "the file changed while it was read");
+}
+
+} // namespace hearth::import

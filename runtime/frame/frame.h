@@ -1,0 +1,38 @@
+// C++ only: fills the shared records of a frame and of a scene from a camera and the tables of a pack.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "formats/gpu_shared/decisions.h"
+
+#include <span>
+#include <vector>
+
+namespace hearth::shared
+{
+
+struct Camera
+{
+    Float3 position;
+    Float3 target{0, 0, -1};
+    Float3 up{0, 1, 0};
+    float y_fov_rad = 0.8f; ///< full vertical angle
+    float z_near = 0.01f;   ///< metres
+};
+
+/// The frame's constants. `error_pixels` is the projected error that need not be refined; 0 asks for the source
+/// triangles, also where a coarser level has no error at all. Errors count alike at all distances: setLodCurve
+/// (lod_curve.h) changes that.
+FrameView makeFrameView(const Camera& camera, uint32_t width, uint32_t height, float error_pixels,
+                        uint32_t instance_count, uint32_t flags = kCullEverything);
+
+/// The view of the depth pyramid that such a frame leaves.
+OcclusionView makeOcclusionView(const FrameView& view);
+
+/// Inverse of the linear part, computed in double.
+InstanceInverse makeInstanceInverse(const formats::InstanceRecord& instance);
+
+/// Box over all clusters of each mesh: simplified vertices may leave the box of the source.
+std::vector<MeshBounds> makeMeshBounds(std::span<const formats::MeshRecord> meshes,
+                                       std::span<const formats::ClusterRecord> clusters);
+
+} // namespace hearth::shared

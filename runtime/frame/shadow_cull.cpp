@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "runtime/frame/shadow_cull.h"
+
+#include "formats/base/assert.h"
+#include "formats/base/double3.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hearth::shared
+{
+
+namespace
+{
+
+/// The plane through the edge of a map, inside where the light's coordinate is more than `least`, or less with side -1.
+Float4 sidePlane(const ShadowLight& light, Double3 eye, Float3 axis, double least, double side)
+{
+    const Double3 along = widen(light.direction);
+    // least < axis . p / w, times w
+    const Double3 normal = (widen(axis) - along * (least * double{light.perspective})) * side;
+    const double offset = dot(normal, eye) - side * least * (1 - double{light.perspective});
+    const Float3 n = narrow(normal);
+    return {n.x, n.y, n.z, static_cast<float>(offset)};
+}
+
+} // namespace
+
+FrameView makeCasterView(const FrameView& view, const ShadowLight& light, const ShadowMap& map,
+                         float error_bias)
+{
+    HEARTH_ASSERT(error_bias >= 1);
+    const Double3 eye = widen(view.eye) - widen(light.origin);
+    const auto coordinate = [](float texel, float scale, float offset)
+    { return (double{texel} - double{offset}) / double{scale}; };
+    FrameView casters = view;
+    casters.planes[0] = sidePlane(light, eye, light.right, coordinate(0, map.scale_x, map.offset_x), 1);
+    casters.planes[1] =
+        sidePlane(light, eye, light.right, coordinate(map.size, map.scale_x, map.offset_x), -1);
+    casters.planes[2] = sidePlane(light, eye, light.down, coordinate(0, map.scale_y, map.offset_y), 1);
+    casters.planes[3] =
+        sidePlane(light, eye, light.down, coordinate(map.size, map.scale_y, map.offset_y), -1);
+    // a sun has no nearest distance: a plane that everything lies on
+    const Double3 near_normal = widen(light.direction) * double{light.perspective};
+    const Float3 n = narrow(near_normal);
+    casters.planes[4] = {
+        n.x, n.y, n.z,
+        static_cast<float>(dot(near_normal, eye) - double{light.perspective * light.depth_offset})};
+    casters.threshold = view.threshold * error_bias;
+    casters.flags = view.flags & (kCullInstances | kCullFrustum);
+    return casters;
+}
+
+EyeCell eyeCell(const FrameView& view, float texel_m, float error_bias)
+{
+    HEARTH_ASSERT(texel_m > 0 && error_bias >= 1);
+    // beyond a kilometre cells gain nothing, below a millimetre neither
+    constexpr float kSmallestExponent = -10;
+    constexpr float kLargestExponent = 10;
+    constexpr float kHalfDiagonal = 0.8660255f; // of a cube of side 1
+    const float error_a_metre = std::max(view.threshold, 0.0f) * error_bias / view.lod_scale;
+    const float allowed_shift = 0.5f * texel_m / std::max(error_a_metre, 1e-12f);
+    const float exponent = std::floor(std::log2(allowed_shift / kHalfDiagonal));
+    const float side = std::exp2(std::clamp(exponent, kSmallestExponent, kLargestExponent));
+    const auto middle = [&](float along) { return (std::floor(along / side) + 0.5f) * side; };
+    return {{middle(view.eye.x), middle(view.eye.y), middle(view.eye.z)}, side * kHalfDiagonal};
+}
+
+} // namespace hearth::shared

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "runtime/gpu/passes/bin_pass.h"
+
+#include "runtime/gpu/passes/frame_targets.h"
+#include "runtime/shaders/shaders.h"
+
+namespace hearth::gpu
+{
+
+Result<BinPass> BinPass::createVisibility(const Device& device, const DrawLayouts& layouts,
+                                          VkRenderPass render_pass)
+{
+    BinPass pass;
+    pass.description_ = {.vertex = shaders::visibility_vert,
+                         .fragment = shaders::visibility_frag,
+                         .layout = layouts.visibility.get(),
+                         .render_pass = render_pass,
+                         .subpass = kSubpassVisibility,
+                         .depth_compare =
+                             VK_COMPARE_OP_GREATER, // reversed: 1 at the near plane, 0 infinitely far away
+                         .depth_write = true,
+                         .color = true};
+    pass.alpha_tested_ = {shaders::visibility_masked_vert, shaders::visibility_masked_frag};
+    HEARTH_TRY(pass.createPipelines(device, kRigid, pass.rigid_));
+    return pass;
+}
+
+Result<BinPass> BinPass::createOverdraw(const Device& device, const DrawLayouts& layouts,
+                                        VkRenderPass render_pass)
+{
+    BinPass pass;
+    pass.description_ = {.vertex = shaders::visibility_vert,
+                         .fragment = shaders::overdraw_frag,
+                         .layout = layouts.visibility.get(),
+                         .render_pass = render_pass,
+                         .subpass = kSubpassShading,
+                         .depth_compare = VK_COMPARE_OP_ALWAYS,
+                         .depth_write = false,
+                         .color = true,
+                         .add = true};
+    pass.alpha_tested_ = {shaders::visibility_masked_vert, shaders::overdraw_masked_frag};
+    HEARTH_TRY(pass.createPipelines(device, kRigid, pass.rigid_));
+    return pass;
+}
+
+/// What faces away from the light casts as well: a surface without thickness has no other side that would.
+Result<BinPass> BinPass::createCasters(const Device& device, const DrawLayouts& layouts,
+                                       VkRenderPass render_pass)
+{
+    BinPass pass;
+    pass.casters_ = true;
+    pass.description_ = {.vertex = shaders::caster_vert,
+                         .fragment = shaders::caster_frag,
+                         .layout = layouts.visibility.get(),
+                         .render_pass = render_pass,
+                         .subpass = 0,
+                         .depth_compare = VK_COMPARE_OP_GREATER, // reversed, as in the picture
+                         .depth_write = true,
+                         .color = false};
+    pass.alpha_tested_ = {shaders::caster_masked_vert, shaders::caster_masked_frag};
+    HEARTH_TRY(pass.createPipelines(device, kRigid, pass.rigid_));
+    return pass;
+}
+
+/// Casters are not worth keeping: a map sees other clusters than the picture, and each is drawn once.
+Status BinPass::prepareDeformed(const Device& device)
+{
+    if (!deformed_)
+    {
+        deformed_.emplace();
+        HEARTH_TRY(createPipelines(device, casters_ ? kDeformedHere : kDeformedInScratch, *deformed_));
+    }
+    return success();
+}
+
+Status BinPass::createPipelines(const Device& device, uint32_t deformed, Variants& variants) const
+{
+    GraphicsDescription opaque = description_;
+    for (const size_t slices : {size_t{0}, size_t{1}})
+        for (const Facing facing : {Facing::culled, Facing::mirrored, Facing::doubleSided})
+        {
+            if (casters_ && facing != Facing::doubleSided)
+                continue;
+            const uint32_t used_slices = slices == 0 ? 1 : shared::kPoolSlices;
+            // only the first and the last are constants of these shaders
+            const uint32_t constants[] = {used_slices, 0, 0, 0, deformed};
+            opaque.constants = constants;
+            opaque.cull =
+                VkCullModeFlags(facing == Facing::doubleSided ? VK_CULL_MODE_NONE : VK_CULL_MODE_BACK_BIT);
+            opaque.front_face =
+                facing == Facing::mirrored ? VK_FRONT_FACE_CLOCKWISE : VK_FRONT_FACE_COUNTER_CLOCKWISE;
+            GraphicsDescription tested = opaque;
+            tested.vertex = alpha_tested_.vertex;
+            tested.fragment = alpha_tested_.fragment;
+            const auto index = static_cast<size_t>(facing);
+            HEARTH_ASSIGN_OR_RETURN(variants.opaque[slices][index], createGraphicsPipeline(device, opaque));
+            HEARTH_ASSIGN_OR_RETURN(variants.alpha_tested[slices][index],
+                                    createGraphicsPipeline(device, tested));
+        }
+    return success();
+}
+
+void BinPass::record(const Device& device, VkCommandBuffer commands, const DrawLayouts& layouts,
+                     const Scene& scene, uint32_t phase, DrawPush push) const
+{
+    const VkPipelineLayout layout = layouts.visibility.get();
+    device.vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout, 0, 1,
+                                      &scene.draw_set, 0, nullptr);
+    device.vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout, 2, 1,
+                                      &scene.bins_set, 0, nullptr);
+    const size_t slices = scene.used_slices == 1 ? 0 : 1;
+    const auto bin_count = static_cast<uint32_t>(scene.bins.size());
+    for (uint32_t i = 0; i < bin_count; ++i)
+    {
+        const SceneBin& bin = scene.bins[i];
+        if (casters_ && bin.unlit)
+            continue;
+        const Variants& variants = bin.deformed ? *deformed_ : rigid_;
+        const Pipelines& pipelines = (bin.alpha_tested ? variants.alpha_tested : variants.opaque)[slices];
+        const Facing facing = casters_ ? Facing::doubleSided : bin.facing;
+        device.vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS,
+                                    pipelines[static_cast<size_t>(facing)].get());
+        if (bin.alpha_tested)
+            device.vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout, 1, 1,
+                                              &scene.materials[bin.material_row].set, 0, nullptr);
+        push.bin = phase == shared::kPhaseLate ? bin_count + i : i;
+        device.vk.vkCmdPushConstants(commands, layout, kDrawPushStages, 0, sizeof(push), &push);
+        device.vk.vkCmdDrawIndirect(commands, scene.buffers.bin_draws.handle.get(),
+                                    push.bin * sizeof(shared::BinDraw), 1, sizeof(shared::BinDraw));
+    }
+}
+
+} // namespace hearth::gpu

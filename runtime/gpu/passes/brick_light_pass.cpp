@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "runtime/gpu/passes/brick_light_pass.h"
+
+#include "formats/gpu_shared/brick_lighting.h"
+#include "runtime/shaders/shaders.h"
+
+#include <algorithm>
+#include <cstring>
+
+namespace hearth::gpu
+{
+
+namespace
+{
+
+constexpr uint32_t kGroupFaces = 64; // as light_faces.comp has it
+constexpr VkPipelineStageFlags kReaders =
+    VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT;
+
+shared::BrickView viewOf(const SceneBricks& bricks, std::span<const EmissionScale> emission)
+{
+    shared::BrickView view{};
+    view.grid = formats::brickGridOf(bricks.grid);
+    view.face_count = bricks.grid.face_count;
+    view.first_brick = bricks.share.first_brick;
+    view.share_bricks = bricks.share.brick_count;
+    view.share_faces = bricks.share.face_count;
+    view.light_rays = bricks.rays;
+    const float scale = 1 / view.grid.voxel_size;
+    for (const EmissionScale& change :
+         emission.first(std::min<size_t>(emission.size(), shared::kMaxEmissionBoxes)))
+        view.emission_boxes[view.emission_box_count++] = {.least =
+                                                              (change.box.min - view.grid.origin) * scale,
+                                                          .factor = change.factor,
+                                                          .most = (change.box.max - view.grid.origin) * scale,
+                                                          .reserved = 0};
+    return view;
+}
+
+/// After a change what has been gathered counts little for so many sweeps over all faces, by which less than 3 % of the light
+/// before is left where the albedo is .8, and for so many frames more, by which less than 1 % of what was gathered is.
+constexpr uint32_t kQuickSweeps = 16;
+constexpr uint32_t kQuickFrames = 16;
+
+bool sameEmission(const shared::BrickView& a, const shared::BrickView& b)
+{
+    return a.emission_box_count == b.emission_box_count &&
+           std::memcmp(&a.emission_boxes, &b.emission_boxes, sizeof(a.emission_boxes)) == 0;
+}
+
+} // namespace
+
+Result<BrickLightPass> BrickLightPass::create(const Device& device, const DrawLayouts& layouts)
+{
+    BrickLightPass pass;
+    const VkDescriptorSetLayout sets[] = {layouts.bricks.get(), layouts.fresh_light.get()};
+    HEARTH_ASSIGN_OR_RETURN(pass.faces_, createComputePipeline(device, shaders::light_faces_comp, sets));
+    return pass;
+}
+
+void BrickLightPass::record(const Device& device, VkCommandBuffer commands, const Scene& scene,
+                            bool lights_change, std::span<const EmissionScale> emission) const
+{
+    SceneBricks& bricks = *scene.bricks;
+    bricks.share = brickShare(bricks, bricks.frame++);
+    const shared::BrickView view = viewOf(bricks, emission);
+    if (lights_change || !sameEmission(view, bricks.last_view))
+        bricks.quick_frames = kQuickSweeps * bricks.period + kQuickFrames;
+    else if (bricks.quick_frames > 0)
+        --bricks.quick_frames;
+    bricks.last_view = view;
+    // the frame before may still gather
+    barrier(device, commands, kReaders | VK_PIPELINE_STAGE_TRANSFER_BIT,
+            VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT, VK_PIPELINE_STAGE_TRANSFER_BIT,
+            VK_ACCESS_TRANSFER_WRITE_BIT | VK_ACCESS_TRANSFER_READ_BIT);
+    device.vk.vkCmdUpdateBuffer(commands, bricks.view.handle.get(), 0, sizeof(view), &view);
+    barrier(device, commands, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT, kReaders,
+            VK_ACCESS_UNIFORM_READ_BIT | VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT);
+    if (bricks.share.face_count == 0)
+        return;
+
+    const VkDescriptorSet sets[] = {bricks.set, bricks.fresh_set};
+    device.vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, faces_.pipeline.get());
+    device.vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, faces_.layout.get(), 0, 2,
+                                      sets, 0, nullptr);
+    const uint32_t groups = (bricks.share.face_count + kGroupFaces - 1) / kGroupFaces;
+    device.vk.vkCmdDispatch(commands, std::min(groups, shared::kDispatchRow),
+                            (groups + shared::kDispatchRow - 1) / shared::kDispatchRow, 1);
+    // all have read what is overwritten now: a frame sees the light of the one before, whatever the order of the threads
+    barrier(device, commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
+            VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_READ_BIT | VK_ACCESS_TRANSFER_WRITE_BIT);
+    const VkBufferCopy region{0, sizeof(shared::BrickLight) * bricks.share.first_face,
+                              sizeof(shared::BrickLight) * bricks.share.face_count};
+    device.vk.vkCmdCopyBuffer(commands, bricks.fresh.handle.get(), bricks.lighting.handle.get(), 1, &region);
+    barrier(device, commands, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT,
+            kReaders | VK_PIPELINE_STAGE_TRANSFER_BIT,
+            VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_TRANSFER_READ_BIT);
+}
+
+} // namespace hearth::gpu

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "runtime/gpu/passes/gather_pass.h"
+
+#include "runtime/gpu/vulkan/image_barrier.h"
+#include "runtime/shaders/shaders.h"
+
+namespace hearth::gpu
+{
+
+namespace
+{
+
+constexpr uint32_t kGroupTiles = 8; // each way, as gather_points.comp and gather_smooth.comp have it
+
+void bind(const Device& device, VkCommandBuffer commands, const ComputePipeline& pipeline,
+          std::initializer_list<VkDescriptorSet> sets)
+{
+    device.vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.pipeline.get());
+    device.vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.layout.get(), 0,
+                                      static_cast<uint32_t>(sets.size()), sets.begin(), 0, nullptr);
+}
+
+} // namespace
+
+Result<GatherPass> GatherPass::create(const Device& device, const DrawLayouts& layouts)
+{
+    GatherPass pass;
+    const VkDescriptorSetLayout point_sets[] = {layouts.scene.get(), layouts.gather_point.get()};
+    for (const size_t slices : {size_t{0}, size_t{1}})
+        for (const size_t deformed : {size_t{0}, size_t{1}})
+        {
+            const uint32_t constants[] = {slices == 0 ? 1 : shared::kPoolSlices, 0, 0, 0,
+                                          deformed == 0 ? kRigid : kDeformedInScratch};
+            HEARTH_ASSIGN_OR_RETURN(
+                pass.points_[slices][deformed],
+                createComputePipeline(device, shaders::gather_points_comp, point_sets, constants));
+        }
+    const VkDescriptorSetLayout ray_sets[] = {layouts.bricks.get(), layouts.gather.get()};
+    HEARTH_ASSIGN_OR_RETURN(pass.rays_, createComputePipeline(device, shaders::gather_rays_comp, ray_sets));
+    const VkDescriptorSetLayout smooth_sets[] = {layouts.gather.get()};
+    HEARTH_ASSIGN_OR_RETURN(pass.smooth_,
+                            createComputePipeline(device, shaders::gather_smooth_comp, smooth_sets));
+    return pass;
+}
+
+void GatherPass::record(const Device& device, VkCommandBuffer commands, const Scene& scene,
+                        FrameTargets& targets, const shared::FrameView& view, bool light_changes) const
+{
+    constexpr VkPipelineStageFlags kCompute = VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT;
+    GatherTargets& gather = targets.gather();
+    const shared::GatherView told = gather.beginFrame(view, scene.bricks->grid.origin, light_changes);
+    const auto [tiles_x, tiles_y] = gather.tiles();
+    // behind the gathering and shading of the frame before
+    transition(device, commands, gather.texels(), VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_GENERAL, 0,
+               VK_ACCESS_SHADER_WRITE_BIT, kCompute | VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT, kCompute);
+    barrier(device, commands, kCompute | VK_PIPELINE_STAGE_TRANSFER_BIT,
+            VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT,
+            kCompute | VK_PIPELINE_STAGE_TRANSFER_BIT,
+            VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT);
+    device.vk.vkCmdUpdateBuffer(commands, gather.view().handle.get(), 0, sizeof(told), &told);
+    barrier(device, commands, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT, kCompute,
+            VK_ACCESS_UNIFORM_READ_BIT);
+
+    const uint32_t groups_x = (tiles_x + kGroupTiles - 1) / kGroupTiles,
+                   groups_y = (tiles_y + kGroupTiles - 1) / kGroupTiles;
+    const auto wait = [&]
+    {
+        barrier(device, commands, kCompute, VK_ACCESS_SHADER_WRITE_BIT,
+                kCompute | VK_PIPELINE_STAGE_TRANSFER_BIT,
+                VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_READ_BIT);
+    };
+    bind(device, commands, points_[scene.used_slices == 1 ? 0 : 1][scene.deformation != nullptr ? 1 : 0],
+         {scene.draw_set, gather.pointSet()});
+    device.vk.vkCmdDispatch(commands, groups_x, groups_y, 1);
+    wait();
+    bind(device, commands, rays_, {scene.bricks->set, gather.gatherSet()});
+    device.vk.vkCmdDispatch(commands, (tiles_x + shared::kGatherGroupPoints - 1) / shared::kGatherGroupPoints,
+                            tiles_y, 1);
+    wait();
+    bind(device, commands, smooth_, {gather.gatherSet()});
+    device.vk.vkCmdDispatch(commands, groups_x, groups_y, 1);
+    transition(device, commands, gather.texels(), VK_IMAGE_LAYOUT_GENERAL,
+               VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, VK_ACCESS_SHADER_WRITE_BIT,
+               VK_ACCESS_SHADER_READ_BIT, kCompute, VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT);
+}
+
+} // namespace hearth::gpu

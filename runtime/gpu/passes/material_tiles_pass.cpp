@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "runtime/gpu/passes/material_tiles_pass.h"
+
+#include "formats/gpu_shared/material_tiles.h"
+#include "runtime/shaders/shaders.h"
+
+#include <algorithm>
+
+namespace hearth::gpu
+{
+
+namespace
+{
+
+struct TilesPush
+{
+    uint32_t width;
+    uint32_t height;
+    uint32_t draw_count;
+};
+
+static_assert(sizeof(shared::TileDraw) == sizeof(VkDrawIndirectCommand));
+
+} // namespace
+
+Result<MaterialTilesPass> MaterialTilesPass::create(const Device& device, const DrawLayouts& layouts)
+{
+    const auto createPipeline = [&](std::span<const uint32_t> spirv)
+    {
+        constexpr VkDescriptorType kStorage = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+        return createComputePipeline(device, spirv, {kStorage, kStorage, kStorage}, sizeof(TilesPush),
+                                     layouts.tiles.get());
+    };
+    MaterialTilesPass pass;
+    HEARTH_ASSIGN_OR_RETURN(pass.materials_, createPipeline(shaders::tile_materials_comp));
+    HEARTH_ASSIGN_OR_RETURN(pass.offsets_, createPipeline(shaders::tile_offsets_comp));
+    HEARTH_ASSIGN_OR_RETURN(pass.lists_, createPipeline(shaders::tile_lists_comp));
+    return pass;
+}
+
+Status MaterialTilesPass::createSet(const Device& device, Scene& scene) const
+{
+    // the layouts of the three pipelines are alike, so that one set fits all
+    HEARTH_ASSIGN_OR_RETURN(scene.tile_set,
+                            allocateSet(device, scene.pool.get(), materials_.set_layout.get()));
+    DescriptorWriter(scene.tile_set)
+        .storage(0, scene.buffers.visible)
+        .storage(1, scene.buffers.cluster_draws)
+        .storage(2, scene.buffers.tile_draws)
+        .write(device);
+    return success();
+}
+
+void MaterialTilesPass::record(const Device& device, VkCommandBuffer commands, const Scene& scene,
+                               const FrameTargets& targets) const
+{
+    const auto [width, height] = targets.extent();
+    const TilesPush push{width, height, static_cast<uint32_t>(scene.materials.size()) + 1};
+    const auto dispatch = [&](const ComputePipeline& pipeline, uint32_t x, uint32_t y)
+    {
+        const VkDescriptorSet sets[] = {scene.tile_set, targets.tileSet()};
+        device.vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.pipeline.get());
+        device.vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.layout.get(), 0,
+                                          2, sets, 0, nullptr);
+        device.vk.vkCmdPushConstants(commands, pipeline.layout.get(), VK_SHADER_STAGE_COMPUTE_BIT, 0,
+                                     sizeof(push), &push);
+        device.vk.vkCmdDispatch(commands, x, y, 1);
+    };
+    const auto wait = [&]
+    {
+        barrier(device, commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
+                VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT);
+    };
+    // the culling pass has waited for the frame before, which may have read what is cleared here
+    device.vk.vkCmdFillBuffer(commands, scene.buffers.tile_draws.handle.get(), 0, VK_WHOLE_SIZE, 0);
+    barrier(device, commands, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT,
+            VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT);
+    dispatch(materials_, shared::materialTiles(width), shared::materialTiles(height));
+    wait();
+    dispatch(offsets_, 1, 1);
+    wait();
+    dispatch(lists_, std::min(push.draw_count, shared::kDispatchRow),
+             (push.draw_count + shared::kDispatchRow - 1) / shared::kDispatchRow);
+    barrier(device, commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
+            VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT | VK_PIPELINE_STAGE_VERTEX_SHADER_BIT |
+                VK_PIPELINE_STAGE_TRANSFER_BIT,
+            VK_ACCESS_INDIRECT_COMMAND_READ_BIT | VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_TRANSFER_READ_BIT);
+}
+
+} // namespace hearth::gpu

@@ -1,0 +1,248 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "runtime/gpu/passes/shading_pass.h"
+
+#include "runtime/shaders/shaders.h"
+
+#include <algorithm>
+
+namespace hearth::gpu
+{
+
+namespace
+{
+
+GraphicsDescription describe(std::span<const uint32_t> fragment, VkPipelineLayout layout,
+                             VkRenderPass render_pass)
+{
+    return {.vertex = shaders::shaded_area_vert,
+            .fragment = fragment,
+            .layout = layout,
+            .render_pass = render_pass,
+            .subpass = kSubpassShading,
+            .depth_compare = VK_COMPARE_OP_EQUAL,
+            .depth_write = false,
+            .color = true};
+}
+
+uint32_t deformedVertices(const ShadingVariant& variant)
+{
+    return variant.deformed != 0 ? kDeformedInScratch : kRigid;
+}
+
+bool showsDeformed(const Scene& scene)
+{
+    return std::any_of(scene.materials.begin(), scene.materials.end(),
+                       [](const SceneMaterial& m) { return m.variant.deformed != 0; });
+}
+
+uint32_t skyOcclusion(const Scene& scene, const ShadingView& view)
+{
+    const bool no_table = view.specular_occlusion == shared::kSpecularOcclusionTable &&
+                          scene.specular_table.view.get() == VK_NULL_HANDLE;
+    return shared::skyOcclusionBits(view.ambient_occlusion,
+                                    no_table ? shared::kSpecularOcclusionFit : view.specular_occlusion,
+                                    scene.specular_spacing);
+}
+
+} // namespace
+
+Result<ShadingPass> ShadingPass::create(const Device& device, const DrawLayouts& layouts,
+                                        VkRenderPass render_pass)
+{
+    ShadingPass pass;
+    pass.render_pass_ = render_pass;
+    HEARTH_ASSIGN_OR_RETURN(
+        pass.sky_,
+        createGraphicsPipeline(device, describe(shaders::sky_frag, layouts.picture.get(), render_pass)));
+    GraphicsDescription clusters =
+        describe(shaders::inspect_clusters_frag, layouts.clusters.get(), render_pass);
+    clusters.vertex = shaders::fullscreen_vert;
+    clusters.depth_compare = VK_COMPARE_OP_LESS; // drawn at depth 0, which is the sky's
+    HEARTH_ASSIGN_OR_RETURN(pass.clusters_, createGraphicsPipeline(device, clusters));
+    return pass;
+}
+
+Result<ShadingPipelines> ShadingPass::prepare(const Device& device, const DrawLayouts& layouts,
+                                              const ShadingVariant& variant)
+{
+    UniquePipeline& shadow_maps = shadow_maps_[variant.deformed];
+    if (variant.shadows != 0 && shadow_maps.get() == VK_NULL_HANDLE)
+    {
+        const uint32_t constants[] = {shared::kPoolSlices, 0, 0, 0, deformedVertices(variant)};
+        GraphicsDescription maps =
+            describe(shaders::inspect_shadows_frag, layouts.picture.get(), render_pass_);
+        maps.vertex = shaders::fullscreen_vert;
+        maps.constants = constants;
+        maps.depth_compare = VK_COMPARE_OP_LESS; // as clusters_
+        HEARTH_ASSIGN_OR_RETURN(shadow_maps, createGraphicsPipeline(device, maps));
+    }
+    if (variant.bricks != 0)
+        HEARTH_TRY(prepareBricks(device, layouts, variant));
+    const auto [entry, fresh] = variants_.try_emplace(variant);
+    Variant& pipelines = entry->second;
+    if (fresh)
+    {
+        const uint32_t constants[] = {variant.used_slices, variant.textures,          variant.uv_sets,
+                                      variant.unlit,       deformedVertices(variant), variant.sky_visibility};
+        GraphicsDescription description =
+            describe(variant.shadows != 0 ? shaders::shading_shadowed_frag : shaders::shading_frag,
+                     layouts.picture.get(), render_pass_);
+        description.constants = constants;
+        HEARTH_ASSIGN_OR_RETURN(pipelines.final_view, createGraphicsPipeline(device, description));
+        if (variant.bricks != 0)
+        {
+            description.fragment = variant.shadows != 0 ? shaders::shading_shadowed_gathered_frag
+                                                        : shaders::shading_gathered_frag;
+            HEARTH_ASSIGN_OR_RETURN(pipelines.gathered_view, createGraphicsPipeline(device, description));
+        }
+        description.fragment = shaders::inspect_frag;
+        HEARTH_ASSIGN_OR_RETURN(pipelines.inspection, createGraphicsPipeline(device, description));
+    }
+    return ShadingPipelines{pipelines.final_view.get(), pipelines.gathered_view.get(),
+                            pipelines.inspection.get()};
+}
+
+/// The views of bricks and of their light.
+Status ShadingPass::prepareBricks(const Device& device, const DrawLayouts& layouts,
+                                  const ShadingVariant& variant)
+{
+    if (bricks_.get() == VK_NULL_HANDLE)
+    {
+        GraphicsDescription bricks =
+            describe(shaders::inspect_bricks_frag, layouts.brick_views.get(), render_pass_);
+        bricks.vertex = shaders::fullscreen_vert;
+        bricks.depth_compare = VK_COMPARE_OP_ALWAYS;
+        HEARTH_ASSIGN_OR_RETURN(bricks_, createGraphicsPipeline(device, bricks));
+    }
+    UniquePipeline& gathered = gathered_[variant.deformed];
+    if (gathered.get() == VK_NULL_HANDLE)
+    {
+        const uint32_t constants[] = {shared::kPoolSlices, 0, 0, 0, deformedVertices(variant)};
+        GraphicsDescription light =
+            describe(shaders::inspect_gathered_frag, layouts.picture.get(), render_pass_);
+        light.vertex = shaders::fullscreen_vert;
+        light.constants = constants;
+        light.depth_compare = VK_COMPARE_OP_LESS; // as clusters_
+        HEARTH_ASSIGN_OR_RETURN(gathered, createGraphicsPipeline(device, light));
+    }
+    return success();
+}
+
+void ShadingPass::record(const Device& device, VkCommandBuffer commands, const DrawLayouts& layouts,
+                         const Scene& scene, const FrameTargets& targets, const ShadingView& view) const
+{
+    recordSky(device, commands, layouts, scene, targets, view);
+    if (view.shown == shared::kViewError || view.shown == shared::kViewCones)
+        recordClusters(device, commands, layouts, scene, targets, view);
+    else if (view.shown == shared::kViewShadowMaps)
+        recordShadowMaps(device, commands, layouts, scene, view);
+    else if (view.shown == shared::kViewBricks || view.shown == shared::kViewBrickLighting)
+        recordBricks(device, commands, layouts, scene, view);
+    else if (view.shown == shared::kViewGathered)
+        recordGathered(device, commands, layouts, scene, view);
+    else
+        recordMaterials(device, commands, layouts, scene, view);
+}
+
+void ShadingPass::recordSky(const Device& device, VkCommandBuffer commands, const DrawLayouts& layouts,
+                            const Scene& scene, const FrameTargets& targets, const ShadingView& view) const
+{
+    const VkPipelineLayout layout = layouts.picture.get();
+    const VkDescriptorSet attachments = targets.attachments();
+    device.vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout, 0, 1,
+                                      &scene.draw_set, 0, nullptr);
+    device.vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout, 2, 1, &attachments,
+                                      0, nullptr);
+    const DrawPush push{.depth = 0, .shown_view = view.shown, .depth_scale = view.depth_scale};
+    device.vk.vkCmdPushConstants(commands, layout, kDrawPushStages, 0, sizeof(push), &push);
+    device.vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, sky_.get());
+    if (shadesTiles(scene, view.area))
+        device.vk.vkCmdDrawIndirect(commands, scene.buffers.tile_draws.handle.get(), 0, 1,
+                                    sizeof(VkDrawIndirectCommand));
+    else
+        device.vk.vkCmdDraw(commands, 3, 1, 0, 0);
+}
+
+void ShadingPass::recordClusters(const Device& device, VkCommandBuffer commands, const DrawLayouts& layouts,
+                                 const Scene& scene, const FrameTargets& targets,
+                                 const ShadingView& view) const
+{
+    const VkPipelineLayout layout = layouts.clusters.get();
+    const VkDescriptorSet sets[] = {scene.inspection_set, targets.attachments()};
+    const DrawPush push{.depth = 0, .shown_view = view.shown};
+    device.vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, clusters_.get());
+    device.vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout, 0, 2, sets, 0,
+                                      nullptr);
+    device.vk.vkCmdPushConstants(commands, layout, kDrawPushStages, 0, sizeof(push), &push);
+    device.vk.vkCmdDraw(commands, 3, 1, 0, 0);
+}
+
+/// With the sets that recordSky has bound.
+void ShadingPass::recordShadowMaps(const Device& device, VkCommandBuffer commands, const DrawLayouts& layouts,
+                                   const Scene& scene, const ShadingView& view) const
+{
+    HEARTH_ASSERT(scene.shadows != nullptr);
+    const DrawPush push{.depth = 0, .shown_view = view.shown};
+    device.vk.vkCmdPushConstants(commands, layouts.picture.get(), kDrawPushStages, 0, sizeof(push), &push);
+    device.vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS,
+                                shadow_maps_[showsDeformed(scene) ? 1 : 0].get());
+    device.vk.vkCmdDraw(commands, 3, 1, 0, 0);
+}
+
+/// In place of the sky as well.
+void ShadingPass::recordBricks(const Device& device, VkCommandBuffer commands, const DrawLayouts& layouts,
+                               const Scene& scene, const ShadingView& view) const
+{
+    HEARTH_ASSERT(scene.bricks != nullptr);
+    const VkPipelineLayout layout = layouts.brick_views.get();
+    const DrawPush push{.depth = 0, .shown_view = view.shown};
+    device.vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, bricks_.get());
+    device.vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout, 0, 1,
+                                      &scene.bricks->set, 0, nullptr);
+    device.vk.vkCmdPushConstants(commands, layout, kDrawPushStages, 0, sizeof(push), &push);
+    device.vk.vkCmdDraw(commands, 3, 1, 0, 0);
+}
+
+/// With the sets that recordSky has bound.
+void ShadingPass::recordGathered(const Device& device, VkCommandBuffer commands, const DrawLayouts& layouts,
+                                 const Scene& scene, const ShadingView& view) const
+{
+    HEARTH_ASSERT(scene.bricks != nullptr);
+    const DrawPush push{.depth = 0, .shown_view = view.shown};
+    device.vk.vkCmdPushConstants(commands, layouts.picture.get(), kDrawPushStages, 0, sizeof(push), &push);
+    device.vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS,
+                                gathered_[showsDeformed(scene) ? 1 : 0].get());
+    device.vk.vkCmdDraw(commands, 3, 1, 0, 0);
+}
+
+/// With the sets that recordSky has bound.
+void ShadingPass::recordMaterials(const Device& device, VkCommandBuffer commands, const DrawLayouts& layouts,
+                                  const Scene& scene, const ShadingView& view) const
+{
+    const VkPipelineLayout layout = layouts.picture.get();
+    const VkBuffer draws =
+        (shadesTiles(scene, view.area) ? scene.buffers.tile_draws : scene.buffers.material_draws)
+            .handle.get();
+    const uint32_t sky_occlusion = skyOcclusion(scene, view);
+    for (uint32_t row = 0; row < scene.materials.size(); ++row)
+    {
+        const SceneMaterial& material = scene.materials[row];
+        device.vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS,
+                                    view.shown != shared::kViewFinal ? material.pipelines.inspection
+                                    : gathers(scene, view)           ? material.pipelines.gathered_view
+                                                                     : material.pipelines.final_view);
+        const uint32_t number = row + 1; // 0 is the sky
+        const DrawPush push{.depth = static_cast<float>(number) / 65535.0f,
+                            .shown_view = view.shown,
+                            .depth_scale = view.depth_scale,
+                            .sky_occlusion = sky_occlusion};
+        device.vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout, 1, 1,
+                                          &material.set, 0, nullptr);
+        device.vk.vkCmdPushConstants(commands, layout, kDrawPushStages, 0, sizeof(push), &push);
+        // draws nothing where the material is not seen
+        device.vk.vkCmdDrawIndirect(commands, draws, number * sizeof(VkDrawIndirectCommand), 1,
+                                    sizeof(VkDrawIndirectCommand));
+    }
+}
+
+} // namespace hearth::gpu

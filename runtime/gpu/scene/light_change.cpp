@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "runtime/gpu/scene/light_change.h"
+
+#include "formats/scene/scene_lighting.h"
+#include "runtime/gpu/scene/scene_shadows.h"
+
+#include <cmath>
+#include <cstddef>
+#include <string>
+
+namespace hearth::gpu
+{
+
+namespace
+{
+
+bool isFinite(const formats::LightRecord& record)
+{
+    for (const auto& row : record.world_from_light.m)
+        for (const float value : row)
+            if (!std::isfinite(value))
+                return false;
+    return std::isfinite(record.color.x) && std::isfinite(record.color.y) && std::isfinite(record.color.z) &&
+           std::isfinite(record.intensity) && std::isfinite(record.range) &&
+           std::isfinite(record.inner_cone_rad) && std::isfinite(record.outer_cone_rad);
+}
+
+} // namespace
+
+Result<LightChange> changeLight(const Scene& scene, uint32_t light, const formats::LightRecord& record)
+{
+    const auto fail = [&](const std::string& detail) {
+        return Error{Issue::usage, "", "light " + std::to_string(light), detail};
+    };
+    if (light >= scene.lights.size())
+        return fail("there are " + std::to_string(scene.lights.size()) + " that are drawn");
+    if (record.type != scene.lights[light].type)
+        return fail("a light stays a sun, a lamp or a spot");
+    if (!isFinite(record))
+        return fail("what it shall be is not finite");
+    LightChange change{.light = light, .record = shared::lightOf(record)};
+    change.record.intensity = change.record.intensity * scene.exposure;
+    change.record.shadow_row = scene.lights[light].shadow_row;
+    return change;
+}
+
+void recordLights(const Device& device, VkCommandBuffer commands, const Scene& scene,
+                  std::span<const LightChange> lights)
+{
+    for (const LightChange& change : lights)
+    {
+        const VkDeviceSize row = offsetof(shared::Lighting, lights) + change.light * sizeof(shared::Light);
+        device.vk.vkCmdUpdateBuffer(commands, scene.buffers.lighting.handle.get(), row, sizeof(change.record),
+                                    &change.record);
+        if (scene.shadows != nullptr)
+            scene.shadows->change(change.light, change.record);
+    }
+}
+
+} // namespace hearth::gpu

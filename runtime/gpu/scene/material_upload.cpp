@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "runtime/gpu/scene/scene.h"
+#include "runtime/gpu/scene/scene_shading.h"
+
+#include <algorithm>
+#include <cstring>
+#include <map>
+#include <string>
+#include <tuple>
+
+namespace hearth::gpu
+{
+
+namespace
+{
+
+VkFormat imageFormat(uint32_t format)
+{
+    switch (static_cast<formats::TexelFormat>(format))
+    {
+    case formats::TexelFormat::rgba8_srgb:
+        return VK_FORMAT_R8G8B8A8_SRGB;
+    case formats::TexelFormat::rgba8_unorm:
+        return VK_FORMAT_R8G8B8A8_UNORM;
+    case formats::TexelFormat::rgba16_float:
+        return VK_FORMAT_R16G16B16A16_SFLOAT;
+    }
+    return VK_FORMAT_UNDEFINED;
+}
+
+constexpr VkImageUsageFlags kTextureUsage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
+
+Status uploadImage(const Device& device, const formats::PackView& pack, uint32_t index, Uploader& uploader,
+                   Scene& scene)
+{
+    const formats::ImageRecord& record = pack.images()[index];
+    if (std::max(record.width, record.height) > device.limits.maxImageDimension2D)
+        return Error{Issue::device_limit, pack.name(), "image " + std::to_string(index),
+                     std::to_string(record.width) + "x" + std::to_string(record.height) +
+                         " texels, the device takes " + std::to_string(device.limits.maxImageDimension2D)};
+    HEARTH_ASSIGN_OR_RETURN(const formats::ChunkData data, pack.imageData(index));
+    HEARTH_ASSIGN_OR_RETURN(scene.images[index],
+                            scene.arena.createImage({.format = imageFormat(record.format),
+                                                     .extent = {record.width, record.height},
+                                                     .mip_count = record.mip_count,
+                                                     .usage = kTextureUsage}));
+    return uploader.upload(scene.images[index], data.bytes(), formats::texelBytes(record.format));
+}
+
+Status uploadWhite(Uploader& uploader, Scene& scene)
+{
+    HEARTH_ASSIGN_OR_RETURN(
+        Image white, scene.arena.createImage(
+                         {.format = VK_FORMAT_R8G8B8A8_UNORM, .extent = {1, 1}, .usage = kTextureUsage}));
+    const uint32_t texel = 0xFFFFFFFFu;
+    HEARTH_TRY(uploader.upload(white, std::as_bytes(std::span(&texel, 1)), 4));
+    scene.images.push_back(std::move(white));
+    return success();
+}
+
+VkSamplerAddressMode addressMode(uint8_t wrap)
+{
+    switch (static_cast<formats::Wrap>(wrap))
+    {
+    case formats::Wrap::mirrored_repeat:
+        return VK_SAMPLER_ADDRESS_MODE_MIRRORED_REPEAT;
+    case formats::Wrap::clamp_to_edge:
+        return VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
+    case formats::Wrap::repeat:
+        break;
+    }
+    return VK_SAMPLER_ADDRESS_MODE_REPEAT;
+}
+
+/// The samplers that the materials ask for, each created once.
+class SamplerCache
+{
+public:
+    SamplerCache(const Device& device, std::vector<UniqueSampler>& owned) : device_(device), owned_(owned) {}
+
+    Result<VkSampler> get(const formats::TextureRef& texture)
+    {
+        const auto key = std::make_tuple(texture.wrap_u, texture.wrap_v, texture.nearest);
+        if (const auto found = samplers_.find(key); found != samplers_.end())
+            return found->second;
+        VkSamplerCreateInfo info{};
+        info.sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO;
+        info.magFilter = texture.nearest != 0 ? VK_FILTER_NEAREST : VK_FILTER_LINEAR;
+        info.minFilter = VK_FILTER_LINEAR;
+        info.mipmapMode = VK_SAMPLER_MIPMAP_MODE_LINEAR;
+        info.addressModeU = addressMode(texture.wrap_u);
+        info.addressModeV = addressMode(texture.wrap_v);
+        info.addressModeW = VK_SAMPLER_ADDRESS_MODE_REPEAT;
+        // with more than 8 taps the gain is hard to see; with nearest magnification it would blur the texels
+        info.anisotropyEnable = device_.sampler_anisotropy && texture.nearest == 0 ? VK_TRUE : VK_FALSE;
+        info.maxAnisotropy = std::min(8.0f, device_.limits.maxSamplerAnisotropy);
+        info.maxLod = VK_LOD_CLAMP_NONE;
+        VkSampler sampler;
+        HEARTH_TRY_VK(device_.vk.vkCreateSampler(device_.handle, &info, device_.allocator, &sampler),
+                      "create a sampler");
+        owned_.emplace_back(device_, sampler);
+        samplers_[key] = sampler;
+        return sampler;
+    }
+
+private:
+    const Device& device_;
+    std::vector<UniqueSampler>& owned_;
+    std::map<std::tuple<uint8_t, uint8_t, uint8_t>, VkSampler> samplers_;
+};
+
+Result<VkDescriptorSet> createMaterialSet(const Device& device, const DrawLayouts& layouts,
+                                          const formats::MaterialRecord& material, VkDeviceSize offset,
+                                          SamplerCache& samplers, Scene& scene)
+{
+    HEARTH_ASSIGN_OR_RETURN(const VkDescriptorSet set,
+                            allocateSet(device, scene.pool.get(), layouts.material.get()));
+    DescriptorWriter writer(set);
+    writer.uniform(0, scene.buffers.materials, offset, sizeof(shared::Material));
+    const auto textures = texturesOf(material);
+    for (uint32_t slot = 0; slot < shared::kTextureCount; ++slot)
+    {
+        const bool used = textures[slot].image != formats::kNone;
+        HEARTH_ASSIGN_OR_RETURN(const VkSampler sampler,
+                                samplers.get(used ? textures[slot] : formats::TextureRef{}));
+        const Image& image = used ? scene.images[textures[slot].image] : scene.images.back();
+        writer.texture(1 + slot, image.view.get(), sampler);
+    }
+    writer.write(device);
+    return set;
+}
+
+} // namespace
+
+Status uploadMaterials(const Device& device, const DrawLayouts& layouts, const formats::PackView& pack,
+                       Uploader& uploader, Scene& scene)
+{
+    std::vector<formats::MaterialRecord> materials(pack.materials().begin(), pack.materials().end());
+    materials.push_back(defaultMaterial());
+
+    scene.images.resize(pack.images().size());
+    std::vector<bool> used(pack.images().size(), false);
+    for (const formats::MaterialRecord& material : materials)
+        for (const formats::TextureRef& texture : texturesOf(material))
+            if (texture.image != formats::kNone)
+                used[texture.image] = true;
+    for (uint32_t image = 0; image < used.size(); ++image)
+        if (used[image])
+            HEARTH_TRY(uploadImage(device, pack, image, uploader, scene));
+    HEARTH_TRY(uploadWhite(uploader, scene));
+
+    const VkDeviceSize alignment = std::max<VkDeviceSize>(device.limits.minUniformBufferOffsetAlignment, 1);
+    const VkDeviceSize stride = (sizeof(shared::Material) + alignment - 1) / alignment * alignment;
+    HEARTH_ASSIGN_OR_RETURN(
+        scene.buffers.materials,
+        scene.arena.createBuffer(stride * materials.size(),
+                                 VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+                                 MemoryKind::device));
+    HEARTH_ASSIGN_OR_RETURN(const std::span<std::byte> mapped,
+                            uploader.stage(scene.buffers.materials, stride * materials.size()));
+    SamplerCache samplers(device, scene.samplers);
+    for (size_t row = 0; row < materials.size(); ++row)
+    {
+        const shared::Material material = makeMaterial(materials[row]);
+        std::memcpy(mapped.data() + row * stride, &material, sizeof(material));
+        SceneMaterial entry;
+        entry.variant = {.used_slices = scene.used_slices,
+                         .textures = material.textures,
+                         .uv_sets = material.uv_sets,
+                         .unlit = (material.flags & formats::kMaterialUnlit) != 0 ? 1u : 0u};
+        HEARTH_ASSIGN_OR_RETURN(
+            entry.set, createMaterialSet(device, layouts, materials[row], row * stride, samplers, scene));
+        scene.materials.push_back(entry);
+    }
+    return success();
+}
+
+} // namespace hearth::gpu

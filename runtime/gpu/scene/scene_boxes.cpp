@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "runtime/gpu/scene/scene_boxes.h"
+
+#include "formats/codecs/cluster_bounds.h"
+
+#include <algorithm>
+
+namespace hearth::gpu
+{
+
+namespace
+{
+
+/// For each instance.
+std::vector<Affine3> placesOf(const formats::PackView& pack, const pack::PosePlayer& player)
+{
+    std::vector<Affine3> places;
+    places.reserve(pack.instances().size());
+    for (const formats::InstanceRecord& instance : pack.instances())
+        places.push_back(instance.world_from_object);
+    for (const pack::MovedInstance& moved : player.places())
+        places[moved.instance] = moved.world_from_object;
+    return places;
+}
+
+/// Of a joint whose place does not fit into floats, nothing is drawn.
+void addCarried(const Box3& box, const Affine3d& world_from_bind, std::vector<PlacedBox>& boxes)
+{
+    if (const auto place = narrowed(world_from_bind); place && !box.empty())
+        boxes.push_back({box, *place});
+}
+
+/// Calls rigid(mesh, place) and deformed(mesh, record of DMSH, pose) for the instances of the range that have clusters.
+template <typename Rigid, typename Deformed>
+void visitInstances(const formats::PackView& pack, const pack::PosePlayer& player, formats::Range instances,
+                    const Rigid& rigid, const Deformed& deformed)
+{
+    const std::vector<Affine3> places = placesOf(pack, player);
+    // ascending by instance
+    auto posed = std::find_if(player.posed().begin(), player.posed().end(),
+                              [&](const pack::PosedInstance& p) { return p.instance >= instances.first; });
+    for (uint32_t i = instances.first; i < instances.first + instances.count; ++i)
+    {
+        const uint32_t number = pack.instances()[i].mesh;
+        const formats::MeshRecord& mesh = pack.meshes()[number];
+        const bool is_posed = posed != player.posed().end() && posed->instance == i;
+        if (mesh.clusters.count > 0 && !is_posed)
+            rigid(mesh, places[i]);
+        else if (mesh.clusters.count > 0)
+            deformed(mesh, *pack::findDeformedMesh(pack, number), *posed);
+        posed += is_posed ? 1 : 0;
+    }
+}
+
+// Posing takes about 0.1 ms a cluster: more are not worth waiting for.
+constexpr size_t kMostPosedClusters = 8192;
+
+size_t countDeformedClusters(const formats::PackView& pack, const pack::PosePlayer& player,
+                             formats::Range instances)
+{
+    size_t count = 0;
+    for (const pack::PosedInstance& posed : player.posed())
+        if (posed.instance >= instances.first && posed.instance - instances.first < instances.count)
+            count += pack.meshes()[pack.instances()[posed.instance].mesh].clusters.count;
+    return count;
+}
+
+Affine3d blendedJoints(const formats::ClusterGeometry& geometry, uint32_t vertex,
+                       std::span<const Affine3d> palette)
+{
+    if (geometry.influenceCount() == 0)
+        return palette[0];
+    const auto joints = geometry.joints(vertex);
+    const auto weights = geometry.weights(vertex);
+    Affine3d blended{};
+    for (int row = 0; row < 3; ++row)
+        for (int column = 0; column < 4; ++column)
+        {
+            double& sum = blended.m[row][column];
+            sum = 0;
+            for (size_t i = 0; i < geometry.influenceCount(); ++i)
+                sum += double{weights[i]} * palette[joints[i]].m[row][column];
+        }
+    return blended;
+}
+
+/// World space.
+Box3 posedBox(const formats::ClusterGeometry& geometry, const pack::PosedInstance& pose)
+{
+    Box3 box;
+    for (uint32_t v = 0; v < geometry.vertexCount(); ++v)
+    {
+        Float3 bind = geometry.position(v);
+        for (uint32_t i = 0; i < geometry.morphCount(); ++i)
+            bind += geometry.morphPosition(i, v) * pose.morph_weights[geometry.morphTarget(i)];
+        box.add(narrow(transformPoint(blendedJoints(geometry, v, pose.world_from_bind), widen(bind))));
+    }
+    return box;
+}
+
+/// The finest clusters of an instance in its pose; those of pages that cannot be decoded are left out.
+void addPosed(const formats::PackView& pack, const pack::PosedInstance& pose, std::vector<PlacedBox>& boxes)
+{
+    const formats::MeshRecord& mesh = pack.meshes()[pack.instances()[pose.instance].mesh];
+    for (uint32_t page = mesh.pages.first; page < mesh.pages.first + mesh.pages.count; ++page)
+    {
+        const auto bytes = pack.decodePage(page);
+        if (!bytes.ok())
+            continue;
+        for (const formats::ClusterRecord& cluster : recordsOf(pack.clusters(), pack.pages()[page].clusters))
+            if (cluster.level == 0)
+                if (const auto geometry = formats::ClusterGeometry::at(*bytes, cluster, mesh))
+                    boxes.push_back({posedBox(*geometry, pose), Affine3{}});
+    }
+}
+
+} // namespace
+
+formats::Range allInstances(const formats::PackView& pack)
+{
+    return {0, static_cast<uint32_t>(pack.instances().size())};
+}
+
+std::vector<PlacedBox> instanceBoxes(const formats::PackView& pack, const pack::PosePlayer& player,
+                                     formats::Range instances)
+{
+    std::vector<PlacedBox> boxes;
+    visitInstances(
+        pack, player, instances,
+        [&](const formats::MeshRecord& mesh, const Affine3& place) {
+            boxes.push_back({{mesh.box_min, mesh.box_max}, place});
+        },
+        [&](const formats::MeshRecord&, const formats::DeformedMeshRecord& mesh,
+            const pack::PosedInstance& pose) {
+            addCarried({mesh.box_min, mesh.box_max}, pose.world_from_bind[mesh.anchor], boxes);
+        });
+    return boxes;
+}
+
+std::vector<PlacedBox> clusterBoxes(const formats::PackView& pack, const pack::PosePlayer& player,
+                                    formats::Range instances)
+{
+    std::vector<PlacedBox> boxes;
+    const bool in_pose = countDeformedClusters(pack, player, instances) <= kMostPosedClusters;
+    visitInstances(
+        pack, player, instances,
+        [&](const formats::MeshRecord& mesh, const Affine3& place)
+        {
+            for (const formats::ClusterRecord& cluster : recordsOf(pack.clusters(), mesh.clusters))
+                if (cluster.level == 0)
+                    boxes.push_back({formats::boxOf(cluster, mesh.grid_step), place});
+        },
+        [&](const formats::MeshRecord& mesh, const formats::DeformedMeshRecord& deformed,
+            const pack::PosedInstance& pose)
+        {
+            if (in_pose)
+                return addPosed(pack, pose, boxes);
+            for (uint32_t c = 0; c < mesh.clusters.count; ++c)
+                if (pack.clusters()[mesh.clusters.first + c].level == 0)
+                {
+                    const auto& cluster = pack.deformedClusters()[deformed.clusters.first + c];
+                    addCarried({cluster.box_min, cluster.box_max}, pose.world_from_bind[cluster.joint],
+                               boxes);
+                }
+        });
+    return boxes;
+}
+
+Box3 instanceBounds(const formats::PackView& pack, const pack::PosePlayer& player, formats::Range instances)
+{
+    Box3 bounds;
+    for (const PlacedBox& placed : instanceBoxes(pack, player, instances))
+        for (int corner = 0; corner < 8; ++corner)
+            bounds.add(
+                transformPoint(placed.world_from_box, {(corner & 1) ? placed.box.max.x : placed.box.min.x,
+                                                       (corner & 2) ? placed.box.max.y : placed.box.min.y,
+                                                       (corner & 4) ? placed.box.max.z : placed.box.min.z}));
+    return bounds;
+}
+
+Box3 sceneBounds(const formats::PackView& pack, const pack::PosePlayer& player)
+{
+    return instanceBounds(pack, player, allInstances(pack));
+}
+
+Box3 sceneBounds(const formats::PackView& pack)
+{
+    return sceneBounds(pack, pack::PosePlayer(pack));
+}
+
+} // namespace hearth::gpu

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "runtime/gpu/scene/scene_bricks.h"
+
+#include "formats/gpu_shared/brick_lighting.h"
+#include "runtime/gpu/scene/scene.h"
+
+#include <algorithm>
+#include <cstring>
+#include <string>
+
+namespace hearth::gpu
+{
+
+namespace
+{
+
+constexpr VkBufferUsageFlags kTableUsage =
+    VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
+
+/// Of at least a word.
+Result<Buffer> createTable(const Device& device, const formats::PackView& pack, uint64_t bytes,
+                           VkBufferUsageFlags more_usage, Scene& scene)
+{
+    if (bytes > device.limits.maxStorageBufferRange)
+        return Error{Issue::device_limit, pack.name(), "",
+                     "the bricks take " + std::to_string(bytes) + " bytes, the device binds " +
+                         std::to_string(device.limits.maxStorageBufferRange)};
+    return scene.arena.createBuffer(std::max<uint64_t>(bytes, 4), kTableUsage | more_usage,
+                                    MemoryKind::device);
+}
+
+/// Albedo, emission and normals of all faces, one behind the other.
+std::vector<std::byte> surfacesOf(const formats::PackView& pack)
+{
+    const std::span<const std::byte> parts[] = {std::as_bytes(pack.brickAlbedo()),
+                                                std::as_bytes(pack.brickEmission()),
+                                                std::as_bytes(pack.brickNormals())};
+    std::vector<std::byte> bytes;
+    for (const std::span<const std::byte> part : parts)
+        bytes.insert(bytes.end(), part.begin(), part.end());
+    bytes.resize((bytes.size() + 3) / 4 * 4);
+    return bytes;
+}
+
+std::vector<shared::BrickPlace> placesOf(const formats::PackView& pack)
+{
+    const formats::BrickGridRecord& grid = pack.brickGrid()[0];
+    const uint32_t groups_x = shared::brickGroups(grid.voxels[0]),
+                   groups_y = shared::brickGroups(grid.voxels[1]);
+    std::vector<shared::BrickPlace> places;
+    for (uint32_t number = 0; number < pack.brickGroups().size(); ++number)
+    {
+        const formats::BrickGroupRecord& group = pack.brickGroups()[number];
+        const uint32_t x = number % groups_x * shared::kGroupVoxels,
+                       y = number / groups_x % groups_y * shared::kGroupVoxels,
+                       z = number / (groups_x * groups_y) * shared::kGroupVoxels;
+        for (uint32_t bit = 0; bit < 64; ++bit)
+            if (shared::maskHas(group.brick_mask_low, group.brick_mask_high, bit))
+                places.push_back(
+                    {.xy = (x + (bit & 3) * 4) | (y + (bit >> 2 & 3) * 4) << 16, .z = z + (bit >> 4) * 4});
+    }
+    return places;
+}
+
+std::vector<uint32_t> firstFacesOf(const formats::PackView& pack)
+{
+    std::vector<uint32_t> first_faces;
+    for (const formats::BrickRecord& brick : pack.bricks())
+        first_faces.push_back(brick.first_face);
+    first_faces.push_back(static_cast<uint32_t>(pack.brickAlbedo().size()));
+    return first_faces;
+}
+
+/// As the pack starts with: nothing is left off by the codes.
+std::vector<shared::BrickLight> lightOf(const formats::PackView& pack)
+{
+    std::vector<shared::BrickLight> light;
+    for (const uint32_t code : pack.brickLighting())
+        light.push_back({code, 0});
+    return light;
+}
+
+uint32_t mostFacesOfAFrame(const SceneBricks& bricks)
+{
+    uint32_t most = 0;
+    for (uint32_t frame = 0; frame < bricks.period; ++frame)
+        most = std::max(most, brickShare(bricks, frame).face_count);
+    return most;
+}
+
+Status createBuffers(const Device& device, const formats::PackView& pack, Uploader& uploader, Scene& scene)
+{
+    SceneBricks& b = *scene.bricks;
+    const auto upload = [&](Buffer& target, std::span<const std::byte> bytes,
+                            VkBufferUsageFlags more_usage = 0) -> Status
+    {
+        HEARTH_ASSIGN_OR_RETURN(target, createTable(device, pack, bytes.size(), more_usage, scene));
+        return uploader.upload(target, bytes);
+    };
+    std::vector<std::byte> opacity(pack.brickOpacity().size_bytes());
+    std::memcpy(opacity.data(), pack.brickOpacity().data(), opacity.size());
+    opacity.resize((opacity.size() + 3) / 4 * 4);
+    HEARTH_TRY(upload(b.groups, std::as_bytes(pack.brickGroups())));
+    HEARTH_TRY(upload(b.bricks, std::as_bytes(pack.bricks())));
+    const std::vector<shared::BrickPlace> places = placesOf(pack);
+    const std::vector<shared::BrickLight> light = lightOf(pack);
+    HEARTH_TRY(upload(b.places, std::as_bytes(std::span(places))));
+    HEARTH_TRY(upload(b.opacity, opacity));
+    HEARTH_TRY(upload(b.surfaces, surfacesOf(pack)));
+    HEARTH_TRY(upload(b.lighting, std::as_bytes(std::span(light)), VK_BUFFER_USAGE_TRANSFER_SRC_BIT));
+    HEARTH_ASSIGN_OR_RETURN(b.fresh,
+                            createTable(device, pack, sizeof(shared::BrickLight) * mostFacesOfAFrame(b),
+                                        VK_BUFFER_USAGE_TRANSFER_SRC_BIT, scene));
+    HEARTH_ASSIGN_OR_RETURN(b.view, scene.arena.createBuffer(sizeof(shared::BrickView),
+                                                             VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT |
+                                                                 VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+                                                             MemoryKind::device));
+    return success();
+}
+
+} // namespace
+
+BrickShare brickShare(const SceneBricks& bricks, uint32_t frame)
+{
+    const auto brick_count = static_cast<uint32_t>(bricks.first_faces.size() - 1);
+    const uint32_t first = shared::brickSliceBegin(brick_count, frame, bricks.period);
+    const uint32_t end = shared::brickSliceEnd(brick_count, frame, bricks.period);
+    return {first, end - first, bricks.first_faces[first],
+            bricks.first_faces[end] - bricks.first_faces[first]};
+}
+
+Status uploadBricks(const Device& device, const DrawLayouts& layouts, const formats::PackView& pack,
+                    const BrickOptions& options, Uploader& uploader, Scene& scene)
+{
+    if (pack.brickGrid().empty())
+        return success();
+    scene.bricks = std::make_unique<SceneBricks>();
+    SceneBricks& b = *scene.bricks;
+    b.grid = pack.brickGrid()[0];
+    b.rays = options.rays;
+    b.first_faces = firstFacesOf(pack);
+    // a period of at most a frame a brick
+    const auto brick_count = static_cast<uint32_t>(pack.bricks().size());
+    b.period =
+        std::clamp(b.grid.face_count / std::max(1u, options.faces_per_frame), 1u, std::max(1u, brick_count));
+    HEARTH_TRY(createBuffers(device, pack, uploader, scene));
+
+    HEARTH_ASSIGN_OR_RETURN(b.set, allocateSet(device, scene.pool.get(), layouts.bricks.get()));
+    DescriptorWriter(b.set)
+        .uniform(kBrickFrame, scene.buffers.frame)
+        .uniform(kBrickView, b.view)
+        .storage(kBrickGroups, b.groups)
+        .storage(kBrickBricks, b.bricks)
+        .storage(kBrickOpacity, b.opacity)
+        .storage(kBrickSurfaces, b.surfaces)
+        .storage(kBrickLighting, b.lighting)
+        .storage(kBrickLights, scene.buffers.lighting)
+        .write(device);
+    HEARTH_ASSIGN_OR_RETURN(b.fresh_set, allocateSet(device, scene.pool.get(), layouts.fresh_light.get()));
+    DescriptorWriter(b.fresh_set).storage(0, b.fresh).storage(1, b.places).write(device);
+    return success();
+}
+
+} // namespace hearth::gpu

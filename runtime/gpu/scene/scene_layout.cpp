@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "runtime/gpu/scene/scene_layout.h"
+
+#include <algorithm>
+#include <cstring>
+#include <map>
+#include <string>
+#include <tuple>
+
+namespace hearth::gpu
+{
+
+namespace
+{
+
+// material numbers are told apart by a 16-bit depth buffer, and 0 is the sky
+constexpr uint32_t kMaxMaterialRows = 65535;
+
+/// What of a bin follows from the mesh and the material.
+struct BinKey
+{
+    bool deformed; // first: their bins are the last
+    bool alpha_tested;
+    uint32_t material_row;
+    Facing facing;
+    bool unlit;
+    friend auto operator<=>(const BinKey&, const BinKey&) = default;
+};
+
+/// The clusters of a mesh that share a key: order[first .. first + count).
+struct ClusterRun
+{
+    BinKey key;
+    uint32_t first;
+    uint32_t count;
+};
+
+Error limitError(const formats::PackView& pack, const std::string& detail)
+{
+    return {Issue::device_limit, pack.name(), "", detail};
+}
+
+BinKey keyOfMaterial(const formats::PackView& pack, bool deformed, uint32_t material)
+{
+    if (material == formats::kNone)
+        return {deformed, false, 0, Facing::culled, false};
+    const formats::MaterialRecord& record = pack.materials()[material];
+    const bool tested = record.alpha_mode != static_cast<uint32_t>(formats::AlphaMode::opaque);
+    const bool two_sided = (record.flags & formats::kMaterialDoubleSided) != 0;
+    return {deformed, tested, tested ? materialRow(pack, material) : 0,
+            two_sided ? Facing::doubleSided : Facing::culled, (record.flags & formats::kMaterialUnlit) != 0};
+}
+
+/// For each mesh, 1 where the chunk DMSH describes it.
+std::vector<uint8_t> findDeformedMeshes(const formats::PackView& pack)
+{
+    std::vector<uint8_t> deformed(pack.meshes().size(), 0);
+    for (const formats::DeformedMeshRecord& mesh : pack.deformedMeshes())
+        deformed[mesh.mesh] = 1;
+    return deformed;
+}
+
+/// Append the clusters of a mesh to the order, sorted by key and otherwise as they are.
+std::vector<ClusterRun> orderMesh(const formats::PackView& pack, const formats::MeshRecord& mesh,
+                                  bool deformed, std::vector<uint32_t>& order)
+{
+    std::vector<std::pair<BinKey, uint32_t>> clusters;
+    clusters.reserve(mesh.clusters.count);
+    for (uint32_t c = mesh.clusters.first; c < mesh.clusters.first + mesh.clusters.count; ++c)
+        clusters.emplace_back(keyOfMaterial(pack, deformed, pack.clusters()[c].material), c);
+    std::stable_sort(clusters.begin(), clusters.end(),
+                     [](const auto& a, const auto& b) { return a.first < b.first; });
+
+    std::vector<ClusterRun> runs;
+    for (const auto& [key, cluster] : clusters)
+    {
+        if (runs.empty() || runs.back().key != key)
+            runs.push_back({key, static_cast<uint32_t>(order.size()), 0});
+        runs.back().count += 1;
+        order.push_back(cluster);
+    }
+    return runs;
+}
+
+void appendItems(uint32_t instance, const ClusterRun& run, std::vector<shared::WorkItem>& items)
+{
+    const uint32_t flags = run.key.facing == Facing::doubleSided ? shared::kItemDoubleSided : 0;
+    for (uint32_t done = 0; done < run.count; done += shared::kWorkItemClusters)
+        items.push_back({.instance = instance,
+                         .first = run.first + done,
+                         .count = std::min(run.count - done, shared::kWorkItemClusters),
+                         .flags = flags});
+}
+
+/// Cut the clusters of every instance into work items and gather the items bin by bin.
+Status makeWorkList(const formats::PackView& pack, SceneLayout& layout)
+{
+    std::vector<std::vector<ClusterRun>> runs_of_mesh;
+    runs_of_mesh.reserve(pack.meshes().size());
+    const std::vector<uint8_t> deformed = findDeformedMeshes(pack);
+    for (size_t mesh = 0; mesh < deformed.size(); ++mesh)
+        runs_of_mesh.push_back(orderMesh(pack, pack.meshes()[mesh], deformed[mesh] != 0, layout.order));
+
+    // an item and its result are 16 and 20 bytes, and every device can bind 128 MiB
+    constexpr uint64_t kMaxItems = uint64_t{6} << 20;
+    uint64_t item_count = 0;
+    std::map<BinKey, std::vector<shared::WorkItem>> items_of_bin;
+    for (uint32_t i = 0; i < pack.instances().size(); ++i)
+    {
+        const formats::InstanceRecord& instance = pack.instances()[i];
+        for (const ClusterRun& run : runs_of_mesh[instance.mesh])
+        {
+            item_count += (run.count + shared::kWorkItemClusters - 1) / shared::kWorkItemClusters;
+            if (item_count > kMaxItems)
+                return limitError(pack,
+                                  "the instances have too many clusters to cull one by one: more than " +
+                                      std::to_string(kMaxItems) + " work items");
+            BinKey key = run.key;
+            if (key.facing == Facing::culled && (instance.flags & formats::kInstanceMirrored) != 0)
+                key.facing = Facing::mirrored;
+            appendItems(i, run, items_of_bin[key]);
+            layout.instanced_clusters += run.count;
+        }
+    }
+    layout.items.reserve(static_cast<size_t>(item_count));
+    for (const auto& [key, items] : items_of_bin)
+    {
+        layout.bins.push_back(
+            {key.alpha_tested,
+             key.material_row,
+             key.facing,
+             key.unlit,
+             key.deformed,
+             {static_cast<uint32_t>(layout.items.size()), static_cast<uint32_t>(items.size())}});
+        layout.rigid_items += key.deformed ? 0 : static_cast<uint32_t>(items.size());
+        layout.items.insert(layout.items.end(), items.begin(), items.end());
+    }
+    return success();
+}
+
+} // namespace
+
+uint32_t materialRow(const formats::PackView& pack, uint32_t material)
+{
+    return material == formats::kNone ? static_cast<uint32_t>(pack.materials().size()) : material;
+}
+
+shared::ClusterDraw makeClusterDraw(const formats::PackView& pack, uint32_t cluster, uint32_t page_address)
+{
+    const formats::ClusterRecord& record = pack.clusters()[cluster];
+    const formats::MeshRecord& mesh = pack.meshes()[pack.pages()[record.page].mesh];
+    return {.address = page_address + record.page_word + formats::uvBaseWords(mesh.attributes),
+            .counts = uint32_t{record.vertex_count} | uint32_t{record.triangle_count} << 9 |
+                      uint32_t{record.level} << 17 | (mesh.morph_target_count > 0 ? shared::kDrawMorphs : 0u),
+            .vertex_layout = formats::layoutOf(record, mesh.attributes),
+            .material = 1 + materialRow(pack, record.material),
+            .base_x = record.base[0],
+            .base_y = record.base[1],
+            .base_z = record.base[2],
+            .grid_step = mesh.grid_step};
+}
+
+GroupItems makeGroupItems(const formats::PackView& pack)
+{
+    GroupItems result;
+    const std::vector<uint8_t> deformed = findDeformedMeshes(pack);
+    for (const uint8_t which : {uint8_t{0}, uint8_t{1}})
+    {
+        for (uint32_t i = 0; i < pack.instances().size(); ++i)
+        {
+            const uint32_t mesh = pack.instances()[i].mesh;
+            const formats::Range groups = pack.meshes()[mesh].groups;
+            for (uint32_t done = 0; done < groups.count && deformed[mesh] == which;
+                 done += shared::kWorkItemClusters)
+                result.items.push_back({.instance = i,
+                                        .first = groups.first + done,
+                                        .count = std::min(groups.count - done, shared::kWorkItemClusters)});
+        }
+        if (which == 0)
+            result.rigid_items = static_cast<uint32_t>(result.items.size());
+    }
+    return result;
+}
+
+Result<SceneLayout> makeSceneLayout(const formats::PackView& pack)
+{
+    HEARTH_ASSIGN_OR_RETURN(PoolLayout pool, placeAllPages(pack));
+    return makeSceneLayout(pack, std::move(pool));
+}
+
+Result<SceneLayout> makeSceneLayout(const formats::PackView& pack, PoolLayout pool)
+{
+    SceneLayout layout;
+    layout.pool = std::move(pool);
+    layout.material_rows = static_cast<uint32_t>(pack.materials().size()) + 1;
+    if (layout.material_rows > kMaxMaterialRows)
+        return limitError(pack, std::to_string(pack.materials().size()) + " materials are more than 65534");
+    layout.draws.reserve(pack.clusters().size());
+    for (uint32_t c = 0; c < pack.clusters().size(); ++c)
+        layout.draws.push_back(makeClusterDraw(pack, c, layout.pool.page_addresses[pack.clusters()[c].page]));
+    HEARTH_TRY(makeWorkList(pack, layout));
+    layout.bounds = shared::makeMeshBounds(pack.meshes(), pack.clusters());
+    layout.instances.resize(pack.instances().size());
+    if (!layout.instances.empty())
+        std::memcpy(static_cast<void*>(layout.instances.data()), pack.instances().data(),
+                    pack.instances().size_bytes());
+    layout.deformation = makeDeformationLayout(pack, layout.bounds, layout.instances);
+    layout.inverses.reserve(pack.instances().size());
+    for (const formats::InstanceRecord& instance : pack.instances())
+        layout.inverses.push_back(shared::makeInstanceInverse(instance));
+    // the joints of deformed ones have inverses of their own
+    for (const DeformedInstance& deformed : layout.deformation.instances)
+        layout.inverses[deformed.instance] = {};
+    return layout;
+}
+
+} // namespace hearth::gpu

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "runtime/gpu/scene/scene_shadows.h"
+
+#include "runtime/gpu/scene/scene_shading.h"
+
+#include <string>
+
+namespace hearth::gpu
+{
+
+namespace
+{
+
+/// Compares: 1 where what is looked up is no deeper than the texel.
+Result<UniqueSampler> createCompareSampler(const Device& device)
+{
+    VkSamplerCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO;
+    info.addressModeU = info.addressModeV = info.addressModeW = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
+    info.compareEnable = VK_TRUE;
+    info.compareOp = VK_COMPARE_OP_GREATER_OR_EQUAL; // reversed depths
+    VkSampler sampler;
+    HEARTH_TRY_VK(device.vk.vkCreateSampler(device.handle, &info, device.allocator, &sampler),
+                  "create a sampler");
+    return UniqueSampler(device, sampler);
+}
+
+Status checkLimits(const Device& device, const ShadowOptions& options)
+{
+    const uint32_t layers = options.moving_layers ? 2 * options.max_maps : options.max_maps;
+    if (options.texels > device.limits.maxImageDimension2D ||
+        options.texels > device.limits.maxFramebufferWidth ||
+        options.texels > device.limits.maxFramebufferHeight || layers > device.limits.maxImageArrayLayers)
+        return Error{Issue::device_limit, "", "",
+                     "the device cannot render " + std::to_string(options.max_maps) + " shadow maps of " +
+                         std::to_string(options.texels) + " texels each way"};
+    return success();
+}
+
+uint32_t countLights(const shared::Lighting& lighting, formats::LightType type)
+{
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < lighting.light_count; ++i)
+        count += lighting.lights[i].type == static_cast<uint32_t>(type) ? 1 : 0;
+    return count;
+}
+
+} // namespace
+
+Result<std::unique_ptr<SceneShadows>> SceneShadows::create(const Device& device, VkRenderPass render_pass,
+                                                           const formats::PackView& pack, const Box3& bounds,
+                                                           const ShadowOptions& options)
+{
+    HEARTH_ASSERT(options.max_maps <= shared::kMaxShadowMaps && options.splits <= kMaxSplits &&
+                  options.error_bias >= 1 && options.spot_near > 0);
+    HEARTH_TRY(checkLimits(device, options));
+    std::unique_ptr<SceneShadows> shadows(new SceneShadows(device, pack, options));
+    SceneShadows& s = *shadows;
+    s.bounds_ = bounds;
+    const shared::Lighting lighting = makeLighting(pack);
+    s.lights_ = makeCastingLights(lighting, bounds, options.spot_near);
+    s.lights_without_row_ = countLights(lighting, formats::LightType::directional) +
+                            countLights(lighting, formats::LightType::spot) -
+                            static_cast<uint32_t>(s.lights_.size());
+    s.spheres_ = shadowSpheresOf(pack);
+    s.pack_sphere_count_ = s.spheres_.size();
+    HEARTH_TRY(s.createImage());
+    s.layers_.resize(s.layerCount());
+    for (uint32_t layer = 0; layer < s.layerCount(); ++layer)
+        HEARTH_TRY(s.createLayer(device, render_pass, s.layers_[layer], layer));
+    HEARTH_ASSIGN_OR_RETURN(s.sampler_, createCompareSampler(device));
+    HEARTH_ASSIGN_OR_RETURN(
+        s.block_, s.arena_.createBuffer(sizeof(shared::ShadowBlock),
+                                        VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+                                        MemoryKind::device));
+    HEARTH_ASSIGN_OR_RETURN(
+        s.casters_, s.arena_.createBuffer(s.layerCount() * sizeof(shared::FrameCounters),
+                                          VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
+                                          MemoryKind::device));
+    return shadows;
+}
+
+Status SceneShadows::createImage()
+{
+    // tests and tools copy it out
+    constexpr VkImageUsageFlags kUsage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT |
+                                         VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT |
+                                         VK_IMAGE_USAGE_TRANSFER_DST_BIT;
+    HEARTH_ASSIGN_OR_RETURN(image_, arena_.createImage({.format = kShadowFormat,
+                                                        .extent = {options_.texels, options_.texels},
+                                                        .usage = kUsage,
+                                                        .aspect = VK_IMAGE_ASPECT_DEPTH_BIT,
+                                                        .array_layers = layerCount()}));
+    return success();
+}
+
+Status SceneShadows::createLayer(const Device& device, VkRenderPass render_pass, Layer& layer,
+                                 uint32_t number) const
+{
+    VkImageViewCreateInfo view_info{};
+    view_info.sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO;
+    view_info.image = image_.handle.get();
+    view_info.viewType = VK_IMAGE_VIEW_TYPE_2D;
+    view_info.format = kShadowFormat;
+    view_info.subresourceRange = {VK_IMAGE_ASPECT_DEPTH_BIT, 0, 1, number, 1};
+    VkImageView view;
+    HEARTH_TRY_VK(device.vk.vkCreateImageView(device.handle, &view_info, device.allocator, &view),
+                  "create an image view");
+    layer.view = UniqueImageView(device, view);
+
+    VkFramebufferCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_FRAMEBUFFER_CREATE_INFO;
+    info.renderPass = render_pass;
+    info.attachmentCount = 1;
+    info.pAttachments = &view;
+    info.width = info.height = options_.texels;
+    info.layers = 1;
+    VkFramebuffer framebuffer;
+    HEARTH_TRY_VK(device.vk.vkCreateFramebuffer(device.handle, &info, device.allocator, &framebuffer),
+                  "create a framebuffer");
+    layer.framebuffer = UniqueFramebuffer(device, framebuffer);
+    return success();
+}
+
+void SceneShadows::track(std::span<const InstanceMove> moves,
+                         std::span<const pack::ResidentGroups::Change> groups)
+{
+    cache_.move(moves);
+    cache_.publish(groups);
+}
+
+void SceneShadows::change(uint32_t light, const shared::Light& record)
+{
+    if (record.shadow_row < lights_.size())
+        lights_[record.shadow_row] = makeCastingLight(record, light, bounds_, options_.spot_near);
+}
+
+std::span<const ShadowCache::StaleMap> SceneShadows::planFrame(const shared::FrameView& view,
+                                                               std::span<const ShadowSphere> spheres)
+{
+    spheres_.resize(pack_sphere_count_);
+    spheres_.insert(spheres_.end(), spheres.begin(), spheres.end());
+    plan_ = planShadows(lights_, options_, view, spheres_);
+    const std::span<const ShadowCache::StaleMap> stale = cache_.plan(plan_, view);
+    statistics_ = {.maps = plan_.map_count,
+                   .dropped_maps = plan_.dropped_maps,
+                   .unshadowed_lights = lights_without_row_};
+    for (const ShadowCache::StaleMap& map : stale)
+        ++(map.over ? statistics_.moved_maps : statistics_.drawn_maps);
+    for (uint32_t row = 0; row < lights_.size(); ++row)
+        statistics_.unshadowed_lights += plan_.block.lights[row].map_count == 0 ? 1 : 0;
+    return stale;
+}
+
+} // namespace hearth::gpu

@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "runtime/gpu/scene/shadow_cache.h"
+
+#include "runtime/frame/frame.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hearth::gpu
+{
+
+namespace
+{
+
+// below all errors, of which 0 is one
+constexpr float kUnchanged = -1;
+
+Box3 worldBox(const Box3& box, const Affine3& world_from_object)
+{
+    Box3 world;
+    if (!box.empty())
+        for (int corner = 0; corner < 8; ++corner)
+            world.add(transformPoint(world_from_object, {(corner & 1) != 0 ? box.max.x : box.min.x,
+                                                         (corner & 2) != 0 ? box.max.y : box.min.y,
+                                                         (corner & 4) != 0 ? box.max.z : box.min.z}));
+    return world;
+}
+
+Affine3 transformOf(const shared::Instance& instance)
+{
+    Affine3 t;
+    const Float4 rows[] = {instance.world_from_object_x, instance.world_from_object_y,
+                           instance.world_from_object_z};
+    for (size_t row = 0; row < 3; ++row)
+    {
+        t.m[row][0] = rows[row].x;
+        t.m[row][1] = rows[row].y;
+        t.m[row][2] = rows[row].z;
+        t.m[row][3] = rows[row].w;
+    }
+    return t;
+}
+
+/// The box of a mesh's clusters and of the spheres that decide its cut.
+std::vector<Box3> makeReaches(const formats::PackView& pack)
+{
+    std::vector<Box3> reaches;
+    for (const shared::MeshBounds& bounds : shared::makeMeshBounds(pack.meshes(), pack.clusters()))
+        reaches.push_back({bounds.box_min, bounds.box_max});
+    for (const formats::DeformedMeshRecord& mesh : pack.deformedMeshes())
+        reaches[mesh.mesh] = {mesh.box_min, mesh.box_max};
+    for (size_t mesh = 0; mesh < reaches.size(); ++mesh)
+        for (const formats::GroupRecord& group :
+             formats::recordsOf(pack.groups(), pack.meshes()[mesh].groups))
+        {
+            const Float3 reach = Float3{1, 1, 1} * group.sphere_radius;
+            reaches[mesh].add(group.sphere_center - reach);
+            reaches[mesh].add(group.sphere_center + reach);
+        }
+    return reaches;
+}
+
+bool touches(const shared::FrameView& casters, const Box3& box)
+{
+    shared::Instance unmoved{};
+    unmoved.world_from_object_x.x = unmoved.world_from_object_y.y = unmoved.world_from_object_z.z = 1;
+    return !box.empty() && !shared::boxOutsideFrustum(casters, unmoved, box.min, box.max);
+}
+
+/// Whether an error somewhere in the box may be above the threshold. It is largest where the box is nearest, also under a
+/// curve, which grows no faster than the distance.
+bool mayExceed(const shared::FrameView& casters, const Box3& box, float error_world)
+{
+    const auto outside = [](float at, float low, float high) {
+        return std::max({low - at, at - high, 0.0f});
+    };
+    const Float3 offset{outside(casters.eye.x, box.min.x, box.max.x),
+                        outside(casters.eye.y, box.min.y, box.max.y),
+                        outside(casters.eye.z, box.min.z, box.max.z)};
+    constexpr float kRounding = 1.001f;
+    const float distance = std::max(length(offset) / kRounding, casters.z_near);
+    return error_world * kRounding * casters.lod_scale * shared::lodFactor(casters, distance) >
+           casters.threshold * distance;
+}
+
+/// What of a light decides how deep its maps are.
+shared::ShadowLight projectionOf(shared::ShadowLight light)
+{
+    light.first_map = light.map_count = 0;
+    light.eye_shift = 0;
+    return light;
+}
+
+/// What of a view decides which casters it finds.
+shared::FrameView decisionsOf(shared::FrameView casters)
+{
+    casters.clip_x = casters.clip_y = casters.clip_w = {};
+    casters.width = casters.height = 0;
+    return casters;
+}
+
+/// Of records without padding: what is the same to the bit decides the same.
+template <typename T>
+bool sameBits(const T& a, const T& b)
+{
+    const auto first = std::as_bytes(std::span(&a, 1));
+    const auto second = std::as_bytes(std::span(&b, 1));
+    return std::equal(first.begin(), first.end(), second.begin());
+}
+
+} // namespace
+
+ShadowCache::ShadowCache(const formats::PackView& pack, const ShadowOptions& options)
+    : pack_(pack),
+      reach_of_mesh_(makeReaches(pack)),
+      changed_of_mesh_(pack.meshes().size(), kUnchanged),
+      moves_(pack.instances().size(), 0),
+      moving_layers_(options.moving_layers),
+      layers_(options.max_maps)
+{
+    for (const formats::InstanceRecord& instance : pack.instances())
+    {
+        mesh_of_instance_.push_back(instance.mesh);
+        scale_of_instance_.push_back(instance.scale_max);
+        box_of_instance_.push_back(worldBox(reach_of_mesh_[instance.mesh], instance.world_from_object));
+    }
+    movers_.reserve(pack.instances().size());
+    stale_.reserve(2 * size_t{options.max_maps});
+}
+
+void ShadowCache::move(std::span<const InstanceMove> moves)
+{
+    for (const InstanceMove& move : moves)
+        place(move.instance,
+              worldBox(reach_of_mesh_[mesh_of_instance_[move.instance]], transformOf(move.record)),
+              move.record.scale_max);
+}
+
+void ShadowCache::pose(const DeformedInstance& instance, const PosedRows& rows)
+{
+    Box3 reach = reach_of_mesh_[mesh_of_instance_[instance.instance]];
+    if (const auto sphere = freeSphere(rows))
+    {
+        const Float3 radius = Float3{1, 1, 1} * sphere->radius;
+        reach = {sphere->center - radius, sphere->center + radius};
+    }
+    place(instance.instance, worldBox(reach, transformOf(rows.record)), rows.record.scale_max);
+}
+
+/// Something of the instance is elsewhere now.
+void ShadowCache::place(uint32_t instance, const Box3& box, float scale)
+{
+    touch(box_of_instance_[instance], moves_[instance] != 0);
+    if (moving_layers_ && moves_[instance] == 0)
+    {
+        moves_[instance] = 1;
+        movers_.push_back(instance);
+    }
+    box_of_instance_[instance] = box;
+    touch(box, moves_[instance] != 0);
+    scale_of_instance_[instance] = scale;
+}
+
+void ShadowCache::publish(std::span<const pack::ResidentGroups::Change> groups)
+{
+    if (groups.empty())
+        return;
+    for (const auto& [group, resident] : groups)
+    {
+        const formats::GroupRecord& record = pack_.groups()[group];
+        float& changed = changed_of_mesh_[pack_.pages()[record.page].mesh];
+        changed = std::max(changed, record.error);
+    }
+    for (size_t instance = 0; instance < box_of_instance_.size(); ++instance)
+        if (const float changed = changed_of_mesh_[mesh_of_instance_[instance]]; changed != kUnchanged)
+            touchFiner(instance, changed);
+    std::fill(changed_of_mesh_.begin(), changed_of_mesh_.end(), kUnchanged);
+}
+
+/// What is in the box changes, among the instances that move or among the others.
+void ShadowCache::touch(const Box3& box, bool moves)
+{
+    for (Layer& layer : layers_)
+        if (bool& drawn = moves ? layer.moving_drawn : layer.drawn; drawn && touches(layer.casters, box))
+            drawn = false;
+}
+
+void ShadowCache::touchFiner(size_t instance, float error_object)
+{
+    const Box3& box = box_of_instance_[instance];
+    const float error_world = error_object * scale_of_instance_[instance];
+    for (Layer& layer : layers_)
+        if (bool& drawn = moves_[instance] != 0 ? layer.moving_drawn : layer.drawn;
+            drawn && mayExceed(layer.casters, box, error_world) && touches(layer.casters, box))
+            drawn = false;
+}
+
+bool ShadowCache::isMoverIn(const shared::FrameView& casters) const
+{
+    return std::any_of(movers_.begin(), movers_.end(),
+                       [&](uint32_t mover) { return touches(casters, box_of_instance_[mover]); });
+}
+
+std::span<const ShadowCache::StaleMap> ShadowCache::plan(ShadowPlan& plan, const shared::FrameView& view)
+{
+    stale_.clear();
+    for (uint32_t i = 0; i < plan.map_count; ++i)
+    {
+        const shared::ShadowMap map = plan.block.maps[i];
+        const uint32_t row = plan.row_of[i];
+        const shared::ShadowLight light = projectionOf(plan.block.lights[row]);
+        shared::FrameView seen = view;
+        seen.eye = shared::eyeCell(view, plan.finest_m[row], plan.block.error_bias).eye;
+        shared::FrameView casters = shared::makeCasterView(seen, light, map, plan.block.error_bias);
+        if (moving_layers_)
+            casters.flags |= shared::kCullMoving;
+        Layer& layer = layers_[map.layer];
+        if (!layer.drawn || !sameBits(layer.light, light) || !sameBits(layer.map, map) ||
+            !sameBits(layer.casters, decisionsOf(casters)))
+        {
+            layer = {.drawn = true, .light = light, .map = map, .casters = decisionsOf(casters)};
+            stale_.push_back({.map = i, .layer = map.layer, .over = {}, .casters = casters});
+        }
+        planMoving(i, casters, layer, plan);
+    }
+    return stale_;
+}
+
+/// casters  of the map's casters that rest
+void ShadowCache::planMoving(uint32_t map, const shared::FrameView& casters, Layer& layer, ShadowPlan& plan)
+{
+    if (!isMoverIn(casters))
+    {
+        layer.moving_drawn = false;
+        return;
+    }
+    const uint32_t resting = plan.block.maps[map].layer;
+    const uint32_t moving = resting + static_cast<uint32_t>(layers_.size());
+    plan.block.maps[map].layer = moving;
+    if (layer.moving_drawn)
+        return;
+    layer.moving_drawn = true;
+    stale_.push_back({.map = map, .layer = moving, .over = resting, .casters = casters});
+    stale_.back().casters.flags ^= shared::kCullMoving | shared::kCullResting;
+}
+
+void ShadowCache::forget()
+{
+    for (Layer& layer : layers_)
+        layer.drawn = false;
+}
+
+} // namespace hearth::gpu

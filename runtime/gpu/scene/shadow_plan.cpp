@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "runtime/gpu/scene/shadow_plan.h"
+
+#include "formats/base/assert.h"
+#include "runtime/frame/shadow_cull.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+
+namespace hearth::gpu
+{
+
+namespace
+{
+
+bool isOfType(const shared::Light& light, formats::LightType type)
+{
+    return light.type == static_cast<uint32_t>(type);
+}
+
+/// Gives out the layers of a frame, light by light.
+class Planner
+{
+public:
+    Planner(const ShadowOptions& options, ShadowPlan& plan) : options_(options), plan_(plan) {}
+
+    void begin(uint32_t row, const CastingLight& light)
+    {
+        row_ = row;
+        shared::ShadowLight& projection = plan_.block.lights[row];
+        projection = light.projection;
+        projection.first_map = plan_.map_count;
+    }
+
+    /// texel_m  metres that a texel of the map covers
+    void add(shared::ShadowMap map, float texel_m)
+    {
+        if (plan_.map_count == options_.max_maps)
+        {
+            ++plan_.dropped_maps;
+            return;
+        }
+        float& finest = plan_.finest_m[row_];
+        finest = plan_.block.lights[row_].map_count == 0 ? texel_m : std::min(finest, texel_m);
+        map.layer = plan_.map_count;
+        plan_.row_of[plan_.map_count] = row_;
+        plan_.block.maps[plan_.map_count++] = map;
+        ++plan_.block.lights[row_].map_count;
+    }
+
+    void end()
+    {
+        const shared::ShadowLight& light = plan_.block.lights[row_];
+        shared::sortByDensity(std::span(plan_.block.maps).subspan(light.first_map, light.map_count));
+    }
+
+    shared::ShadowMapSize sizeOf(const ShadowSphere& sphere) const
+    {
+        // a map that is smaller than its filter holds nothing
+        const uint32_t least = std::bit_ceil(4 * (options_.kernel + 1));
+        const uint32_t texels = sphere.texels == 0 ? options_.texels : std::bit_floor(sphere.texels);
+        return {.texels = std::clamp(texels, least, options_.texels), .kernel = options_.kernel};
+    }
+
+private:
+    const ShadowOptions& options_;
+    ShadowPlan& plan_;
+    uint32_t row_ = 0;
+};
+
+bool isFor(const ShadowSphere& sphere, const CastingLight& light)
+{
+    HEARTH_ASSERT(sphere.radius > 0);
+    return sphere.light == ShadowSphere::kAllLights || sphere.light == light.light;
+}
+
+void planSun(const CastingLight& light, const ShadowOptions& options, const shared::FrameView& view,
+             std::span<const ShadowSphere> spheres, Planner& planner)
+{
+    const auto add = [&](const Sphere& sphere, shared::ShadowMapSize size)
+    {
+        const shared::ShadowMap map = shared::fitSunMap(light.projection, sphere, size);
+        planner.add(map, 1 / map.density);
+    };
+    for (const ShadowSphere& sphere : spheres)
+        if (isFor(sphere, light))
+            add({sphere.center, sphere.radius}, planner.sizeOf(sphere));
+    std::array<Sphere, kMaxSplits> splits;
+    const auto used = std::span(splits).first(options.splits);
+    shared::splitSpheres(view, options.split_range, used);
+    for (const Sphere& split : used)
+        add(split, {.texels = options.texels, .kernel = options.kernel});
+}
+
+void planSpot(const CastingLight& light, const ShadowOptions& options, std::span<const ShadowSphere> spheres,
+              Planner& planner)
+{
+    const shared::ShadowMap whole =
+        shared::wholeConeMap(light.cone_tangent, {.texels = options.texels, .kernel = options.kernel});
+    planner.add(whole, 1 / whole.density); // a metre from the light
+    for (const ShadowSphere& sphere : spheres)
+        if (isFor(sphere, light))
+            if (const auto map = shared::fitSpotMap(light.projection, light.cone_tangent,
+                                                    {sphere.center, sphere.radius}, planner.sizeOf(sphere)))
+                planner.add(*map, length(sphere.center - light.projection.origin) / map->density);
+}
+
+} // namespace
+
+std::vector<ShadowSphere> shadowSpheresOf(const formats::PackView& pack)
+{
+    static_assert(formats::kNone == ShadowSphere::kAllLights);
+    std::vector<ShadowSphere> spheres;
+    for (const formats::ShadowSphereRecord& record : pack.shadowSpheres())
+        spheres.push_back({.center = record.center,
+                           .radius = record.radius,
+                           .light = record.light,
+                           .texels = record.texels});
+    return spheres;
+}
+
+void assignShadowRows(shared::Lighting& lighting)
+{
+    uint32_t row = 0;
+    const std::span lights(lighting.lights, lighting.light_count);
+    for (shared::Light& light : lights)
+        light.shadow_row = shared::kNoShadow;
+    for (const formats::LightType type : {formats::LightType::directional, formats::LightType::spot})
+        for (shared::Light& light : lights)
+            if (isOfType(light, type) && row < shared::kMaxShadowLights)
+                light.shadow_row = row++;
+}
+
+CastingLight makeCastingLight(const shared::Light& light, uint32_t number, const Box3& scene, float spot_near)
+{
+    if (isOfType(light, formats::LightType::directional))
+        return {.light = number, .projection = shared::makeSunShadow(light.direction, scene)};
+    const float cos_outer = std::clamp(-light.cone_offset / light.cone_scale, 0.0f, 1.0f);
+    return {.light = number,
+            .projection = shared::makeSpotShadow(light.position, light.direction, spot_near),
+            // a spot that shines nowhere has a map all the same
+            .cone_tangent = std::max(shared::coneTangent(std::acos(cos_outer)), 1e-3f)};
+}
+
+std::vector<CastingLight> makeCastingLights(const shared::Lighting& lighting, const Box3& scene,
+                                            float spot_near)
+{
+    std::vector<CastingLight> casting;
+    if (scene.empty())
+        return casting;
+    for (uint32_t i = 0; i < lighting.light_count; ++i)
+    {
+        const shared::Light& light = lighting.lights[i];
+        if (light.shadow_row == shared::kNoShadow)
+            continue;
+        casting.resize(std::max<size_t>(casting.size(), light.shadow_row + 1));
+        casting[light.shadow_row] = makeCastingLight(light, i, scene, spot_near);
+    }
+    return casting;
+}
+
+ShadowPlan planShadows(std::span<const CastingLight> lights, const ShadowOptions& options,
+                       const shared::FrameView& view, std::span<const ShadowSphere> spheres)
+{
+    ShadowPlan plan;
+    plan.block.error_bias = options.error_bias;
+    plan.block.layer_size = static_cast<float>(options.texels);
+    Planner planner(options, plan);
+    for (uint32_t row = 0; row < lights.size(); ++row)
+    {
+        const CastingLight& light = lights[row];
+        planner.begin(row, light);
+        if (light.cone_tangent == 0)
+            planSun(light, options, view, spheres, planner);
+        else
+            planSpot(light, options, spheres, planner);
+        planner.end();
+        shared::ShadowLight& projection = plan.block.lights[row];
+        if (projection.map_count > 0)
+            projection.eye_shift = shared::eyeCell(view, plan.finest_m[row], options.error_bias).shift;
+    }
+    return plan;
+}
+
+} // namespace hearth::gpu

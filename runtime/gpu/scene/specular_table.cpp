@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "runtime/gpu/scene/scene.h"
+
+namespace hearth::gpu
+{
+
+namespace
+{
+
+constexpr uint32_t kNodes = shared::kSpecularNodes;
+
+/// Linear, and never beyond the last node of an axis.
+Result<VkSampler> createSampler(const Device& device, Scene& scene)
+{
+    VkSamplerCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO;
+    info.magFilter = info.minFilter = VK_FILTER_LINEAR;
+    info.addressModeU = info.addressModeV = info.addressModeW = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
+    VkSampler sampler;
+    HEARTH_TRY_VK(device.vk.vkCreateSampler(device.handle, &info, device.allocator, &sampler),
+                  "create a sampler");
+    scene.samplers.emplace_back(device, sampler);
+    return sampler;
+}
+
+} // namespace
+
+Status uploadSpecularTable(const Device& device, const formats::PackView& pack, Uploader& uploader,
+                           Scene& scene)
+{
+    if (pack.specularTables().empty())
+        return success();
+    const formats::SpecularTableRecord& table = pack.specularTables()[0];
+    // as it lies in the file: the squares of each node of beta, one below the other
+    HEARTH_ASSIGN_OR_RETURN(
+        scene.specular_table,
+        scene.arena.createImage({.format = VK_FORMAT_R8_UNORM,
+                                 .extent = {kNodes, kNodes * kNodes},
+                                 .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT}));
+    HEARTH_TRY(uploader.upload(scene.specular_table, std::as_bytes(std::span(table.values)), 1));
+    HEARTH_ASSIGN_OR_RETURN(const VkSampler sampler, createSampler(device, scene));
+    scene.specular_spacing = table.spacing;
+    DescriptorWriter(scene.draw_set)
+        .texture(kSceneSpecularTable, scene.specular_table.view.get(), sampler)
+        .write(device);
+    return success();
+}
+
+} // namespace hearth::gpu

@@ -1,0 +1,112 @@
+// The caller's Vulkan device as the renderer sees it, and handles that destroy what they own.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "formats/base/result.h"
+#include "runtime/gpu/vulkan/memory_hooks.h"
+
+#include <utility>
+
+namespace hearth::gpu
+{
+
+/// Where the library tells what is degraded and no error: lights that are left out, pages that cannot be read.
+struct MessageHook
+{
+    void* user = nullptr;
+    /// One line, as of an error. By the thread that makes the call; it must not call the library.
+    void (*tell)(void* user, const char* message) = nullptr;
+};
+
+/// What the caller created and keeps alive longer than everything made from it.
+/// Vulkan 1.1; no feature is required. Uses samplerAnisotropy where the caller enabled it and says so.
+struct DeviceDescription
+{
+    PFN_vkGetInstanceProcAddr get_instance_proc_addr = nullptr;
+    VkInstance instance = VK_NULL_HANDLE;
+    VkPhysicalDevice physical_device = VK_NULL_HANDLE;
+    VkDevice device = VK_NULL_HANDLE;
+    bool sampler_anisotropy = false;
+    bool debug_labels = false; ///< the caller enabled VK_EXT_debug_utils: passes are named in command buffers
+    const VkAllocationCallbacks* allocator = nullptr;
+    VkPipelineCache pipeline_cache = VK_NULL_HANDLE; ///< for all pipelines
+    MemoryHooks memory_hooks{};                      ///< none: blocks of the library's own
+    MessageHook message_hook{};
+};
+
+/// Everything else holds a reference to it: it must not move once it is used.
+struct Device
+{
+    DeviceTable vk;
+    VkDevice handle = VK_NULL_HANDLE;
+    const VkAllocationCallbacks* allocator = nullptr;
+    VkPipelineCache pipeline_cache = VK_NULL_HANDLE;
+    MemoryHooks memory_hooks{};
+    MessageHook message_hook{};
+    bool sampler_anisotropy = false;
+    VkPhysicalDeviceLimits limits{};
+    VkPhysicalDeviceMemoryProperties memory{};
+};
+
+/// errors: device, where an entry point or a required format is missing.
+Result<Device> makeDevice(const DeviceDescription& description);
+
+/// Tell the caller that something is degraded. Allocates, where the caller wants to hear it.
+void tell(const Device& device, const std::string& name, const std::string& where, const std::string& what);
+
+/// The Error of a Vulkan call that failed: `what` says what was tried.
+Error vulkanError(VkResult result, const char* what);
+
+/// Owns one Vulkan object.
+template <typename T, auto kDestroy>
+class Unique
+{
+public:
+    Unique() = default;
+    Unique(const Device& device, T handle) : device_(&device), handle_(handle) {}
+    Unique(Unique&& other) noexcept
+        : device_(other.device_), handle_(std::exchange(other.handle_, VK_NULL_HANDLE))
+    {
+    }
+    Unique& operator=(Unique&& other) noexcept
+    {
+        std::swap(device_, other.device_);
+        std::swap(handle_, other.handle_);
+        return *this;
+    }
+    ~Unique()
+    {
+        if (handle_ != VK_NULL_HANDLE)
+            (device_->vk.*kDestroy)(device_->handle, handle_, device_->allocator);
+    }
+
+    T get() const { return handle_; }
+    const T* address() const { return &handle_; }
+
+private:
+    const Device* device_ = nullptr;
+    T handle_ = VK_NULL_HANDLE;
+};
+
+using UniqueBuffer = Unique<VkBuffer, &DeviceTable::vkDestroyBuffer>;
+using UniqueDescriptorPool = Unique<VkDescriptorPool, &DeviceTable::vkDestroyDescriptorPool>;
+using UniqueFramebuffer = Unique<VkFramebuffer, &DeviceTable::vkDestroyFramebuffer>;
+using UniqueImage = Unique<VkImage, &DeviceTable::vkDestroyImage>;
+using UniqueImageView = Unique<VkImageView, &DeviceTable::vkDestroyImageView>;
+using UniqueMemory = Unique<VkDeviceMemory, &DeviceTable::vkFreeMemory>;
+using UniquePipeline = Unique<VkPipeline, &DeviceTable::vkDestroyPipeline>;
+using UniquePipelineLayout = Unique<VkPipelineLayout, &DeviceTable::vkDestroyPipelineLayout>;
+using UniqueRenderPass = Unique<VkRenderPass, &DeviceTable::vkDestroyRenderPass>;
+using UniqueSampler = Unique<VkSampler, &DeviceTable::vkDestroySampler>;
+using UniqueSetLayout = Unique<VkDescriptorSetLayout, &DeviceTable::vkDestroyDescriptorSetLayout>;
+using UniqueShaderModule = Unique<VkShaderModule, &DeviceTable::vkDestroyShaderModule>;
+
+} // namespace hearth::gpu
+
+/// Leave the function with an Error where a Vulkan call does not return VK_SUCCESS.
+#define HEARTH_TRY_VK(call, what)                                                                            \
+    do                                                                                                       \
+    {                                                                                                        \
+        if (const VkResult hearth_vk_result = (call); hearth_vk_result != VK_SUCCESS)                        \
+            return ::hearth::gpu::vulkanError(hearth_vk_result, what);                                       \
+    } while (false)

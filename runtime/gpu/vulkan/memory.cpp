@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "runtime/gpu/vulkan/memory.h"
+
+#include <algorithm>
+#include <optional>
+
+namespace hearth::gpu
+{
+
+namespace
+{
+
+constexpr VkMemoryPropertyFlags kMapped =
+    VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
+
+std::optional<uint32_t> findType(const VkPhysicalDeviceMemoryProperties& memory, uint32_t allowed,
+                                 VkMemoryPropertyFlags wanted)
+{
+    for (uint32_t type = 0; type < memory.memoryTypeCount; ++type)
+        if ((allowed >> type & 1) != 0 && (memory.memoryTypes[type].propertyFlags & wanted) == wanted)
+            return type;
+    return std::nullopt;
+}
+
+/// The best type there is: each kind can do with less than it would like.
+std::optional<uint32_t> chooseType(const VkPhysicalDeviceMemoryProperties& memory, uint32_t allowed,
+                                   MemoryKind kind)
+{
+    VkMemoryPropertyFlags best = VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT;
+    VkMemoryPropertyFlags enough = 0;
+    if (kind == MemoryKind::staging)
+        best = enough = kMapped;
+    if (kind == MemoryKind::readback)
+    {
+        best = kMapped | VK_MEMORY_PROPERTY_HOST_CACHED_BIT;
+        enough = kMapped;
+    }
+    const auto type = findType(memory, allowed, best);
+    return type ? type : findType(memory, allowed, enough);
+}
+
+VkDeviceSize alignUp(VkDeviceSize value, VkDeviceSize alignment)
+{
+    return (value + alignment - 1) / alignment * alignment;
+}
+
+} // namespace
+
+Result<MemoryPiece> MemoryArena::allocateHooked(const MemoryRequest& request)
+{
+    const MemoryHooks& hooks = device_->memory_hooks;
+    MemoryPiece piece;
+    HEARTH_TRY_VK(hooks.allocate(hooks.user, request, piece), "allocate device memory");
+    hooked_.emplace_back(hooks, piece, request.needs.size);
+    if (request.kind != MemoryKind::device && piece.mapped == nullptr)
+        return vulkanError(VK_ERROR_MEMORY_MAP_FAILED, "map device memory");
+    return piece;
+}
+
+Result<MemoryArena::Block> MemoryArena::allocateBlock(const MemoryRequest& request, uint32_t type) const
+{
+    Block block;
+    block.type = type;
+    block.images = request.image;
+    block.size = std::max(block_bytes_, request.needs.size);
+    const VkMemoryAllocateInfo info{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, nullptr, block.size, type};
+    VkDeviceMemory memory;
+    HEARTH_TRY_VK(device_->vk.vkAllocateMemory(device_->handle, &info, device_->allocator, &memory),
+                  "allocate device memory");
+    block.memory = UniqueMemory(*device_, memory);
+    if (request.kind != MemoryKind::device)
+    {
+        void* mapped = nullptr;
+        HEARTH_TRY_VK(device_->vk.vkMapMemory(device_->handle, memory, 0, VK_WHOLE_SIZE, 0, &mapped),
+                      "map device memory");
+        block.mapped = static_cast<std::byte*>(mapped);
+    }
+    return block;
+}
+
+Result<MemoryPiece> MemoryArena::allocate(const MemoryRequest& request)
+{
+    if (device_->memory_hooks.allocate != nullptr)
+        return allocateHooked(request);
+    const VkMemoryRequirements& needs = request.needs;
+    const auto type = chooseType(device_->memory, needs.memoryTypeBits, request.kind);
+    if (!type)
+        return vulkanError(VK_ERROR_OUT_OF_DEVICE_MEMORY, "find a fitting memory type");
+
+    Block* block = nullptr;
+    for (Block& b : blocks_)
+        if (b.type == *type && b.images == request.image &&
+            (b.mapped != nullptr) == (request.kind != MemoryKind::device) &&
+            alignUp(b.used, needs.alignment) + needs.size <= b.size)
+            block = &b;
+    if (block == nullptr)
+    {
+        HEARTH_ASSIGN_OR_RETURN(Block fresh, allocateBlock(request, *type));
+        blocks_.push_back(std::move(fresh));
+        block = &blocks_.back();
+    }
+    const VkDeviceSize offset = alignUp(block->used, needs.alignment);
+    block->used = offset + needs.size;
+    return MemoryPiece{.memory = block->memory.get(),
+                       .offset = offset,
+                       .mapped = block->mapped == nullptr ? nullptr : block->mapped + offset};
+}
+
+Result<Buffer> MemoryArena::createBuffer(VkDeviceSize size, VkBufferUsageFlags usage, MemoryKind kind)
+{
+    Buffer buffer;
+    buffer.size = std::max<VkDeviceSize>(alignUp(size, 16), 16);
+    VkBufferCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO;
+    info.size = buffer.size;
+    info.usage = usage;
+    info.sharingMode = VK_SHARING_MODE_EXCLUSIVE;
+    VkBuffer handle;
+    HEARTH_TRY_VK(device_->vk.vkCreateBuffer(device_->handle, &info, device_->allocator, &handle),
+                  "create a buffer");
+    buffer.handle = UniqueBuffer(*device_, handle);
+
+    VkMemoryRequirements needs;
+    device_->vk.vkGetBufferMemoryRequirements(device_->handle, handle, &needs);
+    HEARTH_ASSIGN_OR_RETURN(const MemoryPiece piece, allocate({needs, kind, false}));
+    HEARTH_TRY_VK(device_->vk.vkBindBufferMemory(device_->handle, handle, piece.memory, piece.offset),
+                  "bind a buffer's memory");
+    buffer.mapped = piece.mapped;
+    return buffer;
+}
+
+Result<Image> MemoryArena::createImage(const ImageDescription& description)
+{
+    VkImageCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO;
+    info.imageType = VK_IMAGE_TYPE_2D;
+    info.format = description.format;
+    info.extent = {description.extent.width, description.extent.height, 1};
+    info.mipLevels = description.mip_count;
+    info.arrayLayers = std::max(description.array_layers, 1u);
+    info.samples = VK_SAMPLE_COUNT_1_BIT;
+    info.tiling = VK_IMAGE_TILING_OPTIMAL;
+    info.usage = description.usage;
+    info.sharingMode = VK_SHARING_MODE_EXCLUSIVE;
+    info.initialLayout = VK_IMAGE_LAYOUT_UNDEFINED;
+    VkImage handle;
+    HEARTH_TRY_VK(device_->vk.vkCreateImage(device_->handle, &info, device_->allocator, &handle),
+                  "create an image");
+    Image image;
+    image.handle = UniqueImage(*device_, handle);
+    image.format = description.format;
+    image.extent = description.extent;
+    image.mip_count = description.mip_count;
+
+    VkMemoryRequirements needs;
+    device_->vk.vkGetImageMemoryRequirements(device_->handle, handle, &needs);
+    HEARTH_ASSIGN_OR_RETURN(const MemoryPiece piece, allocate({needs, MemoryKind::device, true}));
+    HEARTH_TRY_VK(device_->vk.vkBindImageMemory(device_->handle, handle, piece.memory, piece.offset),
+                  "bind an image's memory");
+
+    VkImageViewCreateInfo view_info{};
+    view_info.sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO;
+    view_info.image = handle;
+    view_info.viewType = description.array_layers > 0 ? VK_IMAGE_VIEW_TYPE_2D_ARRAY : VK_IMAGE_VIEW_TYPE_2D;
+    view_info.format = description.format;
+    view_info.subresourceRange = {description.aspect, 0, description.mip_count, 0, info.arrayLayers};
+    VkImageView view;
+    HEARTH_TRY_VK(device_->vk.vkCreateImageView(device_->handle, &view_info, device_->allocator, &view),
+                  "create an image view");
+    image.view = UniqueImageView(*device_, view);
+    return image;
+}
+
+VkDeviceSize MemoryArena::allocatedBytes() const
+{
+    VkDeviceSize bytes = 0;
+    for (const Block& block : blocks_)
+        bytes += block.size;
+    for (const HookedMemory& memory : hooked_)
+        bytes += memory.size();
+    return bytes;
+}
+
+} // namespace hearth::gpu

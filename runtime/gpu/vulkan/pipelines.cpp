@@ -1,0 +1,308 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "runtime/gpu/vulkan/pipelines.h"
+
+namespace hearth::gpu
+{
+
+namespace
+{
+
+Result<UniqueShaderModule> createModule(const Device& device, std::span<const uint32_t> spirv)
+{
+    const VkShaderModuleCreateInfo info{VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO, nullptr, 0,
+                                        spirv.size_bytes(), spirv.data()};
+    VkShaderModule module;
+    HEARTH_TRY_VK(device.vk.vkCreateShaderModule(device.handle, &info, device.allocator, &module),
+                  "create a shader module");
+    return UniqueShaderModule(device, module);
+}
+
+/// Specialization constant i has value i.
+class ConstantValues
+{
+public:
+    explicit ConstantValues(std::span<const uint32_t> values)
+    {
+        for (uint32_t i = 0; i < values.size(); ++i)
+            entries_.push_back({i, i * uint32_t{sizeof(uint32_t)}, sizeof(uint32_t)});
+        info_ = {static_cast<uint32_t>(entries_.size()), entries_.data(), values.size_bytes(), values.data()};
+    }
+    ConstantValues(const ConstantValues&) = delete;
+    ConstantValues& operator=(const ConstantValues&) = delete;
+
+    const VkSpecializationInfo* info() const { return &info_; }
+
+private:
+    std::vector<VkSpecializationMapEntry> entries_;
+    VkSpecializationInfo info_{};
+};
+
+VkPipelineShaderStageCreateInfo stageInfo(VkShaderStageFlagBits stage, VkShaderModule module,
+                                          const VkSpecializationInfo* constants)
+{
+    return {
+        VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO, nullptr, 0, stage, module, "main", constants};
+}
+
+} // namespace
+
+Result<UniqueSetLayout> createSetLayout(const Device& device, std::span<const SetBinding> bindings)
+{
+    std::vector<VkDescriptorSetLayoutBinding> infos;
+    for (const SetBinding& binding : bindings)
+        infos.push_back({static_cast<uint32_t>(infos.size()), binding.type, 1, binding.stages, nullptr});
+    const VkDescriptorSetLayoutCreateInfo info{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO, nullptr,
+                                               0, static_cast<uint32_t>(infos.size()), infos.data()};
+    VkDescriptorSetLayout layout;
+    HEARTH_TRY_VK(device.vk.vkCreateDescriptorSetLayout(device.handle, &info, device.allocator, &layout),
+                  "create a descriptor set layout");
+    return UniqueSetLayout(device, layout);
+}
+
+Result<UniquePipelineLayout> createPipelineLayout(const Device& device,
+                                                  std::span<const VkDescriptorSetLayout> sets,
+                                                  VkShaderStageFlags push_stages, uint32_t push_bytes)
+{
+    const VkPushConstantRange push{push_stages, 0, push_bytes};
+    const VkPipelineLayoutCreateInfo info{VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO,
+                                          nullptr,
+                                          0,
+                                          static_cast<uint32_t>(sets.size()),
+                                          sets.data(),
+                                          push_bytes > 0 ? 1u : 0u,
+                                          &push};
+    VkPipelineLayout layout;
+    HEARTH_TRY_VK(device.vk.vkCreatePipelineLayout(device.handle, &info, device.allocator, &layout),
+                  "create a pipeline layout");
+    return UniquePipelineLayout(device, layout);
+}
+
+namespace
+{
+
+Status finishComputePipeline(const Device& device, std::span<const uint32_t> spirv,
+                             std::span<const VkDescriptorSetLayout> sets, uint32_t push_bytes,
+                             std::span<const uint32_t> constants, ComputePipeline& result)
+{
+    HEARTH_ASSIGN_OR_RETURN(result.layout,
+                            createPipelineLayout(device, sets, VK_SHADER_STAGE_COMPUTE_BIT, push_bytes));
+    HEARTH_ASSIGN_OR_RETURN(const UniqueShaderModule module, createModule(device, spirv));
+
+    VkComputePipelineCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO;
+    const ConstantValues values(constants);
+    info.stage = stageInfo(VK_SHADER_STAGE_COMPUTE_BIT, module.get(), values.info());
+    info.layout = result.layout.get();
+    VkPipeline pipeline;
+    HEARTH_TRY_VK(device.vk.vkCreateComputePipelines(device.handle, device.pipeline_cache, 1, &info,
+                                                     device.allocator, &pipeline),
+                  "create a compute pipeline");
+    result.pipeline = UniquePipeline(device, pipeline);
+    return success();
+}
+
+} // namespace
+
+Result<ComputePipeline> createComputePipeline(const Device& device, std::span<const uint32_t> spirv,
+                                              std::initializer_list<VkDescriptorType> types,
+                                              uint32_t push_bytes, VkDescriptorSetLayout shared_set)
+{
+    std::vector<SetBinding> bindings;
+    for (const VkDescriptorType type : types)
+        bindings.push_back({type, VK_SHADER_STAGE_COMPUTE_BIT});
+    ComputePipeline result;
+    HEARTH_ASSIGN_OR_RETURN(result.set_layout, createSetLayout(device, bindings));
+    const VkDescriptorSetLayout sets[] = {result.set_layout.get(), shared_set};
+    const size_t set_count = shared_set == VK_NULL_HANDLE ? 1 : 2;
+    HEARTH_TRY(
+        finishComputePipeline(device, spirv, std::span(sets).first(set_count), push_bytes, {}, result));
+    return result;
+}
+
+Result<ComputePipeline> createComputePipeline(const Device& device, std::span<const uint32_t> spirv,
+                                              uint32_t push_bytes, VkDescriptorSetLayout shared_set,
+                                              std::span<const uint32_t> constants)
+{
+    ComputePipeline result;
+    HEARTH_TRY(finishComputePipeline(device, spirv, {&shared_set, 1}, push_bytes, constants, result));
+    return result;
+}
+
+Result<ComputePipeline> createComputePipeline(const Device& device, std::span<const uint32_t> spirv,
+                                              std::span<const VkDescriptorSetLayout> sets,
+                                              std::span<const uint32_t> constants)
+{
+    ComputePipeline result;
+    HEARTH_TRY(finishComputePipeline(device, spirv, sets, 0, constants, result));
+    return result;
+}
+
+Result<UniquePipeline> createGraphicsPipeline(const Device& device, const GraphicsDescription& description)
+{
+    HEARTH_ASSIGN_OR_RETURN(const UniqueShaderModule vertex, createModule(device, description.vertex));
+    HEARTH_ASSIGN_OR_RETURN(const UniqueShaderModule fragment, createModule(device, description.fragment));
+    const ConstantValues constants(description.constants);
+    const VkPipelineShaderStageCreateInfo stages[] = {
+        stageInfo(VK_SHADER_STAGE_VERTEX_BIT, vertex.get(), constants.info()),
+        stageInfo(VK_SHADER_STAGE_FRAGMENT_BIT, fragment.get(), constants.info())};
+    VkPipelineVertexInputStateCreateInfo vertex_input{};
+    vertex_input.sType = VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO;
+    VkPipelineInputAssemblyStateCreateInfo assembly{};
+    assembly.sType = VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO;
+    assembly.topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
+    VkPipelineViewportStateCreateInfo viewport{};
+    viewport.sType = VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO;
+    viewport.viewportCount = 1;
+    viewport.scissorCount = 1;
+    VkPipelineRasterizationStateCreateInfo raster{};
+    raster.sType = VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO;
+    raster.polygonMode = VK_POLYGON_MODE_FILL;
+    raster.cullMode = description.cull;
+    raster.frontFace = description.front_face;
+    raster.lineWidth = 1;
+    VkPipelineMultisampleStateCreateInfo multisample{};
+    multisample.sType = VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO;
+    multisample.rasterizationSamples = VK_SAMPLE_COUNT_1_BIT;
+    VkPipelineDepthStencilStateCreateInfo depth{};
+    depth.sType = VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO;
+    depth.depthTestEnable = VK_TRUE;
+    depth.depthWriteEnable = description.depth_write ? VK_TRUE : VK_FALSE;
+    depth.depthCompareOp = description.depth_compare;
+    VkPipelineColorBlendAttachmentState blend{};
+    blend.blendEnable = description.add ? VK_TRUE : VK_FALSE;
+    blend.srcColorBlendFactor = blend.dstColorBlendFactor = VK_BLEND_FACTOR_ONE;
+    blend.srcAlphaBlendFactor = blend.dstAlphaBlendFactor = VK_BLEND_FACTOR_ONE;
+    blend.colorWriteMask = VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT | VK_COLOR_COMPONENT_B_BIT |
+                           VK_COLOR_COMPONENT_A_BIT;
+    VkPipelineColorBlendStateCreateInfo color{};
+    color.sType = VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO;
+    color.attachmentCount = description.color ? 1 : 0;
+    color.pAttachments = &blend;
+    const VkDynamicState dynamic_states[] = {VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR};
+    VkPipelineDynamicStateCreateInfo dynamic{};
+    dynamic.sType = VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO;
+    dynamic.dynamicStateCount = 2;
+    dynamic.pDynamicStates = dynamic_states;
+
+    VkGraphicsPipelineCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO;
+    info.stageCount = 2;
+    info.pStages = stages;
+    info.pVertexInputState = &vertex_input;
+    info.pInputAssemblyState = &assembly;
+    info.pViewportState = &viewport;
+    info.pRasterizationState = &raster;
+    info.pMultisampleState = &multisample;
+    info.pDepthStencilState = &depth;
+    info.pColorBlendState = &color;
+    info.pDynamicState = &dynamic;
+    info.layout = description.layout;
+    info.renderPass = description.render_pass;
+    info.subpass = description.subpass;
+    VkPipeline pipeline;
+    HEARTH_TRY_VK(device.vk.vkCreateGraphicsPipelines(device.handle, device.pipeline_cache, 1, &info,
+                                                      device.allocator, &pipeline),
+                  "create a graphics pipeline");
+    return UniquePipeline(device, pipeline);
+}
+
+void DescriptorWriter::add(uint32_t binding, VkDescriptorType type, VkDescriptorBufferInfo buffer,
+                           VkDescriptorImageInfo image)
+{
+    entries_.push_back({binding, type, buffer, image});
+}
+
+DescriptorWriter& DescriptorWriter::uniform(uint32_t binding, const Buffer& buffer, VkDeviceSize offset,
+                                            VkDeviceSize range)
+{
+    add(binding, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, {buffer.handle.get(), offset, range}, {});
+    return *this;
+}
+
+DescriptorWriter& DescriptorWriter::storage(uint32_t binding, const Buffer& buffer)
+{
+    add(binding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, {buffer.handle.get(), 0, VK_WHOLE_SIZE}, {});
+    return *this;
+}
+
+DescriptorWriter& DescriptorWriter::texture(uint32_t binding, VkImageView view, VkSampler sampler)
+{
+    add(binding, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, {},
+        {sampler, view, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL});
+    return *this;
+}
+
+DescriptorWriter& DescriptorWriter::input(uint32_t binding, VkImageView view)
+{
+    add(binding, VK_DESCRIPTOR_TYPE_INPUT_ATTACHMENT, {},
+        {VK_NULL_HANDLE, view, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL});
+    return *this;
+}
+
+DescriptorWriter& DescriptorWriter::image(uint32_t binding, VkImageView view)
+{
+    add(binding, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, {}, {VK_NULL_HANDLE, view, VK_IMAGE_LAYOUT_GENERAL});
+    return *this;
+}
+
+void DescriptorWriter::write(const Device& device)
+{
+    std::vector<VkWriteDescriptorSet> writes;
+    for (const Entry& entry : entries_)
+    {
+        VkWriteDescriptorSet write{};
+        write.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
+        write.dstSet = set_;
+        write.dstBinding = entry.binding;
+        write.descriptorCount = 1;
+        write.descriptorType = entry.type;
+        write.pBufferInfo = &entry.buffer;
+        write.pImageInfo = &entry.image;
+        writes.push_back(write);
+    }
+    device.vk.vkUpdateDescriptorSets(device.handle, static_cast<uint32_t>(writes.size()), writes.data(), 0,
+                                     nullptr);
+}
+
+Result<UniqueDescriptorPool> createDescriptorPool(const Device& device, uint32_t set_count,
+                                                  const DescriptorPoolSizes& sizes)
+{
+    const VkDescriptorPoolSize all[] = {{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, sizes.uniforms},
+                                        {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, sizes.storages},
+                                        {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, sizes.textures},
+                                        {VK_DESCRIPTOR_TYPE_INPUT_ATTACHMENT, sizes.inputs},
+                                        {VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, sizes.images}};
+    std::vector<VkDescriptorPoolSize> used;
+    for (const VkDescriptorPoolSize& size : all)
+        if (size.descriptorCount > 0)
+            used.push_back(size);
+    const VkDescriptorPoolCreateInfo info{VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO,
+                                          nullptr,
+                                          0,
+                                          set_count,
+                                          static_cast<uint32_t>(used.size()),
+                                          used.data()};
+    VkDescriptorPool pool;
+    HEARTH_TRY_VK(device.vk.vkCreateDescriptorPool(device.handle, &info, device.allocator, &pool),
+                  "create a descriptor pool");
+    return UniqueDescriptorPool(device, pool);
+}
+
+Result<VkDescriptorSet> allocateSet(const Device& device, VkDescriptorPool pool, VkDescriptorSetLayout layout)
+{
+    const VkDescriptorSetAllocateInfo info{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO, nullptr, pool, 1,
+                                           &layout};
+    VkDescriptorSet set;
+    HEARTH_TRY_VK(device.vk.vkAllocateDescriptorSets(device.handle, &info, &set),
+                  "allocate a descriptor set");
+    return set;
+}
+
+void barrier(const Device& device, VkCommandBuffer commands, VkPipelineStageFlags from, VkAccessFlags written,
+             VkPipelineStageFlags to, VkAccessFlags read)
+{
+    const VkMemoryBarrier memory{VK_STRUCTURE_TYPE_MEMORY_BARRIER, nullptr, written, read};
+    device.vk.vkCmdPipelineBarrier(commands, from, to, 0, 1, &memory, 0, nullptr, 0, nullptr);
+}
+
+} // namespace hearth::gpu

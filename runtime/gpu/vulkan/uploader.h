@@ -1,0 +1,45 @@
+// Brings data to the device: written into mapped staging memory now, copied by commands that the caller submits.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "runtime/gpu/vulkan/memory.h"
+
+namespace hearth::gpu
+{
+
+/// Owns the staging memory of one upload: must live until the recorded commands have run.
+class Uploader
+{
+public:
+    Uploader(const Device& device, VkCommandBuffer commands)
+        : device_(device), commands_(commands), arena_(device)
+    {
+    }
+
+    /// Mapped memory of `size` > 0 bytes that is copied to the start of `target`.
+    Result<std::span<std::byte>> stage(const Buffer& target, VkDeviceSize size);
+
+    /// The same with the bytes at hand; nothing where there are none.
+    Status upload(const Buffer& target, std::span<const std::byte> bytes);
+
+    /// The same for a contiguous range of records.
+    template <typename Range>
+    Status uploadRecords(const Buffer& target, const Range& records)
+    {
+        return upload(target, std::as_bytes(std::span(records)));
+    }
+
+    /// All mips of an image, finest first, tightly packed; leaves it readable by shaders.
+    Status upload(const Image& target, std::span<const std::byte> texels, uint32_t texel_bytes);
+
+    /// Make all copies visible to the commands that follow.
+    void finish();
+
+private:
+    const Device& device_;
+    VkCommandBuffer commands_;
+    MemoryArena arena_;
+    std::vector<Buffer> buffers_;
+};
+
+} // namespace hearth::gpu

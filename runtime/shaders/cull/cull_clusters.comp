@@ -1,0 +1,24 @@
+// Which clusters of rigid instances are drawn.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#include "formats/gpu_shared/occlusion.h"
+#include "runtime/shaders/cull/cull_clusters.glsl"
+
+layout(set = 0, binding = 5, std430) readonly buffer Clusters { Cluster clusters[]; };
+
+bool inFrame(WorkItem item, uint number)
+{
+    Cluster cluster = clusters[number];
+    uint refined = cluster.refined_group == kNoGroup ? cluster.group : cluster.refined_group;
+    return decideCluster(view, instances[item.instance], states[item.instance], cluster, groups[cluster.group],
+                         groups[refined], (item.flags & kItemDoubleSided) != 0u);
+}
+
+bool isBehind(OcclusionView seen_from, WorkItem item, uint number)
+{
+    Cluster cluster = clusters[number];
+    float grid_step = states[item.instance].grid_step;
+    return isHidden(seen_from, instances[item.instance], clusterBoxMin(cluster, grid_step),
+                    clusterBoxMax(cluster, grid_step));
+}

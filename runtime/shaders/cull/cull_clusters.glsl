@@ -1,0 +1,72 @@
+// What the passes over the clusters of rigid and of deformed instances share. One workgroup a work item, one thread a
+// cluster: writes which clusters of the item are drawn as a bit mask, and in the early phase which ones the late phase
+// looks at again.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "runtime/shaders/cull/occlusion.glsl"
+
+layout(local_size_x = 64) in;
+
+layout(set = 0, binding = 0, std140) uniform Frame { FrameView view; };
+layout(set = 0, binding = 1, std430) readonly buffer Instances { Instance instances[]; };
+layout(set = 0, binding = 2, std430) readonly buffer States { InstanceState states[]; };
+layout(set = 0, binding = 3, std430) readonly buffer Items { WorkItem items[]; };
+layout(set = 0, binding = 4, std430) readonly buffer Order { uint order[]; };
+// binding 5: the clusters
+layout(set = 0, binding = 6, std430) readonly buffer Groups { Group groups[]; };
+layout(set = 0, binding = 7, std430) buffer Results { WorkResult results[]; };
+layout(push_constant) uniform Push
+{
+    uint first_item;
+    uint item_count;
+    uint phase;
+};
+
+// subgroups are not required of the device: the masks are gathered in shared memory
+shared uint drawn[2];
+shared uint later[2];
+
+// Whether it is drawn if nothing hides it; whether what was seen from there hides it.
+bool inFrame(WorkItem item, uint cluster);
+bool isBehind(OcclusionView seen_from, WorkItem item, uint cluster);
+
+void main()
+{
+    uint group = gl_WorkGroupID.y * kDispatchRow + gl_WorkGroupID.x;
+    if (group >= item_count)
+        return;
+    uint item_index = first_item + group;
+    uint lane = gl_LocalInvocationIndex;
+    if (lane < 2u)
+    {
+        drawn[lane] = 0u;
+        later[lane] = 0u;
+    }
+    barrier();
+
+    WorkItem item = items[item_index];
+    uint seen = states[item.instance].visible;
+    uint word = lane >> 5;
+    uint bit = 1u << (lane & 31u);
+    if (lane < item.count && (seen == kInstanceVisible || seen == kInstanceLate))
+    {
+        uint cluster = order[item.first + lane];
+        bool candidate;
+        if (phase == kPhaseLate && seen == kInstanceVisible)
+            candidate = ((word == 0u ? results[item_index].later_low : results[item_index].later_high) & bit) != 0u;
+        else
+            candidate = inFrame(item, cluster);
+        bool hidden = false;
+        if (candidate && phase == kPhaseLate)
+            hidden = isBehind(current_view, item, cluster);
+        else if (candidate && phase == kPhaseEarly)
+            hidden = isBehind(last_view, item, cluster);
+        if (candidate && !hidden)
+            atomicOr(drawn[word], bit);
+        if (hidden && phase == kPhaseEarly)
+            atomicOr(later[word], bit);
+    }
+    barrier();
+
+    if (lane == 0u)
+        results[item_index] = WorkResult(drawn[0], drawn[1], 0u, later[0], later[1]);
+}

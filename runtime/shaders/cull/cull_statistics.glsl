@@ -1,0 +1,81 @@
+// What counting the clusters of rigid and of deformed instances shares. After a frame: why each instance and each cluster
+// was drawn or not. One workgroup a work item, one thread a cluster, as cull_clusters.glsl; and thread i looks at instance i.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "formats/gpu_shared/cull_statistics.h"
+
+layout(local_size_x = 64) in;
+
+layout(set = 0, binding = 0, std140) uniform Frame { FrameView view; };
+layout(set = 0, binding = 1, std430) readonly buffer Instances { Instance instances[]; };
+layout(set = 0, binding = 2, std430) readonly buffer States { InstanceState states[]; };
+layout(set = 0, binding = 3, std430) readonly buffer Bounds { MeshBounds bounds[]; };
+layout(set = 0, binding = 4, std430) readonly buffer Items { WorkItem items[]; };
+layout(set = 0, binding = 5, std430) readonly buffer Order { uint order[]; };
+// binding 6: the clusters
+layout(set = 0, binding = 7, std430) readonly buffer Groups { Group groups[]; };
+layout(set = 0, binding = 8, std430) buffer Statistics { CullStatistics statistics; };
+layout(push_constant) uniform Push
+{
+    uint first_item;
+    uint item_count;
+    uint instance_count; // 0 where the other pass counts them
+};
+
+shared uint cluster_counts[kOutcomeCount];
+shared uint triangle_counts[kOutcomeCount];
+
+void countInstance(uint i)
+{
+    MeshBounds mesh = bounds[instances[i].mesh];
+    uint seen = states[i].visible;
+    if (seen == kInstanceVisible)
+        atomicAdd(statistics.visible_instances, 1u);
+    else if (seen == kInstanceLate)
+        atomicAdd(statistics.late_instances, 1u);
+    else if (mesh.box_min.x > mesh.box_max.x)
+        atomicAdd(statistics.empty_instances, 1u);
+    else if ((view.flags & kCullInstances) != 0u && boxOutsideFrustum(view, instances[i], mesh.box_min, mesh.box_max))
+        atomicAdd(statistics.outside_instances, 1u);
+    else
+        atomicAdd(statistics.occluded_instances, 1u);
+}
+
+// Of a cluster whose instance is looked at: kOutcomeCandidate, or the test that left it out.
+uint outcomeOfTests(WorkItem item, uint cluster);
+uint trianglesOf(WorkItem item, uint cluster);
+
+uint outcomeOf(WorkItem item, uint cluster)
+{
+    uint seen = states[item.instance].visible;
+    if (seen == kInstanceHidden)
+        return kOutcomeInstance;
+    uint outcome = outcomeOfTests(item, cluster);
+    return outcome == kOutcomeCandidate && seen == kInstanceLate ? kOutcomeLateCandidate : outcome;
+}
+
+void main()
+{
+    uint lane = gl_LocalInvocationIndex;
+    uint group = gl_WorkGroupID.y * kDispatchRow + gl_WorkGroupID.x;
+    if (lane < kOutcomeCount)
+        cluster_counts[lane] = triangle_counts[lane] = 0u;
+    barrier();
+    if (group * 64u + lane < instance_count)
+        countInstance(group * 64u + lane);
+    if (group < item_count && lane < items[first_item + group].count)
+    {
+        WorkItem item = items[first_item + group];
+        uint cluster = order[item.first + lane];
+        uint outcome = outcomeOf(item, cluster);
+        atomicAdd(cluster_counts[outcome], 1u);
+        atomicAdd(triangle_counts[outcome], trianglesOf(item, cluster));
+    }
+    barrier();
+    if (lane < kOutcomeCount)
+    {
+        atomicAdd(statistics.clusters[lane], cluster_counts[lane]);
+        uint before = atomicAdd(statistics.triangles_low[lane], triangle_counts[lane]);
+        if (before + triangle_counts[lane] < before)
+            atomicAdd(statistics.triangles_high[lane], 1u);
+    }
+}

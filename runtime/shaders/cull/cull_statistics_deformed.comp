@@ -1,0 +1,30 @@
+// Why clusters of deformed instances were drawn or not.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#include "formats/gpu_shared/deformation.h"
+#include "runtime/shaders/cull/cull_statistics.glsl"
+#define DEFORMATION_SET 0
+#define DEFORMATION_BINDING 6
+#include "runtime/shaders/scene/deformation.glsl"
+
+uint outcomeOfTests(WorkItem item, uint number)
+{
+    Instance instance = instances[item.instance];
+    Pose pose = loadPose(poseRowOf(item.instance));
+    DeformedCluster cluster = loadDeformedCluster(pose, number);
+    uint refined = cluster.refined_group == kNoGroup ? cluster.group : cluster.refined_group;
+    if (!deformedInCut(view, instance, pose, cluster, groups[cluster.group], groups[refined]))
+        return kOutcomeLod;
+    if (!deformedInFrustum(view, instance, boxInPose(instance, pose, cluster)))
+        return kOutcomeFrustum;
+    if ((item.flags & kItemDoubleSided) == 0u &&
+        deformedFacesAway(view, instance, pose, loadJoint(pose, cluster.joint), cluster))
+        return kOutcomeCone;
+    return kOutcomeCandidate;
+}
+
+uint trianglesOf(WorkItem item, uint number)
+{
+    return loadDeformedCluster(loadPose(poseRowOf(item.instance)), number).triangle_count;
+}

@@ -1,0 +1,13 @@
+// Which pages of rigid instances the frame wants.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#include "formats/gpu_shared/decisions.h"
+#include "runtime/shaders/cull/page_requests.glsl"
+
+Group placedGroup(uint instance, uint group) { return groups[group]; }
+
+bool inFrustum(uint instance, uint cluster)
+{
+    return clusterInFrustum(view, instances[instance], states[instance], clusters[cluster]);
+}

@@ -1,0 +1,32 @@
+// One thread: which slots of the visible list have deformed clusters, whose bins are the last ones, and how many of them the
+// scratch holds. After each culling phase of the picture.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#define DEFORMATION_SET 0
+#define DEFORMATION_BINDING 1
+#define DEFORMATION_WRITES
+#include "runtime/shaders/scene/deformation.glsl"
+
+layout(local_size_x = 1) in;
+
+layout(set = 0, binding = 0, std430) readonly buffer BinDraws { BinDraw bin_draws[]; };
+layout(push_constant) uniform Push
+{
+    uint bin_count;
+    uint first_bin; // the first deformed one
+    uint phase;
+};
+
+void main()
+{
+    uint bins = phase == kPhaseLate ? bin_count : 0u;
+    BinDraw last = bin_draws[bins + bin_count - 1u];
+    uint first = bin_draws[bins + first_bin].first_slot;
+    uint end = last.first_slot + last.instance_count;
+    uvec4 slots = phase == kPhaseLate ? uvec4(deformation[1].xy, first, end) : uvec4(first, end, end, end);
+    uint before = phase == kPhaseLate ? min(slots.y - slots.x, deformation[0].w) : 0u;
+    uint count = min(end - first, deformation[0].w - before);
+    deformation[1] = slots;
+    deformation[2] = uvec4(min(count, kDispatchRow), (count + kDispatchRow - 1u) / kDispatchRow, 1u, count);
+}

@@ -1,0 +1,55 @@
+// Levels 1 to 5 of the depth pyramid: one workgroup a tile of 32 x 32 pixels.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#include "formats/gpu_shared/occlusion.h"
+
+layout(local_size_x = 16, local_size_y = 16) in;
+
+layout(set = 0, binding = 1, std430) writeonly buffer Pyramid { float pyramid[]; };
+layout(set = 0, binding = 2) uniform sampler2D depth_buffer;
+layout(push_constant) uniform Push
+{
+    uint width;
+    uint height;
+};
+
+shared float tile[16][16];
+
+// Pixels beyond the edge count as those at it, which lie in the same texel.
+float depthAt(uvec2 pixel)
+{
+    return texelFetch(depth_buffer, ivec2(min(pixel, uvec2(width - 1u, height - 1u))), 0).x;
+}
+
+void write(uint level, uvec2 texel, float farthest)
+{
+    uvec2 size = uvec2(pyramidSize(width, level), pyramidSize(height, level));
+    if (texel.x < size.x && texel.y < size.y)
+        pyramid[pyramidOffset(width, height, level) + texel.y * size.x + texel.x] = farthest;
+}
+
+void main()
+{
+    uvec2 local = gl_LocalInvocationID.xy;
+    uvec2 pixel = gl_GlobalInvocationID.xy * 2u;
+    float farthest = min(min(depthAt(pixel), depthAt(pixel + uvec2(1u, 0u))),
+                         min(depthAt(pixel + uvec2(0u, 1u)), depthAt(pixel + uvec2(1u, 1u))));
+    write(1u, gl_GlobalInvocationID.xy, farthest);
+    uint last = min(pyramidLevels(width, height), 5u);
+    for (uint level = 2u; level <= last; ++level)
+    {
+        uint side = 32u >> level;
+        tile[local.y][local.x] = farthest;
+        barrier();
+        bool in_tile = local.x < side && local.y < side;
+        if (in_tile)
+        {
+            uvec2 at = local * 2u;
+            farthest = min(min(tile[at.y][at.x], tile[at.y][at.x + 1u]),
+                           min(tile[at.y + 1u][at.x], tile[at.y + 1u][at.x + 1u]));
+            write(level, gl_WorkGroupID.xy * side + local, farthest);
+        }
+        barrier();
+    }
+}

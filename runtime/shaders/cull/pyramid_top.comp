@@ -1,0 +1,37 @@
+// The levels of the depth pyramid above the fifth, in one workgroup.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#include "formats/gpu_shared/occlusion.h"
+
+layout(local_size_x = 256) in;
+
+layout(set = 0, binding = 1, std430) coherent buffer Pyramid { float pyramid[]; };
+layout(push_constant) uniform Push
+{
+    uint width;
+    uint height;
+};
+
+void main()
+{
+    uint levels = pyramidLevels(width, height);
+    for (uint level = 6u; level <= levels; ++level)
+    {
+        uint below = pyramidOffset(width, height, level - 1u);
+        uvec2 size_below = uvec2(pyramidSize(width, level - 1u), pyramidSize(height, level - 1u));
+        uint offset = pyramidOffset(width, height, level);
+        uvec2 size = uvec2(pyramidSize(width, level), pyramidSize(height, level));
+        for (uint i = gl_LocalInvocationIndex; i < size.x * size.y; i += 256u)
+        {
+            uvec2 low = uvec2(i % size.x, i / size.x) * 2u;
+            uvec2 high = min(low + 1u, size_below - 1u);
+            uint upper = below + low.y * size_below.x;
+            uint lower = below + high.y * size_below.x;
+            pyramid[offset + i] = min(min(pyramid[upper + low.x], pyramid[upper + high.x]),
+                                      min(pyramid[lower + low.x], pyramid[lower + high.x]));
+        }
+        memoryBarrierBuffer();
+        barrier();
+    }
+}

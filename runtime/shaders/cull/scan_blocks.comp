@@ -1,0 +1,38 @@
+// Exclusive prefix sum of the drawn clusters over the work items of one block; the block's total goes to the next pass.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#include "formats/gpu_shared/records.h"
+#include "runtime/shaders/cull/scan.glsl"
+
+layout(local_size_x = 256) in;
+
+layout(set = 0, binding = 0, std430) buffer Results { WorkResult results[]; };
+layout(set = 0, binding = 1, std430) writeonly buffer Totals { uint totals[]; };
+layout(push_constant) uniform Push { uint item_count; };
+
+const uint kItemsPerThread = kScanBlockItems / 256u;
+
+void main()
+{
+    uint first = gl_WorkGroupID.x * kScanBlockItems + gl_LocalInvocationIndex * kItemsPerThread;
+    uint counts[kItemsPerThread];
+    uint sum = 0u;
+    for (uint i = 0u; i < kItemsPerThread; ++i)
+    {
+        counts[i] = 0u;
+        if (first + i < item_count)
+            counts[i] = uint(bitCount(results[first + i].mask_low) + bitCount(results[first + i].mask_high));
+        sum += counts[i];
+    }
+    uint total;
+    uint offset = exclusiveScan256(sum, total);
+    for (uint i = 0u; i < kItemsPerThread; ++i)
+    {
+        if (first + i < item_count)
+            results[first + i].offset = offset;
+        offset += counts[i];
+    }
+    if (gl_LocalInvocationIndex == 0u)
+        totals[gl_WorkGroupID.x] = total;
+}

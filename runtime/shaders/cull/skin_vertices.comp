@@ -1,0 +1,43 @@
+// One workgroup a deformed cluster of the visible list, as many as the scratch holds: its vertices in their pose, for the
+// visibility pass and the shading. Positions of all vertices, then normals and tangents where they have any.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#include "formats/gpu_shared/deformation.h"
+#include "runtime/shaders/scene/scene.glsl"
+#define DEFORMATION_SET 0
+#define DEFORMATION_BINDING 7
+#define DEFORMATION_WRITES
+#include "runtime/shaders/scene/deformation.glsl"
+#include "runtime/shaders/scene/pose_vertex.glsl"
+
+layout(local_size_x = 64) in;
+layout(push_constant) uniform Push { uint phase; };
+
+void writeVector(uint word, vec3 v)
+{
+    uvec3 bits = floatBitsToUint(v);
+    for (uint i = 0u; i < 3u; ++i)
+        deformation[(word + i) >> 2][(word + i) & 3u] = bits[i];
+}
+
+void main()
+{
+    uint at = gl_WorkGroupID.y * kDispatchRow + gl_WorkGroupID.x;
+    if (at >= deformation[2].w)
+        return;
+    uint slot = (phase == kPhaseLate ? deformation[1].z : deformation[1].x) + at;
+    VisibleCluster shown = visible[slot];
+    ClusterDraw draw = cluster_draws[shown.cluster];
+    Pose pose = loadPose(poseRowOf(shown.instance));
+    uint scratch = scratchOf(slot);
+    uint count = vertexCount(draw);
+    for (uint i = gl_LocalInvocationIndex; i < count; i += 64u)
+    {
+        writeVector(scratch + i * 3u, posedPosition(draw, pose, i));
+        if ((draw.vertex_layout & kVertexNormal) != 0u)
+            writeVector(scratch + (count + i) * 3u, posedNormal(draw, pose, i));
+        if ((draw.vertex_layout & kVertexTangent) != 0u)
+            writeVector(scratch + (2u * count + i) * 3u, posedTangent(draw, pose, i));
+    }
+}

@@ -1,0 +1,56 @@
+// What the two vertex shaders of the casters share.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "runtime/shaders/scene/shadow_block.glsl"
+#include "runtime/shaders/scene/drawn_vertex.glsl"
+
+layout(set = 2, binding = 0, std430) readonly buffer BinDraws { BinDraw bin_draws[]; };
+layout(push_constant) uniform Push
+{
+    uint bin_index;
+    uint shown_view;
+    float depth_scale;
+    uint light_row;
+    uint map_index;
+};
+
+struct CasterCorner
+{
+    ClusterDraw draw;
+    uint vertex; // address, or kNothingVisible for the unused rest of the 128 triangles
+    vec4 position;
+};
+
+// Deeper by the offset of the triangle's own plane: vertex normals would round off what lies in the map.
+CasterCorner casterCorner()
+{
+    uint slot = bin_draws[bin_index].first_slot + gl_InstanceIndex;
+    uint triangle = gl_VertexIndex / 3u;
+    CasterCorner corner;
+    corner.draw = cluster_draws[visible[slot].cluster];
+    corner.vertex = kNothingVisible;
+    corner.position = vec4(0.0, 0.0, 0.0, 1.0); // three of these are a triangle without area
+    if (triangle >= triangleCount(corner.draw))
+        return corner;
+    Instance instance = instances[visible[slot].instance];
+    DrawnPose pose = drawnPose(visible[slot].instance, slot);
+    ShadowLight light = shadows.lights[light_row];
+    uint turn = cornerInBin(instance, gl_VertexIndex % 3u);
+    vec3 points[3]; // the corner itself, then the other two in their order
+    for (uint i = 0u; i < 3u; ++i)
+    {
+        uint index = cornerVertex(corner.draw, triangle, (turn + i) % 3u);
+        if (i == 0u)
+            corner.vertex = vertexAddress(corner.draw, index);
+        points[i] = drawnPosition(instance, corner.draw, pose, index, light.origin);
+    }
+    vec3 across = cross(points[1] - points[0], points[2] - points[0]);
+    float area2 = dot(across, across);
+    // a triangle without area is not drawn: any normal will do
+    vec3 normal = area2 > 0.0 ? across * inversesqrt(area2) : light.direction;
+    // no part of a triangle is nearer than its nearest corner less its longest edge
+    float nearest = min(length(points[0]), min(length(points[1]), length(points[2])));
+    float longest = max(length(points[1] - points[0]),
+                        max(length(points[2] - points[1]), length(points[0] - points[2])));
+    corner.position = shadowCasterClip(light, shadows.maps[map_index], points[0], normal, max(nearest - longest, 0.0));
+    return corner;
+}

@@ -1,0 +1,46 @@
+// One workgroup a material: lists its tiles, rows from top to bottom.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#include "formats/gpu_shared/records.h"
+#include "runtime/shaders/draw/tiles.glsl"
+#include "runtime/shaders/cull/scan.glsl"
+
+layout(local_size_x = 256) in;
+
+layout(set = 0, binding = 2, std430) readonly buffer TileDraws { TileDraw tile_draws[]; };
+layout(set = 1, binding = 1, std430) readonly buffer TileMaterials { uint tile_materials[]; };
+layout(set = 1, binding = 2, std430) writeonly buffer TileLists { uint tile_lists[]; };
+
+// By halving: the materials of a tile are sorted.
+bool tileHas(uint tile, uint material)
+{
+    uint at = tile * kMaterialsPerTile;
+    for (uint step = kMaterialsPerTile / 2u; step > 0u; step >>= 1)
+        if (tile_materials[at + step] <= material)
+            at += step;
+    return tile_materials[at] == material;
+}
+
+void main()
+{
+    uint material = gl_WorkGroupID.y * kDispatchRow + gl_WorkGroupID.x;
+    if (material >= draw_count)
+        return;
+    TileDraw draw = tile_draws[material];
+    if (draw.instance_count == 0u || draw.first_vertex == 0u)
+        return;
+    uint entry = draw.first_vertex / kTileVertices;
+    uint end = entry + draw.instance_count;
+    uint row = materialTiles(width);
+    for (uint first = 0u; entry < end; first += 256u)
+    {
+        uint tile = first + gl_LocalInvocationIndex;
+        bool has = tile < row * materialTiles(height) && tileHas(tile, material);
+        uint total;
+        uint rank = exclusiveScan256(has ? 1u : 0u, total);
+        if (has)
+            tile_lists[entry + rank] = (tile % row) | (tile / row) << 16;
+        entry += total;
+    }
+}

@@ -1,0 +1,80 @@
+// One workgroup a tile: lists the materials that the tile sees, and counts the tiles of each. The lists are in rising
+// order and the counts are sums, so that nothing depends on the order of the threads.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#include "formats/gpu_shared/records.h"
+#include "runtime/shaders/draw/tiles.glsl"
+#include "runtime/shaders/cull/scan.glsl"
+
+layout(local_size_x = 256) in;
+
+layout(set = 0, binding = 0, std430) readonly buffer Visible { VisibleCluster visible[]; };
+layout(set = 0, binding = 1, std430) readonly buffer Draws { ClusterDraw cluster_draws[]; };
+layout(set = 0, binding = 2, std430) buffer TileDraws { TileDraw tile_draws[]; };
+layout(set = 1, binding = 0) uniform usampler2D visibility;
+layout(set = 1, binding = 1, std430) writeonly buffer TileMaterials { uint tile_materials[]; };
+
+const uint kPixelsPerThread = kMaterialTilePixels * kMaterialTilePixels / 256u;
+
+shared uint seen[kTileRoundMaterials / 32u]; // bit m: material first_material + m is seen
+
+// 0 is the sky.
+uint materialAt(uvec2 pixel)
+{
+    if (pixel.x >= width || pixel.y >= height)
+        return kNoTileMaterial;
+    uint id = texelFetch(visibility, ivec2(pixel), 0).x;
+    return id == kNothingVisible ? 0u : cluster_draws[visible[id >> kTriangleBits].cluster].material;
+}
+
+// Append the materials of this thread's word behind the `rank` that come before them.
+void appendMaterials(uint word, uint first_material, uint tile, uint rank)
+{
+    for (; word != 0u; word &= word - 1u, ++rank)
+    {
+        uint material = first_material + uint(findLSB(word));
+        if (rank < kMaterialsPerTile)
+        {
+            tile_materials[tile * kMaterialsPerTile + rank] = material;
+            atomicAdd(tile_draws[material].instance_count, 1u);
+        }
+        else
+            atomicOr(tile_draws[material].instance_count, kCountedWhole);
+    }
+}
+
+void main()
+{
+    uint lane = gl_LocalInvocationIndex;
+    uint tile = tileIndex(gl_WorkGroupID.xy);
+    uvec2 origin = gl_WorkGroupID.xy * kMaterialTilePixels;
+    uint materials[kPixelsPerThread];
+    for (uint i = 0u; i < kPixelsPerThread; ++i)
+    {
+        uint pixel = i * 256u + lane;
+        materials[i] = materialAt(origin + uvec2(pixel % kMaterialTilePixels, pixel / kMaterialTilePixels));
+    }
+
+    uint found = 0u;
+    for (uint first = 0u; first < draw_count; first += kTileRoundMaterials)
+    {
+        seen[lane] = 0u;
+        barrier();
+        for (uint i = 0u; i < kPixelsPerThread; ++i)
+        {
+            // neighbours mostly see the same: one atomic for all of them
+            uint bit = materials[i] - first;
+            if (bit < kTileRoundMaterials && (i == 0u || materials[i] != materials[i - 1u]))
+                atomicOr(seen[bit >> 5], 1u << (bit & 31u));
+        }
+        barrier();
+        uint word = seen[lane];
+        uint total;
+        uint rank = exclusiveScan256(uint(bitCount(word)), total);
+        appendMaterials(word, first + lane * 32u, tile, found + rank);
+        found += total;
+    }
+    if (lane >= found && lane < kMaterialsPerTile)
+        tile_materials[tile * kMaterialsPerTile + lane] = kNoTileMaterial;
+}

@@ -1,0 +1,34 @@
+// What the two vertex shaders of the visibility pass share.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "runtime/shaders/scene/drawn_vertex.glsl"
+
+layout(set = 2, binding = 0, std430) readonly buffer BinDraws { BinDraw bin_draws[]; };
+layout(push_constant) uniform Push { uint bin_index; };
+
+struct CornerOfSlot
+{
+    ClusterDraw draw;
+    uint vertex; // address, or kNothingVisible for the unused rest of the 128 triangles
+    uint id;
+    vec4 position;
+};
+
+CornerOfSlot cornerOfSlot()
+{
+    uint slot = bin_draws[bin_index].first_slot + gl_InstanceIndex;
+    uint triangle = gl_VertexIndex / 3u;
+    CornerOfSlot corner;
+    corner.draw = cluster_draws[visible[slot].cluster];
+    corner.id = slot << kTriangleBits | triangle;
+    corner.vertex = kNothingVisible;
+    corner.position = vec4(0.0, 0.0, 0.0, 1.0); // three of these are a triangle without area
+    if (triangle < triangleCount(corner.draw))
+    {
+        Instance instance = instances[visible[slot].instance];
+        uint index = cornerVertex(corner.draw, triangle, cornerInBin(instance, gl_VertexIndex % 3u));
+        corner.vertex = vertexAddress(corner.draw, index);
+        DrawnPose pose = drawnPose(visible[slot].instance, slot);
+        corner.position = clipPosition(view, drawnPosition(instance, corner.draw, pose, index, view.eye));
+    }
+    return corner;
+}

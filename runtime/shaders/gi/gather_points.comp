@@ -1,0 +1,53 @@
+// Finds the point of each tile at which light is gathered for all of it: a thread a tile. The pixel in its middle, or one
+// of four about it where that sees only sky.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#include "formats/gpu_shared/decisions.h"
+#include "formats/gpu_shared/shading.h"
+#include "formats/gpu_shared/gather.h"
+#include "runtime/shaders/scene/scene.glsl"
+#include "runtime/shaders/scene/material.glsl"
+#include "runtime/shaders/scene/surface_point.glsl"
+#include "runtime/shaders/scene/resolve.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+
+layout(set = 1, binding = 0) uniform usampler2D visibility;
+layout(set = 1, binding = 1, std430) writeonly buffer GatherPoints { GatherPoint gather_points[]; };
+
+const uint kCandidates = 5u;
+const uvec2 kCandidatePixels[kCandidates] = uvec2[](uvec2(4u, 4u), uvec2(2u, 2u), uvec2(6u, 2u), uvec2(2u, 6u), uvec2(6u, 6u));
+
+void main()
+{
+    uvec2 tile = gl_GlobalInvocationID.xy;
+    uvec2 size = uvec2(view.width, view.height);
+    uvec2 tiles = uvec2(gatherTiles(size.x), gatherTiles(size.y));
+    if (any(greaterThanEqual(tile, tiles)))
+        return;
+    uint id = kNothingVisible;
+    uvec2 pixel = uvec2(0u);
+    for (uint i = 0u; i < kCandidates && id == kNothingVisible; ++i)
+    {
+        pixel = min(tile * kGatherPixels + kCandidatePixels[i], size - 1u);
+        id = texelFetch(visibility, ivec2(pixel), 0).x;
+    }
+    GatherPoint point;
+    point.position = vec3(0.0);
+    point.count = 0.0;
+    point.normal = vec3(0.0, 1.0, 0.0);
+    point.sky = 0.0;
+    point.mean = vec3(0.0);
+    point.seen = id != kNothingVisible ? 1.0 : 0.0;
+    point.red = point.green = point.blue = vec4(0.0);
+    point.wide = vec3(0.0);
+    point.reserved = 0.0;
+    if (id != kNothingVisible)
+    {
+        Surface s = resolveSurface(id, vec2(pixel) + 0.5);
+        point.position = s.position;
+        point.normal = smoothNormal(s) * (s.front ? 1.0 : -1.0);
+    }
+    gather_points[tile.y * tiles.x + tile.x] = point;
+}

@@ -1,0 +1,203 @@
+// Gathers the light of bricks: kGatherRays threads for a point, each with a ray of the hemisphere and one of a lobe. Sums are taken in the order of the rays.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#include "runtime/shaders/scene/bricks.glsl"
+#include "formats/gpu_shared/gather.h"
+#include "formats/gpu_shared/gather_lobe.h"
+
+layout(local_size_x = 16, local_size_y = 4) in; // kGatherRays and 2 kGatherLobeRays, kGatherGroupPoints
+
+layout(set = 1, binding = 0, std140) uniform Gather { GatherView gather; };
+layout(set = 1, binding = 1, std430) buffer GatherPoints { GatherPoint gather_points[]; };
+layout(set = 1, binding = 2, std430) readonly buffer GatherBefore { GatherPoint points_before[]; };
+
+// A ray's light, and how much of it is the sky's; its direction.
+shared vec4 ray_light[kGatherGroupPoints][kGatherRays];
+shared vec3 ray_direction[kGatherGroupPoints][kGatherRays];
+// Of the sharp lobe, and then of the wide one; weighed, and the weight.
+shared vec4 lobe_light[kGatherGroupPoints][2u * kGatherLobeRays];
+shared BrickStart starts[kGatherGroupPoints];
+
+// What ray `index` of both lobes brings.
+vec4 lobeLight(GatherPoint point, vec3 place, uint index, uint seed)
+{
+    GatherLobeRay ray = gatherLobeRay(-normalize(point.position), point.normal, index < kGatherLobeRays ? kGatherSharp : kGatherWide,
+                                      index % kGatherLobeRays * kGatherFrames + gather.frame % kGatherFrames,
+                                      kGatherLobeRays * kGatherFrames, seed);
+    if (ray.weight == 0.0)
+        return vec4(0.0);
+    return vec4(brickRayLight(brick_view.grid, brickSky(), place, ray.direction).radiance * ray.weight, ray.weight);
+}
+
+vec3 lobeMean(uint row, uint first)
+{
+    vec4 sum = vec4(0.0);
+    for (uint i = 0u; i < kGatherLobeRays; ++i)
+        sum += lobe_light[row][first + i];
+    return sum.rgb / max(sum.a, 1e-6);
+}
+
+// The mean over the rays of a frame.
+GatherPoint meanOf(GatherPoint point, uint row)
+{
+    for (uint i = 0u; i < kGatherRays; ++i)
+    {
+        vec4 light = ray_light[row][i];
+        vec3 across = ray_direction[row][i] - point.normal * dot(point.normal, ray_direction[row][i]);
+        point.mean += light.rgb;
+        point.sky += light.a;
+        point.red.xyz += across * light.r;
+        point.green.xyz += across * light.g;
+        point.blue.xyz += across * light.b;
+    }
+    float share = 1.0 / float(kGatherRays);
+    vec3 sharp = lobeMean(row, 0u);
+    point.mean *= share;
+    float close = brickCloseShare(starts[row], point.mean);
+    share *= 1.0 - close;
+    point.mean = mix(point.mean, starts[row].close, close);
+    point.sky *= share;
+    point.red *= share;
+    point.green *= share;
+    point.blue *= share;
+    point.red.w = sharp.r;
+    point.green.w = sharp.g;
+    point.blue.w = sharp.b;
+    point.wide = lobeMean(row, kGatherLobeRays);
+    return point;
+}
+
+void add(inout GatherPoint sum, GatherPoint p, float weight)
+{
+    sum.count += p.count * weight;
+    sum.mean += p.mean * weight;
+    sum.sky += p.sky * weight;
+    sum.red += p.red * weight;
+    sum.green += p.green * weight;
+    sum.blue += p.blue * weight;
+    sum.wide += p.wide * weight;
+}
+
+// How much what was known at `before` says about a point, both relative to the eye of now: it lies in the plane of the
+// point, within a quarter of a tile, and looks the same way.
+float likeness(GatherPoint point, GatherPoint before, float reach)
+{
+    vec3 apart = before.position - gather.eye_step - point.position;
+    float off_plane = abs(dot(point.normal, apart));
+    float alike = dot(point.normal, before.normal);
+    return before.count > 0.0 && off_plane < 0.25 * reach && alike > 0.9 && dot(apart, apart) < 4.0 * reach * reach ? 1.0 : 0.0;
+}
+
+// What the frame before knew at the place of a point. count 0: nothing.
+GatherPoint knownBefore(GatherPoint point)
+{
+    GatherPoint known = point;
+    known.count = known.sky = 0.0;
+    known.mean = vec3(0.0);
+    known.red = known.green = known.blue = vec4(0.0);
+    known.wide = vec3(0.0);
+    if (gather.known == 0u)
+        return known;
+    vec3 place = point.position + gather.eye_step;
+    float w = dot(gather.clip_w.xyz, place);
+    if (w < view.z_near)
+        return known;
+    vec2 ndc = vec2(dot(gather.clip_x.xyz, place), dot(gather.clip_y.xyz, place)) / w;
+    // texels of tiles: a point stands for the middle of its own
+    vec2 at = (ndc * 0.5 + 0.5) * vec2(view.width, view.height) / float(kGatherPixels) - 0.5;
+    // where nothing moves the tile itself, exactly
+    at = mix(at, round(at), lessThan(abs(at - round(at)), vec2(0.35)));
+    vec2 low = floor(at);
+    vec2 part = at - low;
+    float reach = max(w, view.z_near) * gather.tile_angle;
+    float sum = 0.0;
+    for (uint i = 0u; i < 4u; ++i)
+    {
+        vec2 corner = vec2(i & 1u, i >> 1);
+        vec2 texel = low + corner;
+        vec2 weights = mix(1.0 - part, part, corner);
+        if (any(lessThan(texel, vec2(0.0))) || texel.x >= float(gather.tiles_x) || texel.y >= float(gather.tiles_y))
+            continue;
+        GatherPoint before = points_before[uint(texel.y) * gather.tiles_x + uint(texel.x)];
+        float weight = weights.x * weights.y * likeness(point, before, reach);
+        if (weight > 0.0)
+            add(known, before, weight);
+        sum += weight;
+    }
+    if (sum < 0.05)
+    {
+        known.count = 0.0;
+        return known;
+    }
+    float scale = 1.0 / sum;
+    known.count *= scale;
+    known.mean *= scale;
+    known.sky *= scale;
+    known.red *= scale;
+    known.green *= scale;
+    known.blue *= scale;
+    known.wide *= scale;
+    return known;
+}
+
+// What is known goes on, with this frame as the next of its frames.
+GatherPoint goOn(GatherPoint fresh, GatherPoint known)
+{
+    float count = min(known.count + 1.0, gather.memory);
+    float share = 1.0 / count;
+    float lobe_share = 1.0 / min(count, kGatherLobeMemory);
+    fresh.mean = mix(known.mean, fresh.mean, share);
+    fresh.sky = mix(known.sky, fresh.sky, share);
+    vec4 shares = vec4(vec3(share), lobe_share);
+    fresh.red = mix(known.red, fresh.red, shares);
+    fresh.green = mix(known.green, fresh.green, shares);
+    fresh.blue = mix(known.blue, fresh.blue, shares);
+    fresh.wide = mix(known.wide, fresh.wide, lobe_share);
+    fresh.count = count;
+    return fresh;
+}
+
+// Which tile of its block one is, so that neighbours are far apart in the order: bits of a Bayer matrix.
+uint placeInBlock(uvec2 tile)
+{
+    uint x = tile.x & 3u;
+    uint y = tile.y & 3u;
+    uint d = x ^ y;
+    return (d & 1u) << 3 | (y & 1u) << 2 | (d & 2u) | y >> 1;
+}
+
+void main()
+{
+    uvec2 tile = uvec2(gl_WorkGroupID.x * kGatherGroupPoints + gl_LocalInvocationID.y, gl_WorkGroupID.y);
+    uint row = gl_LocalInvocationID.y;
+    uint index = gl_LocalInvocationID.x;
+    bool inside = tile.x < gather.tiles_x;
+    uint number = tile.y * gather.tiles_x + tile.x;
+    GatherPoint point;
+    point.seen = 0.0;
+    if (inside)
+        point = gather_points[number];
+    bool seen = point.seen > 0.0;
+    if (seen && index == 0u)
+        starts[row] = brickSeenStart(brick_view.grid, (gather.eye + point.position) / brick_view.grid.voxel_size, point.normal,
+                                     -normalize(point.position));
+    barrier();
+    bool open = seen && starts[row].buried == 0u;
+    if (open)
+    {
+        BrickStart start = starts[row];
+        uint seed = placeInBlock(tile) << 28;
+        // of a spiral every kGatherFrames-th ray, so that a frame covers the hemisphere evenly, and a cycle more finely; the
+        // spirals of a block lie between each other, since the upper bits of the seed shift them
+        vec3 direction = brickRayDirection(start.normal, index * kGatherFrames + gather.frame % kGatherFrames,
+                                           kGatherRays * kGatherFrames, seed);
+        ray_direction[row][index] = direction;
+        BrickRayLight light = brickRayLight(brick_view.grid, brickSky(), start.place, direction);
+        ray_light[row][index] = vec4(light.radiance, light.sky);
+        lobe_light[row][index] = lobeLight(point, start.place, index, seed);
+    }
+    barrier();
+    if (open && index == 0u)
+        gather_points[number] = goOn(meanOf(point, row), knownBefore(point));
+}

@@ -1,0 +1,76 @@
+// Smooths what was gathered over tiles that show the same surface, and hands it to shading: a thread a tile. What goes on to
+// the next frame stays as it is.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#include "formats/gpu_shared/brick_codes.h"
+#include "formats/gpu_shared/gather.h"
+#include "runtime/shaders/gi/gather_code.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+
+layout(set = 0, binding = 0, std140) uniform Gather { GatherView gather; };
+layout(set = 0, binding = 1, std430) readonly buffer GatherPoints { GatherPoint gather_points[]; };
+layout(set = 0, binding = 3, rgba32ui) uniform writeonly uimage2D gather_texels;
+
+// Of a tile's point, how much another is of the same surface. Not quite 0 anywhere, so that what is shut in borrows from
+// what is beside it.
+float likeness(GatherPoint point, GatherPoint other)
+{
+    float tile = max(length(point.position), 1e-6) * gather.tile_angle;
+    float off_plane = abs(dot(point.normal, other.position - point.position)) / tile;
+    float alike = max(dot(point.normal, other.normal), 0.0);
+    alike *= alike;
+    alike *= alike;
+    return alike * alike * max(1.0 - off_plane, 0.0) + 1e-5;
+}
+
+void main()
+{
+    uvec2 tile = gl_GlobalInvocationID.xy;
+    if (tile.x >= gather.tiles_x || tile.y >= gather.tiles_y)
+        return;
+    GatherPoint point = gather_points[tile.y * gather.tiles_x + tile.x];
+    GatherPoint sum = point;
+    sum.mean = vec3(0.0);
+    sum.sky = 0.0;
+    sum.red = sum.green = sum.blue = vec4(0.0);
+    sum.wide = vec3(0.0);
+    float weights = 0.0;
+    ivec2 last = ivec2(gather.tiles_x, gather.tiles_y) - 1;
+    for (int y = -kGatherReach; y <= kGatherReach; ++y)
+        for (int x = -kGatherReach; x <= kGatherReach; ++x)
+        {
+            ivec2 at = ivec2(tile) + ivec2(x, y);
+            if (any(notEqual(at, clamp(at, ivec2(0), last))))
+                continue;
+            GatherPoint other = gather_points[uint(at.y) * gather.tiles_x + uint(at.x)];
+            if (other.count == 0.0)
+                continue;
+            float reach = float(kGatherReach + 1);
+            float near = max(1.0 - float(x * x + y * y) / (reach * reach), 0.0);
+            float weight = near * near * likeness(point, other);
+            sum.mean += other.mean * weight;
+            sum.sky += other.sky * weight;
+            sum.red += other.red * weight;
+            sum.green += other.green * weight;
+            sum.blue += other.blue * weight;
+            sum.wide += other.wide * weight;
+            weights += weight;
+        }
+    if (point.seen == 0.0 || weights == 0.0)
+        sum.seen = 0.0;
+    else
+    {
+        float scale = 1.0 / weights;
+        sum.mean *= scale;
+        sum.sky *= scale;
+        sum.red *= scale;
+        sum.green *= scale;
+        sum.blue *= scale;
+        sum.wide *= scale;
+    }
+    GatherTexels texels = encodeGathered(sum);
+    imageStore(gather_texels, ivec2(tile.x * 2u, tile.y), texels.mean);
+    imageStore(gather_texels, ivec2(tile.x * 2u + 1u, tile.y), texels.lobes);
+}

@@ -1,0 +1,83 @@
+// Lights the faces of a frame's share of the bricks: a thread a face. formats/gpu_shared/brick_lighting.h has the iteration.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#include "runtime/shaders/scene/bricks.glsl"
+
+layout(local_size_x = 64) in;
+
+// of the share's faces, in their order: copied to where faces are read from when all are done
+layout(set = 1, binding = 0, std430) writeonly buffer FreshLights { BrickLight fresh_lights[]; };
+layout(set = 1, binding = 1, std430) readonly buffer BrickPlaces { BrickPlace brick_places[]; };
+
+// The last brick of the share whose first face is not behind this one; bricks without faces lie before it.
+uint brickOfFace(uint face)
+{
+    uint least = brick_view.first_brick;
+    uint most = least + brick_view.share_bricks - 1u;
+    while (least < most)
+    {
+        uint middle = (least + most + 1u) >> 1;
+        if (bricks[middle].first_face <= face)
+            least = middle;
+        else
+            most = middle - 1u;
+    }
+    return least;
+}
+
+// The voxels of a brick that have a face on this side.
+uvec2 faceMask(uint brick, uint side) { return uvec2(bricks[brick].face_masks[2u * side], bricks[brick].face_masks[2u * side + 1u]); }
+
+// The bit of a mask below which `rank` bits are set.
+uint bitOfRank(uint low, uint high, uint rank)
+{
+    uint low_count = uint(bitCount(low));
+    uint word = rank < low_count ? low : high;
+    for (uint left = rank < low_count ? rank : rank - low_count; left > 0u; --left)
+        word &= word - 1u;
+    return uint(findLSB(word)) + (rank < low_count ? 0u : 32u);
+}
+
+float emissionFactor(vec3 middle)
+{
+    float factor = 1.0;
+    for (uint i = 0u; i < brick_view.emission_box_count; ++i)
+    {
+        EmissionBox box = brick_view.emission_boxes[i];
+        if (all(greaterThanEqual(middle, box.least)) && all(lessThanEqual(middle, box.most)))
+            factor = box.factor;
+    }
+    return factor;
+}
+
+void main()
+{
+    uint in_share = (gl_WorkGroupID.x + gl_WorkGroupID.y * kDispatchRow) * 64u + gl_LocalInvocationID.x;
+    if (in_share >= brick_view.share_faces)
+        return;
+    uint face = bricks[brick_view.first_brick].first_face + in_share;
+    uint number = brickOfFace(face);
+    uint side = 0u;
+    uint rank = face - bricks[number].first_face;
+    uvec2 mask = faceMask(number, side);
+    for (uint count = maskCount(mask.x, mask.y); rank >= count; count = maskCount(mask.x, mask.y))
+    {
+        rank -= count;
+        mask = faceMask(number, ++side);
+    }
+    uint bit = bitOfRank(mask.x, mask.y, rank);
+    BrickPlace place = brick_places[number];
+    uint x = (place.xy & 0xFFFFu) + (bit & 3u);
+    uint y = (place.xy >> 16) + (bit >> 2 & 3u);
+    uint z = place.z + (bit >> 4);
+
+    BrickGrid grid = brick_view.grid;
+    BrickStart start = brickFaceStart(grid, x, y, z, side, brickNormalAt(face));
+    vec3 surface = brickFaceSurface(x, y, z, side, start.normal);
+    vec3 arrived = brickGather(grid, brickSky(), start, brick_view.light_rays, brickFaceSeed(x, y, z, side));
+    for (uint i = 0u; i < lighting.light_count; ++i)
+        arrived += brickDirect(grid, start, surface, lighting.lights[i]);
+    vec3 emission = brickEmissionAt(face) * emissionFactor(vec3(x, y, z) + 0.5);
+    fresh_lights[in_share] = encodeBrickLight(brickSentOut(emission, brickAlbedoAt(face), arrived));
+}

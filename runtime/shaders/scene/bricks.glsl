@@ -1,0 +1,40 @@
+// The bricks of the scene: set 0 of the passes over them, and what formats/gpu_shared/brick_lighting.h reads of them.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "formats/gpu_shared/records.h"
+#include "formats/gpu_shared/shading.h"
+#include "formats/gpu_shared/brick_view.h"
+#include "formats/gpu_shared/brick_codes.h"
+#include "formats/gpu_shared/brick_march.h"
+#include "formats/gpu_shared/brick_lighting.h"
+
+layout(set = 0, binding = 0, std140) uniform Frame { FrameView view; };
+layout(set = 0, binding = 1, std140) uniform Bricks { BrickView brick_view; };
+layout(set = 0, binding = 2, std430) readonly buffer BrickGroups { BrickGroup brick_groups[]; };
+layout(set = 0, binding = 3, std430) readonly buffer BrickTable { Brick bricks[]; };
+layout(set = 0, binding = 4, std430) readonly buffer BrickOpacities { uint brick_opacities[]; };
+layout(set = 0, binding = 5, std430) readonly buffer BrickSurfaces { uint brick_surfaces[]; };
+layout(set = 0, binding = 6, std430) readonly buffer BrickLighting { BrickLight brick_lights[]; };
+layout(set = 0, binding = 7, std140) readonly buffer LightingBlock { Lighting lighting; };
+
+BrickGroup brickGroupAt(BrickGrid grid, uint group) { return brick_groups[group]; }
+Brick brickAt(BrickGrid grid, uint brick) { return bricks[brick]; }
+
+float brickOpacityAt(BrickGrid grid, uint voxel)
+{
+    return float(brick_opacities[voxel >> 2] >> (voxel & 3u) * 8u & 255u) / 255.0;
+}
+
+vec3 brickRadianceAt(BrickGrid grid, uint face) { return decodeBrickLight(brick_lights[face]); }
+
+vec3 brickAlbedoAt(uint face) { return decodeAlbedo(brick_surfaces[face]); }
+
+// As the pack has it.
+vec3 brickEmissionAt(uint face) { return decodeRadiance(brick_surfaces[brick_view.face_count + face]); }
+
+vec3 brickNormalAt(uint face)
+{
+    uint word = brick_surfaces[2u * brick_view.face_count + (face >> 1)];
+    return decodeFaceNormal(word >> (face & 1u) * 16u & 0xFFFFu);
+}
+
+BrickSky brickSky() { return BrickSky(lighting.sky_zenith, lighting.sky_horizon, lighting.sky_ground); }

@@ -1,0 +1,67 @@
+// The poses of a scene with deformed meshes (formats/gpu_shared/deformation.h). Whoever includes this says where the buffer
+// is bound: DEFORMATION_SET, DEFORMATION_BINDING; and with DEFORMATION_WRITES that it writes.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "formats/gpu_shared/deformation.h"
+
+#ifndef DEFORMATION_WRITES
+readonly
+#endif
+layout(set = DEFORMATION_SET, binding = DEFORMATION_BINDING, std430) buffer Deformation { uvec4 deformation[]; };
+
+uint deformationWord(uint word) { return deformation[word >> 2][word & 3u]; }
+
+vec4 deformationFloats(uint row) { return uintBitsToFloat(deformation[row]); }
+
+/// Row of the pose of an instance; 0: it is rigid.
+uint poseRowOf(uint instance) { return deformationWord(deformation[0].x + instance); }
+
+Pose loadPose(uint row)
+{
+    uvec4 first = deformation[row];
+    vec4 second = deformationFloats(row + 1u);
+    float stretch = deformationFloats(row + 2u).x;
+    return Pose(first.x, first.y, first.z, first.w, second.xyz, second.w, stretch, 0u, 0u, 0u);
+}
+
+PaletteRow loadJoint(Pose pose, uint joint)
+{
+    uint row = pose.palette_row + joint * kPaletteRows;
+    return PaletteRow(deformationFloats(row), deformationFloats(row + 1u), deformationFloats(row + 2u),
+                      deformationFloats(row + 3u), deformationFloats(row + 4u), deformationFloats(row + 5u));
+}
+
+DeformedCluster loadDeformedCluster(Pose pose, uint cluster)
+{
+    uint row = pose.cluster_row + cluster * kDeformedClusterRows;
+    uvec4 a = deformation[row];
+    uvec4 b = deformation[row + 1u];
+    uvec4 c = deformation[row + 2u];
+    uvec4 d = deformation[row + 3u];
+    uvec4 e = deformation[row + 4u];
+    return DeformedCluster(uintBitsToFloat(a.xyz), a.w, uintBitsToFloat(b.xyz), b.w, uintBitsToFloat(c.xyz),
+                           uintBitsToFloat(c.w), uintBitsToFloat(d.xyz), d.w, e.x, e.y, e.z, e.w);
+}
+
+CarriedBox boxInPose(Instance instance, Pose pose, DeformedCluster cluster)
+{
+    PaletteRow main_joint = loadJoint(pose, cluster.joint);
+    if ((pose.flags & kPoseFree) == 0u)
+        return boxInClips(instance, main_joint, cluster);
+    CarriedBox box = grownBy(emptyFreeBox(instance), main_joint, cluster.bind_min, cluster.bind_max,
+                             pose.free_stretch);
+    // the first is the main one; without a skin there are none
+    for (uint i = 1u; i < cluster.joint_count; ++i)
+        box = grownBy(box, loadJoint(pose, deformationWord(cluster.first_joint + i)), cluster.bind_min, cluster.bind_max,
+                      pose.free_stretch);
+    return box;
+}
+
+/// Word of the block with the skinned vertices of a slot; 0: it has none, they are skinned where they are needed.
+uint scratchOf(uint slot)
+{
+    uvec4 constants = deformation[0];
+    uvec4 slots = deformation[1];
+    bool early = slot >= slots.x && slot < slots.y;
+    uint block = early ? slot - slots.x : slots.y - slots.x + (slot - slots.z);
+    return block < constants.w ? constants.y + block * constants.z : 0u;
+}

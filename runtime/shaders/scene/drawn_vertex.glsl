@@ -1,0 +1,60 @@
+// Where the vertices of a slot of the visible list are drawn, whether its instance is rigid or deformed. After scene.glsl.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#define DEFORMATION_SET 0
+#define DEFORMATION_BINDING 7
+#include "runtime/shaders/scene/deformation.glsl"
+#include "runtime/shaders/scene/pose_vertex.glsl"
+
+// gpu::DeformedVertices: rigid scenes and bins pay nothing for the others.
+layout(constant_id = 4) const uint kDeformed = 0u;
+const uint kDeformedHere = 1u;      // skinned where it is drawn
+const uint kDeformedInScratch = 2u; // skinned before, as far as there was room
+
+struct DrawnPose
+{
+    uint row;     // of the pose; 0: the instance is rigid
+    uint scratch; // word of the vertices skinned before; 0: there are none
+};
+
+DrawnPose drawnPose(uint instance, uint slot)
+{
+    DrawnPose pose = DrawnPose(0u, 0u);
+    if (kDeformed == 0u)
+        return pose;
+    pose.row = poseRowOf(instance);
+    if (kDeformed == kDeformedInScratch && pose.row != 0u)
+        pose.scratch = scratchOf(slot);
+    return pose;
+}
+
+vec3 scratchVector(uint word)
+{
+    return uintBitsToFloat(uvec3(deformationWord(word), deformationWord(word + 1u), deformationWord(word + 2u)));
+}
+
+// Relative to the eye, world axes. index: the vertex's in its cluster.
+vec3 drawnPosition(Instance instance, ClusterDraw draw, DrawnPose pose, uint index, vec3 eye)
+{
+    if (kDeformed == 0u || pose.row == 0u)
+        return relativePoint(instance, eye, vertexPosition(draw, vertexAddress(draw, index)));
+    precise vec3 position = pose.scratch != 0u ? scratchVector(pose.scratch + index * 3u)
+                                               : posedPosition(draw, loadPose(pose.row), index);
+    precise vec3 origin = vec3(instance.world_from_object_x.w - eye.x, instance.world_from_object_y.w - eye.y,
+                               instance.world_from_object_z.w - eye.z);
+    precise vec3 relative = position + origin;
+    return relative;
+}
+
+// Of a deformed instance, as the two after it: unit, world axes. The vertex has a normal.
+vec3 drawnNormal(ClusterDraw draw, DrawnPose pose, uint index)
+{
+    return pose.scratch != 0u ? scratchVector(pose.scratch + (vertexCount(draw) + index) * 3u)
+                              : posedNormal(draw, loadPose(pose.row), index);
+}
+
+// The vertex has a tangent.
+vec3 drawnTangent(ClusterDraw draw, DrawnPose pose, uint index)
+{
+    return pose.scratch != 0u ? scratchVector(pose.scratch + (2u * vertexCount(draw) + index) * 3u)
+                              : posedTangent(draw, loadPose(pose.row), index);
+}

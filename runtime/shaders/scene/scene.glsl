@@ -1,0 +1,194 @@
+// The scene as drawing reads it: set 0 of the visibility, material-depth and shading pipelines.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+
+layout(set = 0, binding = 0, std140) uniform Frame { FrameView view; };
+layout(set = 0, binding = 1, std430) readonly buffer Instances { Instance instances[]; };
+layout(set = 0, binding = 2, std430) readonly buffer Visible { VisibleCluster visible[]; };
+layout(set = 0, binding = 3, std430) readonly buffer Draws { ClusterDraw cluster_draws[]; };
+layout(set = 0, binding = 4, std430) readonly buffer Pool0 { uint pool0[]; };
+layout(set = 0, binding = 5, std430) readonly buffer Pool1 { uint pool1[]; };
+layout(set = 0, binding = 6, std430) readonly buffer Pool2 { uint pool2[]; };
+layout(set = 0, binding = 7, std430) readonly buffer Pool3 { uint pool3[]; };
+
+// Slices that the scene uses: 1 or kPoolSlices. Most scenes fit into one, and then no word costs a choice.
+layout(constant_id = 0) const uint kUsedSlices = kPoolSlices;
+
+uint poolWord(uint address)
+{
+    uint slice = address >> kPoolSliceBits;
+    uint word = address & ((1u << kPoolSliceBits) - 1u);
+    if (kUsedSlices == 1u || slice == 0u)
+        return pool0[word];
+    if (slice == 1u)
+        return pool1[word];
+    if (slice == 2u)
+        return pool2[word];
+    return pool3[word];
+}
+
+float poolFloat(uint address) { return uintBitsToFloat(poolWord(address)); }
+
+// formats::VertexAttributes; formats/codecs/vertex_codec.h says what the codes mean
+const uint kVertexNormal = 1u;
+const uint kVertexTangent = 2u;
+const uint kVertexUv0 = 4u;
+const uint kVertexUvs = 60u;
+const uint kVertexColor = 64u;
+const uint kVertexVisibility = 128u;
+const uint kVertexFineNormal = 256u;
+const uint kVertexFineColor = 512u;
+const uint kVertexWide = 8192u;
+const uint kVertexInfluences = 16384u;
+const uint kVertexMoreInfluences = 32768u;
+const uint kVertexUvStepShift = 16u;
+
+// The UV sets that have a grid: formats::gridUvs.
+uint gridUvs(uint layout_bits)
+{
+    uint steps = layout_bits >> kVertexUvStepShift;
+    steps |= steps >> 2;
+    steps = (steps | steps >> 1) & 0x1111u;
+    steps |= steps >> 3;
+    steps |= steps >> 6;
+    return (steps & 15u) * kVertexUv0;
+}
+
+// Words of a vertex; where the sets of UVs end, with fewer of their bits where the next set starts.
+uint uvEnd(uint layout_bits, uint sets)
+{
+    bool wide = (layout_bits & kVertexWide) != 0u;
+    uint words = wide ? 3u : 2u;
+    if ((layout_bits & kVertexNormal) != 0u && (layout_bits & (kVertexFineNormal | kVertexWide)) != 0u)
+        words += 1u;
+    if ((layout_bits & kVertexTangent) != 0u)
+        words += 1u;
+    return words + uint(bitCount(layout_bits & sets)) +
+           uint(bitCount(layout_bits & sets & (wide ? kVertexUvs : ~gridUvs(layout_bits))));
+}
+
+// Of a vertex that has one: where its visibility stands.
+uint visibilityWord(uint layout_bits)
+{
+    uint words = uvEnd(layout_bits, kVertexUvs);
+    if ((layout_bits & kVertexColor) != 0u)
+        words += (layout_bits & kVertexFineColor) != 0u ? 2u : 1u;
+    return words;
+}
+
+// Of a vertex: where its joints and weights stand.
+uint influenceWord(uint layout_bits)
+{
+    return visibilityWord(layout_bits) + ((layout_bits & kVertexVisibility) != 0u ? 1u : 0u);
+}
+
+// Joints of a vertex that have weights, with which they take a word each.
+uint influenceCount(uint layout_bits)
+{
+    if ((layout_bits & kVertexInfluences) == 0u)
+        return 0u;
+    return (layout_bits & kVertexMoreInfluences) != 0u ? 8u : 4u;
+}
+
+uint vertexWords(uint layout_bits) { return influenceWord(layout_bits) + influenceCount(layout_bits); }
+
+uint vertexCount(ClusterDraw draw) { return draw.counts & 0x1FFu; }
+uint triangleCount(ClusterDraw draw) { return draw.counts >> 9 & 0xFFu; }
+uint levelOf(ClusterDraw draw) { return draw.counts >> 17 & 0xFFu; }
+
+// The vertex of a corner, counted in its cluster. Indices are bytes behind the vertices.
+uint cornerVertex(ClusterDraw draw, uint triangle, uint corner)
+{
+    uint index = triangle * 3u + corner;
+    uint word = poolWord(draw.address + vertexCount(draw) * vertexWords(draw.vertex_layout) + (index >> 2));
+    return word >> ((index & 3u) * 8u) & 0xFFu;
+}
+
+// Of three corners, in the order in which the instance's bin sees the front of its triangles.
+uint cornerInBin(Instance instance, uint corner)
+{
+    return (instance.flags & kInstanceTurned) == 0u ? corner : (3u - corner) % 3u;
+}
+
+// Address of the first word of a vertex of a cluster.
+uint vertexAddress(ClusterDraw draw, uint vertex) { return draw.address + vertex * vertexWords(draw.vertex_layout); }
+
+// In object space. Whole numbers of at most 24 bits times a power of two: exact.
+vec3 vertexPosition(ClusterDraw draw, uint vertex)
+{
+    uint x = poolWord(vertex);
+    uint y = poolWord(vertex + 1u);
+    ivec3 offset = (draw.vertex_layout & kVertexWide) != 0u ? ivec3(x, y, poolWord(vertex + 2u))
+                                                            : ivec3(x & 0xFFFFu, x >> 16, y & 0xFFFFu);
+    return vec3(ivec3(draw.base_x, draw.base_y, draw.base_z) + offset) * draw.grid_step;
+}
+
+vec3 directionFromOctahedral(vec2 p)
+{
+    vec3 d = vec3(p, 1.0 - abs(p.x) - abs(p.y));
+    if (d.z < 0.0)
+        d.xy = (1.0 - abs(p.yx)) * vec2(p.x < 0.0 ? -1.0 : 1.0, p.y < 0.0 ? -1.0 : 1.0);
+    return normalize(d);
+}
+
+// Of a vertex that has one.
+vec3 vertexNormal(ClusterDraw draw, uint vertex)
+{
+    uint layout_bits = draw.vertex_layout;
+    if ((layout_bits & kVertexFineNormal) != 0u)
+        return directionFromOctahedral(unpackSnorm2x16(poolWord(vertex + ((layout_bits & kVertexWide) != 0u ? 3u : 2u))));
+    uint code = (layout_bits & kVertexWide) != 0u ? poolWord(vertex + 3u) : poolWord(vertex + 1u) >> 16;
+    return directionFromOctahedral(unpackSnorm4x8(code).xy);
+}
+
+// Of a vertex that has one; w = -1 where the bitangent is flipped.
+vec4 vertexTangent(ClusterDraw draw, uint vertex, vec3 normal)
+{
+    uint code = poolWord(vertex + uvEnd(draw.vertex_layout, 0u) - 1u);
+    uint quarter_bits = (draw.vertex_layout & kVertexFineNormal) != 0u ? 13u : 5u;
+    uint angle = code >> 1;
+    float along = float(angle & ((1u << quarter_bits) - 1u)) / float(1u << quarter_bits);
+    uint turn = angle >> quarter_bits;
+    vec2 at = (turn & 1u) == 0u ? vec2(1.0 - along, along) : vec2(-along, 1.0 - along);
+    if (turn >= 2u)
+        at = -at;
+    float side = normal.z < 0.0 ? -1.0 : 1.0;
+    float a = -1.0 / (side + normal.z);
+    float b = normal.x * normal.y * a;
+    vec3 first = vec3(1.0 + side * normal.x * normal.x * a, side * b, -side * normal.x);
+    vec3 second = vec3(b, side + normal.y * normal.y * a, -normal.y);
+    return vec4(normalize(first * at.x + second * at.y), (code & 1u) != 0u ? -1.0 : 1.0);
+}
+
+vec2 vertexUv(ClusterDraw draw, uint vertex, uint set)
+{
+    uint layout_bits = draw.vertex_layout;
+    uint bit = kVertexUv0 << set;
+    if ((layout_bits & bit) == 0u)
+        return vec2(0.0);
+    uint before = (bit - 1u) & kVertexUvs;
+    uint at = vertex + uvEnd(layout_bits, before);
+    uint grids = gridUvs(layout_bits) & layout_bits;
+    if ((grids & bit) == 0u)
+        return vec2(poolFloat(at), poolFloat(at + 1u));
+    // the bases of the sets on grids end where the first vertex starts
+    uint later_grids = uint(bitCount(grids & ~before));
+    uint base = draw.address - 2u * later_grids;
+    uint word = poolWord(at);
+    ivec2 offset = (layout_bits & kVertexWide) != 0u ? ivec2(word, poolWord(at + 1u)) : ivec2(word & 0xFFFFu, word >> 16);
+    uint fraction_bits = layout_bits >> (kVertexUvStepShift + 4u * set) & 15u;
+    return vec2(ivec2(poolWord(base), poolWord(base + 1u)) + offset) * uintBitsToFloat((127u - fraction_bits) << 23);
+}
+
+vec4 vertexColor(ClusterDraw draw, uint vertex)
+{
+    uint layout_bits = draw.vertex_layout;
+    if ((layout_bits & kVertexColor) == 0u)
+        return vec4(1.0);
+    uint at = vertex + uvEnd(layout_bits, kVertexUvs);
+    if ((layout_bits & kVertexFineColor) == 0u)
+        return unpackUnorm4x8(poolWord(at));
+    return vec4(unpackUnorm2x16(poolWord(at)), unpackUnorm2x16(poolWord(at + 1u)));
+}
+
+// Of a vertex that has one: decodeVisibility of formats/gpu_shared/visibility_cone.h says what it means.
+uint vertexVisibility(ClusterDraw draw, uint vertex) { return poolWord(vertex + visibilityWord(draw.vertex_layout)); }

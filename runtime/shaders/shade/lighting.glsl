@@ -1,0 +1,80 @@
+// What a point of a surface looks like: its material under the lights and the sky. See runtime/gpu/README.md for units
+// and exposure. What of a light reaches the point, `lightShare`, is shadow.glsl's or unshadowed.glsl's; what its surroundings
+// send, `surroundingLight`, is surrounding_sky.glsl's or surrounding_bricks.glsl's.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+
+layout(set = 0, binding = 8, std140) readonly buffer LightingBlock { Lighting lighting; };
+#include "runtime/shaders/shade/brdf.glsl"
+#include "runtime/shaders/shade/sky.glsl"
+#include "runtime/shaders/shade/tonemap.glsl"
+#include "runtime/shaders/shade/sky_occlusion.glsl"
+
+layout(constant_id = 3) const bool kUnlit = false;
+
+// formats::LightType
+const uint kLightDirectional = 0u;
+const uint kLightSpot = 2u;
+
+// Irradiance of a light on a surface that faces it, and where it comes from. KHR_lights_punctual.
+vec3 irradianceOf(Light light, vec3 position, out vec3 to_light)
+{
+    if (light.type == kLightDirectional)
+    {
+        to_light = -light.direction;
+        return light.intensity;
+    }
+    vec3 offset = (light.position - view.eye) - position;
+    float distance2 = max(dot(offset, offset), 1e-8);
+    to_light = offset * inversesqrt(distance2);
+    float attenuation = 1.0 / distance2;
+    if (light.range > 0.0)
+    {
+        float ratio2 = distance2 / (light.range * light.range);
+        attenuation *= clamp(1.0 - ratio2 * ratio2, 0.0, 1.0);
+    }
+    if (light.type == kLightSpot)
+    {
+        float cone = clamp(dot(light.direction, -to_light) * light.cone_scale + light.cone_offset, 0.0, 1.0);
+        attenuation *= cone * cone;
+    }
+    return light.intensity * attenuation;
+}
+
+// Radiance towards the eye, of all but the lights; occlusion: that of the material's texture.
+vec3 surroundingLight(SurfacePoint point, Shading shading, float occlusion);
+
+vec3 lit(SurfacePoint point, SurfaceUvs uvs, vec3 base)
+{
+    vec3 normal = shadingNormal(point, uvs);
+    vec4 metallic_roughness = sampleSurface(uvs, kTextureMetallicRoughness, metallic_roughness_texture);
+    float metallic = clamp(material.metallic * metallic_roughness.b, 0.0, 1.0);
+    Shading shading;
+    shading.roughness = surfaceRoughness(metallic_roughness);
+    shading.diffuse = base * (1.0 - metallic);
+    shading.f0 = mix(vec3(0.04), base, metallic);
+    shading.normal = normal;
+    shading.to_eye = normalizeOr(-point.position, normal);
+    shading.n_dot_v = clampedCosine(normal, shading.to_eye);
+
+    vec3 radiance = vec3(0.0);
+    for (uint i = 0u; i < lighting.light_count; ++i)
+    {
+        vec3 to_light;
+        vec3 irradiance = irradianceOf(lighting.lights[i], point.position, to_light);
+        float share = lightShare(lighting.lights[i].shadow_row, point.position, point.flat_normal);
+        radiance += irradiance * reflected(shading, to_light) * share;
+    }
+
+    float occlusion =
+        mix(1.0, sampleSurface(uvs, kTextureOcclusion, occlusion_texture).r, material.occlusion_strength);
+    radiance += surroundingLight(point, shading, occlusion);
+    return radiance + material.emissive * sampleSurface(uvs, kTextureEmissive, emissive_texture).rgb;
+}
+
+// Display-linear. Unlit colours are display colours: no light, no tone mapping.
+vec3 displayColor(SurfacePoint point, SurfaceUvs uvs)
+{
+    vec3 base =
+        material.base_color.rgb * point.color * sampleSurface(uvs, kTextureBaseColor, base_color_texture).rgb;
+    return kUnlit ? base : toneMap(lit(point, uvs, base));
+}

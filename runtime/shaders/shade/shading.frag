@@ -1,0 +1,25 @@
+// Shades the pixels of one material: rebuilds the surface, and shades it with exact derivatives of its UVs.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#include "formats/gpu_shared/decisions.h"
+#include "formats/gpu_shared/shading.h"
+#include "runtime/shaders/scene/scene.glsl"
+#include "runtime/shaders/scene/material.glsl"
+#include "runtime/shaders/scene/surface_point.glsl"
+#include "runtime/shaders/scene/resolve.glsl"
+#include "runtime/shaders/shade/unshadowed.glsl"
+#include "runtime/shaders/shade/lighting.glsl"
+#include "runtime/shaders/shade/surrounding_sky.glsl"
+
+layout(input_attachment_index = 0, set = 2, binding = 0) uniform usubpassInput visibility;
+
+// said aloud because lavapipe else shades every pixel before it tests: five times the time of a frame
+layout(early_fragment_tests) in;
+layout(location = 0) out vec4 out_color;
+
+void main()
+{
+    Surface s = resolveSurface(subpassLoad(visibility).x, gl_FragCoord.xy);
+    out_color = vec4(displayColor(surfacePoint(s), surfaceUvs(s)), 1.0);
+}

@@ -1,0 +1,24 @@
+// As shading.frag, with the shadows of the lights.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#include "formats/gpu_shared/shading.h"
+#include "formats/gpu_shared/shadow.h"
+#include "runtime/shaders/scene/scene.glsl"
+#include "runtime/shaders/scene/material.glsl"
+#include "runtime/shaders/scene/surface_point.glsl"
+#include "runtime/shaders/scene/resolve.glsl"
+#include "runtime/shaders/shade/shadow.glsl"
+#include "runtime/shaders/shade/lighting.glsl"
+#include "runtime/shaders/shade/surrounding_sky.glsl"
+
+layout(input_attachment_index = 0, set = 2, binding = 0) uniform usubpassInput visibility;
+
+layout(early_fragment_tests) in; // as shading.frag
+layout(location = 0) out vec4 out_color;
+
+void main()
+{
+    Surface s = resolveSurface(subpassLoad(visibility).x, gl_FragCoord.xy);
+    out_color = vec4(displayColor(surfacePoint(s), surfaceUvs(s)), 1.0);
+}

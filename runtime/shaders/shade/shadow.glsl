@@ -1,0 +1,53 @@
+// How much of a light reaches a point, by its shadow maps. Needs formats/gpu_shared/shadow.h and `view`.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "runtime/shaders/scene/shadow_block.glsl"
+
+// compares: 1 where the point is no deeper than the texel; it has one mip, so that derivatives do not matter
+layout(set = 0, binding = 10) uniform sampler2DArrayShadow shadow_maps;
+
+// A point as a light sees it, and the densest of its maps that holds it.
+struct Lookup
+{
+    ShadowPoint point;
+    uint map; // kNoShadow: there is none, the point is taken for lit
+};
+
+// position     relative to the eye
+// flat_normal  unit, of the triangle, towards the side that is seen
+Lookup lookUp(uint light_row, vec3 position, vec3 flat_normal)
+{
+    ShadowLight light = shadows.lights[light_row];
+    float offset = shadowCutOffset(view, length(position), shadows.error_bias, light.eye_shift);
+    Lookup found;
+    found.point = shadowPoint(light, position + (view.eye - light.origin) + flat_normal * offset);
+    found.map = kNoShadow;
+    for (uint i = 0u; i < light.map_count && found.map == kNoShadow; ++i)
+        if (shadowMapHolds(shadows.maps[light.first_map + i], found.point))
+            found.map = light.first_map + i;
+    return found;
+}
+
+// Of (2 kernel + 1)^2 texels, the part that the point is before.
+float litTexels(Lookup at)
+{
+    ShadowMap map = shadows.maps[at.map];
+    vec2 middle = floor(shadowTexel(map, at.point)) + 0.5;
+    // behind the end of a sun's scene nothing casts
+    float depth = max(at.point.depth, 0.0);
+    int reach = int(map.kernel);
+    float lit = 0.0;
+    for (int y = -reach; y <= reach; ++y)
+        for (int x = -reach; x <= reach; ++x)
+            lit += texture(shadow_maps, vec4((middle + vec2(x, y)) / shadows.layer_size, float(map.layer), depth));
+    float side = 2.0 * map.kernel + 1.0;
+    return lit / (side * side);
+}
+
+// 0 in the shadow of the light, 1 where all of it arrives.
+float lightShare(uint light_row, vec3 position, vec3 flat_normal)
+{
+    if (light_row == kNoShadow)
+        return 1.0;
+    Lookup at = lookUp(light_row, position, flat_normal);
+    return at.map == kNoShadow ? 1.0 : litTexels(at);
+}

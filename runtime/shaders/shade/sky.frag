@@ -1,0 +1,30 @@
+// The background: pixels in which nothing is visible.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#include "formats/gpu_shared/records.h"
+#include "formats/gpu_shared/shading.h"
+#include "runtime/shaders/shade/tonemap.glsl"
+
+layout(set = 0, binding = 0, std140) uniform Frame { FrameView view; };
+layout(set = 0, binding = 8, std140) readonly buffer LightingBlock { Lighting lighting; };
+#include "runtime/shaders/shade/sky.glsl"
+
+layout(push_constant) uniform Push
+{
+    float depth;
+    uint shown_view;
+};
+layout(early_fragment_tests) in;
+layout(location = 0) out vec4 out_color;
+
+void main()
+{
+    vec2 ndc = gl_FragCoord.xy * 2.0 / vec2(view.width, view.height) - 1.0;
+    // the rows are orthogonal: the direction with clip coordinates (ndc, 1)
+    vec3 x = view.clip_x.xyz;
+    vec3 y = view.clip_y.xyz;
+    vec3 direction = normalize(view.clip_w.xyz + x * (ndc.x / dot(x, x)) + y * (ndc.y / dot(y, y)));
+    vec3 color = shown_view == kViewFinal ? toneMap(skyRadiance(direction, 0.4)) : linearFromSrgb(vec3(0.08));
+    out_color = vec4(color, 1.0);
+}

@@ -1,4 +1,0 @@
-// The shadow maps of the frame: needs formats/shared/shadow.h.
-// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-
-layout(set = 0, binding = 9, std140) uniform Shadows { ShadowBlock shadows; };

@@ -1,0 +1,47 @@
+// Sources, and the steps of a farm over them: the real hearth with all its cookers.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "tests/support/sandbox.h"
+
+#include <gtest/gtest.h>
+#include <string>
+#include <vector>
+
+namespace hearth::test
+{
+
+class Farm : public ::testing::Test
+{
+protected:
+    Farm();
+
+    ProgramEnd hearthIn(Sandbox& place, const std::vector<std::string>& arguments,
+                        const std::vector<std::string>& environment = {});
+
+    ProgramEnd hearth(const std::vector<std::string>& arguments,
+                      const std::vector<std::string>& environment = {});
+
+    /// A verb over all sources.
+    ProgramEnd over(const std::string& verb, const std::vector<std::string>& options,
+                    const std::vector<std::string>& more = {});
+
+    /// A plan of all sources; its text.
+    std::string plan(size_t shards, const std::vector<std::string>& options = {});
+
+    /// The pack that a cook on this machine makes.
+    std::string localPack(const std::vector<std::string>& options = {});
+
+    ProgramEnd run(size_t shard, size_t count, const std::vector<std::string>& more = {});
+
+    /// The pack that the merge makes.
+    std::string merged();
+
+    /// Empty the cache.
+    void forget();
+
+    Sandbox folder;
+    std::vector<std::string> sources{"house.obj", "tree.gltf", "barn.obj", "bush.gltf"};
+};
+
+} // namespace hearth::test

@@ -1,0 +1,101 @@
+// A plan in other hands: launchers, lists of commands, Ninja, and the script for Slurm.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/json/json.h"
+#include "tests/command/farm/farm_folder.h"
+
+#include <filesystem>
+#include <gtest/gtest.h>
+
+namespace hearth::test
+{
+
+namespace fs = std::filesystem;
+
+TEST_F(Farm, aLauncherIsNotBelieved)
+{
+    plan(2);
+    folder.write("liar", "#!/bin/sh\nexit 0\n", true);
+    folder.write("honest", "#!/bin/sh\n\"$@\"\nexit 3\n", true);
+    const ProgramEnd lied = run(0, 2, {"--launcher", folder / "liar --much", "--record", "0.json"});
+    EXPECT_EQ(lied.exit_code, 75);
+    EXPECT_NE(lied.err.find("plan.json|shard 0/2: error: the launcher ended well, but the shard has left no "
+                            "record in the cache [E5101]"),
+              std::string::npos)
+        << lied.err;
+    EXPECT_FALSE(folder.has("0.json"));
+    const ProgramEnd done = run(0, 2, {"--launcher", folder / "honest", "--record", "0.json"});
+    EXPECT_EQ(done.exit_code, 0) << "its code is no matter: " << done.err;
+    EXPECT_EQ(Json::parse(folder.read("0.json")).value()["actions"].size(), 8u);
+    // it still lies, but all is there
+    EXPECT_EQ(run(0, 2, {"--launcher", folder / "liar"}).exit_code, 0);
+    fs::remove(folder.cacheContents().front());
+    EXPECT_EQ(run(0, 2, {"--launcher", folder / "liar"}).exit_code, 75);
+}
+
+TEST_F(Farm, givesLinesToWhoeverTakesThem)
+{
+    const std::string pack = localPack();
+    const ProgramEnd plan = over("plan", {"-o", "it's a plan.json", "--shards", "3", "--emit", "commands"});
+    EXPECT_EQ(plan.exit_code, 0) << plan.err;
+    EXPECT_EQ(countOf(plan.out, "\n"), 3u) << plan.out;
+    folder.write("lines", plan.out);
+    const size_t merge = plan.err.find("after them: ");
+    ASSERT_NE(merge, std::string::npos) << plan.err;
+    // from another folder, the last first
+    const ProgramEnd end = folder.run({"/bin/sh", "-c", "mkdir sub; cd sub; tac ../lines | sh -e"});
+    EXPECT_EQ(end.exit_code, 0) << end.err;
+    EXPECT_EQ(hearth({"farm", "status", "it's a plan.json"}).exit_code, 0);
+    EXPECT_EQ(folder.run({"/bin/sh", "-c", plan.err.substr(merge + 12)}).exit_code, 0);
+    EXPECT_TRUE(folder.read("it's a plan.hearth") == pack);
+}
+
+TEST_F(Farm, isBuiltByNinja)
+{
+    const std::string pack = localPack();
+    plan(3);
+    const ProgramEnd written = hearth({"farm", "ninja", "plan.json", "-o", "build.ninja", "--launcher",
+                                       "env WHERE=$HOME", "--pack", "out put.hearth"});
+    EXPECT_EQ(written.exit_code, 0) << written.err;
+    const auto ninja = [&] { return folder.run({"/usr/bin/env", "ninja", "-k", "0"}); };
+    const ProgramEnd built = ninja();
+    EXPECT_EQ(built.exit_code, 0) << built.out << built.err;
+    EXPECT_TRUE(folder.read("out put.hearth") == pack);
+    EXPECT_NE(ninja().out.find("no work to do"), std::string::npos);
+    // a launcher that lies breaks the build where it would have gone on with nothing
+    forget();
+    fs::remove_all(folder / "plan.json.shards");
+    fs::remove(folder / "out put.hearth");
+    EXPECT_EQ(hearth({"farm", "ninja", "plan.json", "-o", "build.ninja", "--launcher", "true", "--pack",
+                      "out put.hearth"})
+                  .exit_code,
+              0);
+    const ProgramEnd lied = ninja();
+    EXPECT_NE(lied.exit_code, 0);
+    EXPECT_EQ(countOf(lied.out, "[E5101]"), 3u) << lied.out;
+    EXPECT_FALSE(folder.has("out put.hearth"));
+}
+
+TEST_F(Farm, printsTheScriptForSlurm)
+{
+    plan(7);
+    const ProgramEnd end = hearth({"farm", "slurm", "plan.json", "--print", "--partition", "cook",
+                                   "--mem-per-shard", "2G", "--max-retries", "5"});
+    EXPECT_EQ(end.exit_code, 0) << end.err;
+    for (const char* line : {"#SBATCH --array=0-6\n", "#SBATCH --partition=cook\n", "#SBATCH --mem=2048M\n",
+                             "--dependency=\"afterany:", "\"$SLURM_ARRAY_TASK_ID/7\" --memory 2048M",
+                             "-lt 5 ]", "hearth merge "})
+        EXPECT_NE(end.out.find(line), std::string::npos) << line << end.out;
+    folder.write("script", end.out);
+    EXPECT_EQ(folder.run({"/bin/sh", "-n", "script"}).exit_code, 0);
+    EXPECT_EQ(hearth({"farm", "slurm", "plan.json", "--print", "--partition", "a\nb"}).exit_code, 2);
+    // it is that script which submits: here to a cluster that is none
+    folder.write("sbatch", "#!/bin/sh\ncat > job$$\necho 17\n", true);
+    const ProgramEnd submitted =
+        hearth({"farm", "slurm", "plan.json"}, {"PATH=" + folder.path() + ":/usr/bin:/bin"});
+    EXPECT_EQ(submitted.out, "shards: job 17\nmerge: job 17\n") << submitted.err;
+    folder.write("sbatch", "#!/bin/sh\nexit 1\n", true);
+    EXPECT_EQ(hearth({"farm", "slurm", "plan.json"}, {"PATH=" + folder.path() + ":/usr/bin:/bin"}).exit_code,
+              74);
+}
+
+} // namespace hearth::test

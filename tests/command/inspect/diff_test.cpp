@@ -1,0 +1,266 @@
+// What differs between two packs: each thing under its name, whatever stands before it in a table.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/json/json.h"
+#include "pipelines/command/inspect/open_pack.h"
+#include "pipelines/command/inspect/pack_diff.h"
+#include "tests/support/sandbox.h"
+#include "tests/support/small_parts.h"
+
+#include <functional>
+#include <gtest/gtest.h>
+#include <set>
+
+namespace hearth::test
+{
+
+namespace
+{
+
+using namespace formats;
+using command::Fact;
+using command::PackDiff;
+using command::Thing;
+using command::ThingChange;
+
+class Diff : public ::testing::Test
+{
+protected:
+    PackDiff diffed(const PackModel& a, const PackModel& b, bool b_is_compressed = false)
+    {
+        writePackFile(a, sandbox / "a.hearth");
+        const AlignedBytes image = b.bytes(b_is_compressed);
+        const auto bytes = image.span();
+        sandbox.write("b.hearth", {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+        const auto pack_a = command::openPack(sandbox / "a.hearth");
+        const auto pack_b = command::openPack(sandbox / "b.hearth");
+        EXPECT_TRUE(pack_a.ok() && pack_b.ok()) << (pack_a.ok() ? "" : formatMessage(pack_a.error()))
+                                                << (pack_b.ok() ? "" : formatMessage(pack_b.error()));
+        if (!pack_a.ok() || !pack_b.ok())
+            return {};
+        return command::diffPacks(*pack_a, *pack_b).value();
+    }
+
+    /// "changed mesh strip: geometry", "added light sun", a line for each fact.
+    static std::set<std::string> linesOf(const PackDiff& diff)
+    {
+        std::set<std::string> lines;
+        for (const ThingChange& change : diff.things)
+        {
+            const char* how = change.how == ThingChange::How::added     ? "added "
+                              : change.how == ThingChange::How::removed ? "removed "
+                                                                        : "changed ";
+            const std::string thing = how + change.kind + " " + change.name;
+            if (change.facts.empty())
+                lines.insert(thing);
+            for (const command::FactChange& fact : change.facts)
+                lines.insert(thing + ": " + fact.what);
+        }
+        return lines;
+    }
+
+    Sandbox sandbox;
+};
+
+/// Like the last of the table, under another name.
+template <typename Record>
+void addNamed(PackModel& pack, std::vector<Record>& table, const std::string& name)
+{
+    table.push_back(table.back());
+    table.back().name = {static_cast<uint32_t>(pack.strings.size()), static_cast<uint32_t>(name.size())};
+    pack.strings += name;
+}
+
+} // namespace
+
+TEST_F(Diff, samePacksAreTheSame)
+{
+    const PackDiff diff = diffed(smallPack(), smallPack());
+    EXPECT_TRUE(diff.isSame());
+    EXPECT_EQ(command::diffText(diff), "the same\n");
+    const Json json = Json::parse(command::diffJson(diff, "a", "b")).value();
+    EXPECT_EQ(json["schema"], "hearth.diff/1");
+    EXPECT_EQ(json["same"], true);
+    EXPECT_EQ(json["changes"].size(), 0u);
+    EXPECT_GT(json["chunks"].size(), 10u);
+}
+
+TEST_F(Diff, otherBytesOfTheSameMeaningAreNoChange)
+{
+    const PackDiff diff = diffed(smallPack(), smallPack(), true);
+    EXPECT_TRUE(diff.isSameByMeaning()) << command::diffText(diff);
+    EXPECT_FALSE(diff.isSame());
+    EXPECT_NE(command::diffText(diff).find("the same by meaning, in other bytes"), std::string::npos);
+}
+
+TEST_F(Diff, eachChangeIsToldUnderItsName)
+{
+    struct Row
+    {
+        std::set<std::string> lines;
+        std::function<void(PackModel&)> change;
+    };
+    const std::vector<Row> rows{
+        {{"changed material paint: metallic"}, [](PackModel& pack) { pack.materials[0].metallic = 0.123F; }},
+        {{"changed material paint: base_color_texture.wrap_u"},
+         [](PackModel& pack) { pack.materials[0].base_color_texture.wrap_u = 2; }},
+        {{"changed light light: intensity"}, [](PackModel& pack) { pack.lights[0].intensity *= 2; }},
+        {{"changed camera camera: y_fov_rad"}, [](PackModel& pack) { pack.cameras[0].y_fov_rad *= 1.25F; }},
+        {{"changed instance strip node: world_from_object"},
+         [](PackModel& pack)
+         {
+             pack.instances[0].world_from_object.m[0][3] += 1;
+             pack.assets[0].box_max.x += 1;
+         }},
+        {{"changed mesh strip: source vertices"},
+         [](PackModel& pack) { pack.meshes[0].source_vertices += 1; }},
+        {{"changed mesh strip: level 1", "changed mesh strip: hierarchy"},
+         [](PackModel& pack)
+         {
+             for (GroupRecord& group : pack.groups)
+                 if (group.error == 0.1F)
+                     group.error = 0.15F;
+             for (LevelRecord& level : pack.levels)
+                 if (level.max_error == 0.1F)
+                     level.max_error = 0.15F;
+         }},
+        {{"changed specular table : values"},
+         [](PackModel& pack) { pack.specular_tables[0].values[5] ^= 1; }},
+        {{"added light sun"}, [](PackModel& pack) { addNamed(pack, pack.lights, "sun"); }},
+        {{"added camera far"}, [](PackModel& pack) { addNamed(pack, pack.cameras, "far"); }},
+        {{"removed camera camera"}, [](PackModel& pack) { pack.cameras.clear(); }},
+    };
+    for (const Row& row : rows)
+    {
+        PackModel changed = smallPack();
+        row.change(changed);
+        const PackDiff diff = diffed(smallPack(), changed);
+        EXPECT_EQ(linesOf(diff), row.lines) << command::diffText(diff);
+        EXPECT_TRUE(diff.settings.empty());
+    }
+}
+
+TEST_F(Diff, texelsAreCompared)
+{
+    PackModel changed = smallPack();
+    changed.image_data[0][3] ^= std::byte{1};
+    const PackDiff diff = diffed(smallPack(), changed);
+    ASSERT_EQ(diff.things.size(), 1u) << command::diffText(diff);
+    EXPECT_EQ(diff.things[0].kind, "texture");
+    ASSERT_EQ(diff.things[0].facts.size(), 1u);
+    EXPECT_EQ(diff.things[0].facts[0].what, "texels");
+    EXPECT_EQ(diff.things[0].note, "baseColor of paint");
+    EXPECT_EQ(Json::parse(command::diffJson(diff, "a", "b")).value()["changes"][0]["note"],
+              diff.things[0].note);
+}
+
+TEST_F(Diff, textHasTotalsFirstAndHashesOnDemand)
+{
+    PackModel changed = smallPack();
+    changed.image_data[0][3] ^= std::byte{1};
+    changed.materials[0].metallic = 0.123F;
+    addNamed(changed, changed.lights, "sun");
+    const PackDiff diff = diffed(smallPack(), changed);
+    const std::string text = command::diffText(diff);
+    EXPECT_TRUE(text.starts_with("2 changed, 1 added, 0 removed\n"
+                                 "    material: 1 changed, 0 added, 0 removed\n"
+                                 "    texture: 1 changed, 0 added, 0 removed\n"
+                                 "    light: 0 changed, 1 added, 0 removed\n"
+                                 "bytes    "))
+        << text;
+    const std::string texture =
+        "changed  texture " + diff.things[1].name + " (" + diff.things[1].note + ")\n";
+    EXPECT_NE(text.find("\n\nchanged  material paint\n    metallic: "), std::string::npos) << text;
+    EXPECT_NE(text.find(texture + "    texels: other content\n"), std::string::npos) << text;
+    EXPECT_TRUE(text.ends_with("added    light sun\n")) << text;
+    const std::string with_hashes = command::diffText(diff, {}, true);
+    const command::FactChange& texels = diff.things[1].facts.at(0);
+    EXPECT_NE(with_hashes.find(texture + "    texels: " + texels.a + " -> " + texels.b + "\n"),
+              std::string::npos)
+        << with_hashes;
+}
+
+TEST_F(Diff, placesInTablesMeanNothing)
+{
+    // a material in front of all others: what names materials by number still means the same
+    PackModel shifted = smallPack();
+    addNamed(shifted, shifted.materials, "varnish");
+    std::rotate(shifted.materials.begin(), shifted.materials.end() - 1, shifted.materials.end());
+    for (ClusterRecord& cluster : shifted.clusters)
+        cluster.material += cluster.material == kNone ? 0 : 1;
+    EXPECT_EQ(linesOf(diffed(smallPack(), shifted)), std::set<std::string>{"added material varnish"});
+    EXPECT_EQ(linesOf(diffed(shifted, smallPack())), std::set<std::string>{"removed material varnish"});
+}
+
+TEST_F(Diff, metaIsToldNumberByNumber)
+{
+    PackModel a = smallPack();
+    PackModel b = smallPack();
+    a.meta = importMeta("a.gltf");
+    b.meta = importMeta("b.gltf");
+    EXPECT_EQ(linesOf(diffed(a, b)), (std::set<std::string>{"removed source a.gltf", "added source b.gltf"}));
+    a.meta = R"({"settings":{"clusters":{"levels":[1,2]}},"tool":{"version":"1"}})";
+    b.meta = R"({"settings":{"clusters":{"levels":[1,3],"x":true}},"tool":{"version":"2"}})";
+    const PackDiff diff = diffed(a, b);
+    EXPECT_TRUE(diff.things.empty());
+    const Json json = Json::parse(command::diffJson(diff, "a", "b")).value();
+    EXPECT_EQ(json["settings"], Json::parse(R"([{"what": "/settings/clusters/levels/1", "a": "2", "b": "3"},
+                                                {"what": "/tool/version", "a": "\"1\"", "b": "\"2\""},
+                                                {"what": "/settings/clusters/x", "a": "", "b": "true"}])")
+                                    .value());
+}
+
+TEST(DiffThings, pairsThoseOfOneNameByWhatTheyAre)
+{
+    const auto grass = [](const std::string& place) {
+        return Thing{"instance", "grass", {{"place", place}}};
+    };
+    const std::vector<Thing> a{grass("1"), grass("2"), grass("3"), grass("3")};
+    const std::vector<Thing> b{grass("3"), grass("0"), grass("1"), grass("2"), grass("3"), grass("4")};
+    EXPECT_EQ(command::diffThings(a, b).size(), 2u) << "0 and 4 are new, whatever stands where";
+    const auto moved =
+        command::diffThings(std::vector{grass("1"), grass("2")}, std::vector{grass("2"), grass("7")});
+    ASSERT_EQ(moved.size(), 1u);
+    EXPECT_EQ(moved[0].how, ThingChange::How::changed);
+    EXPECT_EQ(moved[0].facts[0].a, "1");
+    EXPECT_EQ(moved[0].facts[0].b, "7");
+    EXPECT_EQ(command::diffThings(b, a)[0].how, ThingChange::How::removed);
+    // two images without names of their own
+    const auto image = [](const std::string& note, const std::string& texels) {
+        return Thing{"texture", "image 0", {{"texels", texels, true}}, note};
+    };
+    const auto textures =
+        command::diffThings(std::vector{image("normal of Bark", "1"), image("normal of Leaf", "2")},
+                            std::vector{image("normal of Leaf", "3"), image("normal of Moss", "4")});
+    ASSERT_EQ(textures.size(), 2u);
+    EXPECT_EQ(textures[0].note, "normal of Leaf");
+    EXPECT_EQ(textures[0].facts.at(0).b, "3");
+    EXPECT_EQ(textures[1].facts.at(0).a, "1");
+    EXPECT_EQ(textures[1].facts.at(0).b, "4");
+    const std::vector<Thing> other{{"light", "grass", {{"place", "1"}}}};
+    EXPECT_EQ(command::diffThings(a, other).size(), 5u) << "kinds are not mixed";
+}
+
+TEST_F(Diff, theCommandSaysSoByItsExitCode)
+{
+    writePackFile(smallPack(), sandbox / "a.hearth");
+    PackModel changed = smallPack();
+    changed.materials[0].metallic = 0.123F;
+    writePackFile(changed, sandbox / "b.hearth");
+    const auto diff = [&](std::vector<std::string> arguments)
+    {
+        arguments.insert(arguments.begin(), {HEARTH_BIN "/hearth", "diff"});
+        return sandbox.run(arguments);
+    };
+    EXPECT_EQ(diff({"a.hearth", "a.hearth"}).exit_code, 0);
+    const ProgramEnd end = diff({"a.hearth", "b.hearth"});
+    EXPECT_EQ(end.exit_code, 1);
+    EXPECT_NE(end.out.find("changed  material paint\n    metallic: "), std::string::npos) << end.out;
+    EXPECT_EQ(diff({"a.hearth", "b.hearth", "--hashes"}).exit_code, 1);
+    EXPECT_EQ(Json::parse(diff({"a.hearth", "b.hearth", "--format", "json"}).out).value()["same"], false);
+    EXPECT_EQ(diff({"a.hearth", "nowhere.hearth"}).exit_code, 66);
+    EXPECT_EQ(diff({"a.hearth"}).exit_code, 2);
+    writeParts(smallPack(), sandbox.path(), "part");
+    EXPECT_EQ(diff({"a.hearth", "part.clusters.part"}).exit_code, 65);
+}
+
+} // namespace hearth::test

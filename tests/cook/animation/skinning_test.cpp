@@ -1,0 +1,300 @@
+// Bounds of deformed clusters against clips made to break them.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/skinning/group_spheres.h"
+#include "tests/cook/animation/random_characters.h"
+#include "tests/support/sanitized.h"
+
+#include <cmath>
+#include <gtest/gtest.h>
+#include <tuple>
+
+namespace hearth::skinning
+{
+
+using namespace formats;
+using test::BoundsFigures;
+using test::Character;
+using test::CharacterSpec;
+
+namespace
+{
+
+BoundsFigures figuresOf(const CharacterSpec& spec, uint32_t seeds = 1, size_t poses = 2000)
+{
+    BoundsFigures figures;
+    for (uint32_t seed = 1; seed <= seeds; ++seed)
+    {
+        Character character = test::randomCharacter(spec, seed);
+        test::computeBounds(character.tables(), character.mesh);
+        figures += test::checkBounds(character.tables(), character.mesh, test::trials(poses), seed);
+    }
+    return figures;
+}
+
+void expectSound(const BoundsFigures& figures)
+{
+    EXPECT_EQ(figures.violations, 0u) << "by up to " << figures.worst;
+    EXPECT_EQ(figures.facing_wrong, 0u);
+    std::printf("%zu clusters, %zu with cones, volume %.3f x the tightest box\n", figures.clusters,
+                figures.cones, figures.volume_ratio / static_cast<double>(figures.clusters));
+}
+
+} // namespace
+
+TEST(DeformedBounds, holdOrdinaryClips)
+{
+    expectSound(figuresOf({}));
+}
+
+TEST(DeformedBounds, holdSmallMotionsWithCones)
+{
+    const BoundsFigures figures = figuresOf({.swing = 0.05, .influences = 2});
+    expectSound(figures);
+    EXPECT_GT(figures.cones, 0u) << "a cone that is always given up holds nothing";
+    EXPECT_LE(figures.volume_ratio / static_cast<double>(figures.clusters), 1.5);
+}
+
+TEST(DeformedBounds, holdFastSpins)
+{
+    expectSound(figuresOf({.spins = true}));
+}
+
+TEST(DeformedBounds, holdOppositeQuaternions)
+{
+    expectSound(figuresOf({.swing = 1.5, .opposite = true}));
+}
+
+TEST(DeformedBounds, holdSplinesThatOvershoot)
+{
+    expectSound(figuresOf({.splines = true}));
+}
+
+TEST(DeformedBounds, holdScales)
+{
+    expectSound(figuresOf({.scale_low = 0.5, .scale_high = 2}));
+}
+
+TEST(DeformedBounds, holdScalesThatGoThroughNothing)
+{
+    expectSound(figuresOf({.scale_low = -0.5, .scale_high = 1}));
+}
+
+TEST(DeformedBounds, holdMirroredJointsAndMatrices)
+{
+    expectSound(figuresOf({.mirrored = true, .matrices = true, .several_roots = true}));
+}
+
+TEST(DeformedBounds, holdTwoHundredJoints)
+{
+    expectSound(figuresOf({.joints = 200, .influences = 8, .far_influences = true}, 1, 400));
+}
+
+TEST(DeformedBounds, holdMorphTargets)
+{
+    expectSound(figuresOf({.splines = true, .morph_targets = 5}));
+}
+
+TEST(DeformedBounds, holdFreePosesWithAnyMorphWeights)
+{
+    std::mt19937 random(7);
+    const auto value = [&](double most)
+    { return std::uniform_real_distribution<double>(-most, most)(random); };
+    Character character = test::randomCharacter({.morph_targets = 4, .far_influences = true}, 3);
+    test::computeBounds(character.tables(), character.mesh);
+    const auto joints = static_cast<uint32_t>(character.joints.size());
+    size_t vertices = 0, beyond_unmorphed = 0;
+    double nearest = 1;
+    for (size_t pose = 0; pose < test::trials(1000); ++pose)
+    {
+        std::vector<Affine3d> palette(joints);
+        for (Affine3d& joint : palette)
+            for (auto& row : joint.m)
+                for (double& cell : row)
+                    cell = value(2);
+        const double most = pose % 2 == 0 ? 1 : 5;
+        const double weights[] = {value(most), value(most), value(most), value(most)};
+        const double stretch = std::max(
+            {std::abs(weights[0]), std::abs(weights[1]), std::abs(weights[2]), std::abs(weights[3])});
+        for (size_t c = 0; c < character.mesh.clusters.size(); ++c)
+        {
+            const DeformedCluster& cluster = character.mesh.clusters[c];
+            motion::Box3d bind;
+            for (const Float3 position : cluster.positions)
+                motion::add(bind, widen(position));
+            const double grown = stretch * double{character.mesh.bounds[c].morph_reach};
+            // as FORMAT.md says: the union over the joints of the grown box, carried
+            const auto carried = [&](double by)
+            {
+                motion::Box3d all;
+                for (const uint16_t joint : cluster.joints)
+                    for (int corner = 0; corner < 8; ++corner)
+                        motion::add(
+                            all, transformPoint(palette[joint],
+                                                {(corner & 1) != 0 ? bind[0].high + by : bind[0].low - by,
+                                                 (corner & 2) != 0 ? bind[1].high + by : bind[1].low - by,
+                                                 (corner & 4) != 0 ? bind[2].high + by : bind[2].low - by}));
+                return all;
+            };
+            const motion::Box3d bound = carried(grown), unmorphed = carried(0);
+            for (size_t v = 0; v < cluster.positions.size(); ++v, ++vertices)
+            {
+                Double3 place = widen(cluster.positions[v]);
+                for (const MorphDeltas& morph : cluster.morphs)
+                    place = place + widen(morph.positions[v]) * weights[morph.target];
+                for (const auto& [position, low, high] : {std::tuple{place.x, bind[0].low, bind[0].high},
+                                                          {place.y, bind[1].low, bind[1].high},
+                                                          {place.z, bind[2].low, bind[2].high}})
+                    nearest = std::min(
+                        nearest,
+                        grown == 0 ? 1 : std::min(position - (low - grown), high + grown - position) / grown);
+                Double3 skinned;
+                for (size_t i = 0; i < cluster.influences; ++i)
+                    skinned =
+                        skinned + transformPoint(palette[cluster.joints[v * cluster.influences + i]], place) *
+                                      cluster.weights[v * cluster.influences + i];
+                constexpr double kRounding = 1e-9;
+                for (const auto& [axis, position] :
+                     {std::pair<size_t, double>{0, skinned.x}, {1, skinned.y}, {2, skinned.z}})
+                {
+                    EXPECT_GE(position, bound[axis].low - kRounding);
+                    EXPECT_LE(position, bound[axis].high + kRounding);
+                    beyond_unmorphed += unmorphed[axis].contains(position) ? 0u : 1u;
+                }
+            }
+        }
+    }
+    EXPECT_GT(vertices, test::kSanitized ? 4000u : 100000u);
+    EXPECT_GT(beyond_unmorphed, test::kSanitized ? 20u : 100u)
+        << "without the targets' reach the bound would not hold";
+    EXPECT_LT(nearest, 0.3) << "nothing uses the reach";
+}
+
+TEST(DeformedBounds, morphTargetsAloneAreTight)
+{
+    BoundsFigures figures;
+    for (uint32_t seed = 1; seed <= 4; ++seed)
+    {
+        Character character = test::randomCharacter({.clips = 2, .morph_targets = 4}, seed);
+        character.nodes[character.mesh.node].skin = character.mesh.skin = kNone;
+        for (DeformedCluster& cluster : character.mesh.clusters)
+        {
+            cluster.influences = 0;
+            cluster.joints.clear();
+            cluster.weights.clear();
+        }
+        test::computeBounds(character.tables(), character.mesh);
+        figures += test::checkBounds(character.tables(), character.mesh, test::trials(2000), seed);
+    }
+    expectSound(figures);
+}
+
+TEST(DeformedBounds, whatIsRigidKeepsItsBoxAndCone)
+{
+    Character character = test::randomCharacter({.influences = 1}, 4);
+    test::computeBounds(character.tables(), character.mesh);
+    for (size_t i = 0; i < character.mesh.clusters.size(); ++i)
+    {
+        Box3 box;
+        for (const Float3 p : character.mesh.clusters[i].positions)
+            box.add(p);
+        const DeformedClusterRecord& record = character.mesh.bounds[i];
+        EXPECT_LE(length(record.box_min - box.min), 1e-5f);
+        EXPECT_LE(length(record.box_max - box.max), 1e-5f);
+        EXPECT_NE(record.cone_cutoff, kNoCone);
+        EXPECT_EQ(record.joint, character.mesh.clusters[i].joints[0]);
+    }
+}
+
+TEST(DeformedBounds, withoutAJointThatKeepsItsSizeThereIsNoBox)
+{
+    Character character = test::randomCharacter({.joints = 3, .clips = 0, .influences = 3}, 4);
+    for (NodeRecord& node : character.nodes)
+        node.scale = {0, 0, 0};
+    for (NodeRecord& node : character.nodes)
+        node.parent = kNone;
+    for (DeformedCluster& cluster : character.mesh.clusters)
+        for (size_t i = 0; i < cluster.joints.size(); ++i)
+        {
+            cluster.joints[i] = static_cast<uint16_t>(i % 3);
+            cluster.weights[i] = 1.0 / 3;
+        }
+    test::computeBounds(character.tables(), character.mesh);
+    for (size_t i = 0; i < character.mesh.clusters.size(); ++i)
+    {
+        const DeformedClusterRecord& record = character.mesh.bounds[i];
+        EXPECT_EQ(record.box_max.x, kUnbounded);
+        EXPECT_EQ(record.cone_cutoff, kNoCone);
+    }
+}
+
+TEST(DeformedBounds, jointsThatMoveTogetherGiveTightBoxes)
+{
+    // a long chain where each joint alone can turn far, but in the only clip all turn at once, there and back
+    Character character = test::randomCharacter({.joints = 8, .clips = 0, .influences = 4}, 3);
+    for (uint32_t joint = 0; joint < 8; ++joint)
+    {
+        character.nodes[joint].parent = joint == 0 ? kNone : joint - 1;
+        AnimationChannelRecord channel{};
+        channel.node = joint;
+        channel.path = static_cast<uint32_t>(AnimationPath::rotation);
+        channel.interpolation = static_cast<uint32_t>(Interpolation::linear);
+        channel.components = 4;
+        channel.key_count = 2;
+        channel.first_time = static_cast<uint32_t>(character.keys.size());
+        character.keys.insert(character.keys.end(), {0, 1});
+        channel.first_value = static_cast<uint32_t>(character.keys.size());
+        const Float4 rest = character.nodes[joint].rotation;
+        const float turn = joint % 2 == 0 ? 0.3f : -0.3f;
+        character.keys.insert(character.keys.end(), {rest.x, rest.y, rest.z, rest.w});
+        character.keys.insert(character.keys.end(), {rest.x, rest.y + turn, rest.z, rest.w});
+        character.channels.push_back(channel);
+    }
+    character.animations.push_back({{}, {0, 8}, 1, 0});
+    for (AnimationChannelRecord& channel : character.channels)
+    {
+        // of length 1
+        float* const end = &character.keys[channel.first_value + 4];
+        const float l = std::sqrt(end[0] * end[0] + end[1] * end[1] + end[2] * end[2] + end[3] * end[3]);
+        for (size_t i = 0; i < 4; ++i)
+            end[i] /= l;
+    }
+    test::computeBounds(character.tables(), character.mesh);
+    const BoundsFigures figures =
+        test::checkBounds(character.tables(), character.mesh, test::trials(3000), 1);
+    expectSound(figures);
+    EXPECT_LE(figures.volume_ratio / static_cast<double>(figures.clusters), 1.6);
+}
+
+TEST(AnchoredBounds, spheresHoldThoseOfRefinedGroups)
+{
+    Character character = test::randomCharacter({}, 7);
+    const MotionTables tables = character.tables();
+    const std::vector<motion::NodeMotion> nodes = motion::nodeMotions(tables);
+    const std::vector<motion::Box3d> reach(12, {motion::Interval{-1, 1}, {-1, 1}, {-1, 1}});
+    const motion::SkinMotion skin(tables, nodes, 0, reach);
+    const Deformation deformation{&skin, {}};
+    // a root of two clusters, the second made from a set of two groups
+    const auto group = [](Range clusters, uint32_t set_offset)
+    {
+        GroupRecord record{};
+        record.clusters = clusters;
+        record.set_offset = set_offset;
+        return record;
+    };
+    const std::vector<GroupRecord> groups{group({5, 2}, 0), group({7, 3}, 0), group({10, 2}, 1)};
+    std::vector<ClusterRecord> clusters(7);
+    for (ClusterRecord& cluster : clusters)
+        cluster.refined_group = kNone;
+    clusters[1].refined_group = 21;
+    std::vector<DeformedCluster> deformed;
+    for (size_t i = 0; i < clusters.size(); ++i)
+        deformed.push_back(character.mesh.clusters[i % character.mesh.clusters.size()]);
+    const AnchoredBounds bounds = anchoredBounds({groups, clusters, 20, 5}, deformed, deformation, reach);
+    ASSERT_EQ(bounds.spheres.size(), 3u);
+    EXPECT_EQ(bounds.spheres[1].center, bounds.spheres[2].center);
+    EXPECT_EQ(bounds.spheres[1].radius, bounds.spheres[2].radius);
+    EXPECT_LE(length(bounds.spheres[1].center - bounds.spheres[0].center) + bounds.spheres[1].radius,
+              bounds.spheres[0].radius);
+}
+
+} // namespace hearth::skinning

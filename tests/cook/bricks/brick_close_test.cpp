@@ -1,0 +1,73 @@
+// What stands in the voxel right before a surface, behind which the surface's rays start: its light is not lost.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/bricks/light/face_lighting.h"
+#include "tests/support/voxel_model.h"
+
+#include <gtest/gtest.h>
+
+namespace hearth::bricks
+{
+namespace
+{
+
+using namespace shared;
+
+/// A wall whose last voxels are those of z = 1, and on it a strip of one voxel from y = 8 to 9.
+BrickTables wallWithStrip(const Voxel& strip)
+{
+    VoxelModel model({16, 16, 12});
+    model.fill({0, 0, 0}, {16, 16, 2}, makeVoxel({0.5f, 0.5f, 0.5f}));
+    model.fill({0, 8, 2}, {16, 9, 3}, strip);
+    return model.build();
+}
+
+constexpr BrickSky kDusk{{0.25f, 0.25f, 0.25f}, {0.25f, 0.25f, 0.25f}, {0.25f, 0.25f, 0.25f}};
+
+/// Of a point of the wall that is seen from before it, without other light.
+float lightAt(const BrickTables& tables, Float3 place, BrickSky sky = {})
+{
+    const BrickView view = brickViewOf(tables);
+    FaceLighting lighting(view);
+    lighting.sweep({}, 1, 1);
+    const BrickStart start =
+        brickSeenStart(lighting.scene(), place, {0, 0, 1}, normalizeOr({0, -0.2f, 1}, {0, 0, 1}));
+    EXPECT_EQ(start.buried, 0u);
+    return brickGather(lighting.scene(), sky, start, 1024, 1).x;
+}
+
+} // namespace
+
+TEST(BrickClose, lightsTheSurfaceBehindIt)
+{
+    const BrickTables tables = wallWithStrip(makeVoxel({0, 0, 0}, {2, 2, 2}));
+    // whichever of both voxels the wall's plane is counted to
+    for (const float z : {1.99f, 2.0f, 2.01f})
+        EXPECT_NEAR(lightAt(tables, {8.5f, 8.3f, z}), 2, 0.02f) << z;
+    EXPECT_LT(lightAt(tables, {8.5f, 6.5f, 2}), 0.3f) << "beside it rays find it as before";
+}
+
+TEST(BrickClose, lightsItAsFarAsItIsOpaque)
+{
+    const BrickTables half = wallWithStrip(makeVoxel({0, 0, 0}, {2, 2, 2}, 128));
+    const float beyond = 0.25f;
+    EXPECT_NEAR(lightAt(half, {8.5f, 8.3f, 2}, kDusk), beyond + (2 - beyond) * 128 / 255, 0.02f);
+}
+
+/// What is darker may stand beside the point as well as before it.
+TEST(BrickClose, darkensNothing)
+{
+    const BrickTables dark = wallWithStrip(makeVoxel({0, 0, 0}));
+    EXPECT_NEAR(lightAt(dark, {8.5f, 8.3f, 2}, kDusk), 0.25f, 0.01f);
+}
+
+/// A surface within its own voxel has nothing before it, however bright that is.
+TEST(BrickClose, isNotTheSurfacesOwnVoxel)
+{
+    VoxelModel model({16, 16, 12});
+    model.fill({0, 0, 0}, {16, 16, 2}, makeVoxel({0, 0, 0}, {2, 2, 2}));
+    const BrickTables tables = model.build();
+    for (const float z : {1.2f, 1.6f, 2.0f})
+        EXPECT_EQ(lightAt(tables, {8.5f, 8.3f, z}), 0) << z;
+}
+
+} // namespace hearth::bricks

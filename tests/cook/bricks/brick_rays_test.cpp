@@ -1,0 +1,155 @@
+// Rays that carry light, and what faces store of it: directions, starts, the sky, and codes with their rests.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "tests/cook/bricks/lit_bricks.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+namespace hearth::bricks
+{
+namespace
+{
+
+using namespace shared;
+
+/// What the rest is for: codes alone stop short of the goal.
+TEST(BrickLight, codesAloneWouldStopTheFurnaceShort)
+{
+    const float albedo = 0.9f, emission = 0.3f;
+    float code_only = 0;
+    BrickLight light{0, 0};
+    for (int sweep = 0; sweep < 400; ++sweep)
+    {
+        code_only = decodeRadiance(encodeRadiance(Float3{1, 1, 1} * (emission + albedo * code_only))).z;
+        light = encodeBrickLight(Float3{1, 1, 1} * (emission + albedo * decodeBrickLight(light).z));
+    }
+    EXPECT_LT(code_only, 0.95f * emission / (1 - albedo));
+    EXPECT_NEAR(decodeBrickLight(light).z, emission / (1 - albedo), 1e-3f);
+}
+
+TEST(BrickLight, keepsValuesToSixteenBits)
+{
+    std::mt19937 random(3);
+    std::uniform_real_distribution<float> power(-13.9f, 15.9f);
+    for (int i = 0; i < 100000; ++i)
+    {
+        const Float3 value{std::exp2(power(random)), std::exp2(power(random)), std::exp2(power(random))};
+        const BrickLight light = encodeBrickLight(value);
+        ASSERT_EQ(light.code, encodeRadiance(value));
+        const Float3 back = decodeBrickLight(light);
+        for (int c = 0; c < 3 && largest(value) < 64000; ++c)
+            ASSERT_NEAR(back[c], value[c], value[c] * 3.2e-5f);
+    }
+    EXPECT_EQ(decodeBrickLight({encodeRadiance({0.3f, 2, 7}), 0}),
+              decodeRadiance(encodeRadiance({0.3f, 2, 7})))
+        << "no rest: the code itself";
+    EXPECT_EQ(decodeBrickLight(encodeBrickLight({0, 0, 0})), (Float3{}));
+    EXPECT_EQ(decodeBrickLight(encodeBrickLight({1e9f, 1e9f, 1e9f})).x, kMostRedGreen * (1 + 0.5f / 127))
+        << "what is too bright is the brightest";
+}
+
+/// The gradient's irradiance is the closed form that the runtime shades with.
+TEST(BrickSky, hasTheIrradianceOfTheRuntimesSky)
+{
+    const BrickSky sky{kSkyZenith, kSkyHorizon, kSkyGround};
+    for (const Float3 normal : {Float3{0, 1, 0}, Float3{1, 0, 0}, Float3{0.6f, 0.8f, 0}})
+    {
+        Float3 sum;
+        constexpr uint32_t kCount = 4096;
+        for (uint32_t i = 0; i < kCount; ++i)
+            sum += brickSkyRadiance(sky, brickRayDirection(normal, i, kCount, 9)) * (1.0f / kCount);
+        const float above = 0.5f + 0.3f * normal.y, up = 0.5f + 0.5f * normal.y;
+        expectRelative(sum, kSkyGround * (1 - up) + (kSkyHorizon * (1 - above) + kSkyZenith * above) * up,
+                       0.01f);
+    }
+}
+
+TEST(BrickRayDirection, areUnitAndByTheCosine)
+{
+    std::mt19937 random(11);
+    std::normal_distribution<float> number;
+    for (int i = 0; i < 50; ++i)
+    {
+        const Float3 n = normalizeOr({number(random), number(random), number(random)}, {0, 0, 1});
+        constexpr uint32_t kCount = 64;
+        Float3 sum;
+        for (uint32_t ray = 0; ray < kCount; ++ray)
+        {
+            const Float3 d = brickRayDirection(n, ray, kCount, static_cast<uint32_t>(random()));
+            EXPECT_NEAR(length(d), 1, 2e-6f);
+            EXPECT_GE(dot(d, n), -1e-6f);
+        }
+        const auto seed = static_cast<uint32_t>(random());
+        for (uint32_t ray = 0; ray < kCount; ++ray)
+            sum += brickRayDirection(n, ray, kCount, seed) * (1.0f / kCount);
+        EXPECT_NEAR(length(sum - n * (2.0f / 3)), 0, 0.03f);
+    }
+}
+
+TEST(BrickSurfaceStart, leavesItsOwnVoxelsAndSaysWhereThereIsNoAir)
+{
+    VoxelModel model({8, 16, 8});
+    model.fill({0, 0, 0}, {8, 2, 8}, makeVoxel({0.5f, 0.5f, 0.5f}));
+    model.fill({0, 8, 0}, {8, 16, 8}, makeVoxel({0.5f, 0.5f, 0.5f}));
+    const BrickTables tables = model.build();
+    const BrickView view = brickViewOf(tables);
+    const FaceLighting lighting(view);
+    const BrickScene scene = lighting.scene();
+    EXPECT_NEAR(brickSurfaceStart(scene, {4.5f, 0.7f, 4.5f}, {0, 1, 0}).place.y, 2, 0.01f);
+    EXPECT_NEAR(brickSurfaceStart(scene, {4.5f, 8.2f, 4.5f}, {0, -1, 0}).place.y, 8, 0.01f);
+    EXPECT_NEAR(brickSurfaceStart(scene, {4.5f, 3, 4.5f}, {0, 1, 0}).place.y, 3, 0.01f)
+        << "in the air already";
+    EXPECT_NEAR(brickSurfaceStart(scene, {4.5f, 1.7f, 4.5f}, {0.6f, 0.8f, 0}).place.y, 2 + 0.8f * kBrickLift,
+                0.01f)
+        << "slanted: off its steps";
+    EXPECT_EQ(brickSurfaceStart(scene, {4.5f, 9, 4.5f}, {0, 1, 0}).buried, 1u);
+    EXPECT_EQ(brickSurfaceStart(scene, {4.5f, 15.5f, 4.5f}, {0, 1, 0}).buried, 0u) << "above the grid is air";
+    EXPECT_EQ(brickSurfaceStart(scene, {40, 90, 4}, {0, 1, 0}).buried, 0u) << "as is what lies outside";
+}
+
+/// Of a wall, just below a ceiling that fills its voxels only in part: neither along its normal nor far along the way to the eye
+/// is it in the air, but there it is first.
+TEST(BrickSeenStart, takesTheAirThatAPointIsSeenThrough)
+{
+    VoxelModel model({12, 12, 12});
+    model.fill({0, 0, 0}, {12, 12, 1}, makeVoxel({0.5f, 0.5f, 0.5f})); // the wall
+    model.fill({0, 8, 0}, {12, 9, 12}, makeVoxel({0.5f, 0.5f, 0.5f})); // the ceiling
+    const BrickTables tables = model.build();
+    const BrickView view = brickViewOf(tables);
+    const FaceLighting lighting(view);
+    const Float3 to_eye = normalizeOr({0, -0.6f, 0.8f}, {0, 0, 1});
+    const BrickStart start = brickSeenStart(lighting.scene(), {6.5f, 8.3f, 1}, {0, 0, 1}, to_eye);
+    EXPECT_EQ(start.buried, 0u);
+    EXPECT_EQ(start.normal, (Float3{0, 0, 1}));
+    EXPECT_NEAR(start.place.y, 8, 0.7f);
+    EXPECT_LT(start.place.y, 8);
+    const BrickStart open = brickSeenStart(lighting.scene(), {6.5f, 4.5f, 0.9f}, {0, 0, 1}, to_eye);
+    EXPECT_NEAR(open.place.y, 4.5f, 1e-5f) << "before it, where nothing is in the way";
+    EXPECT_NEAR(open.place.z, 1, 0.01f);
+}
+
+/// A strip of one voxel that shines, on a wall: rays that started off the wall would pass by it.
+TEST(BrickFaceStart, seesWhatStandsBesideItOnAWall)
+{
+    VoxelModel model({65, 10, 6});
+    model.fill({0, 0, 0}, {65, 10, 1}, makeVoxel({0, 0, 0}));
+    model.fill({0, 8, 1}, {65, 9, 2}, makeVoxel({0, 0, 0}, {2, 2, 2}));
+    const BrickTables tables = model.build();
+    const BrickView view = brickViewOf(tables);
+    FaceLighting lighting(view);
+    lighting.sweep(darkness(), 1, 1);
+    for (uint32_t below = 1; below <= 4; ++below)
+    {
+        const BrickStart start = brickFaceStart(lighting.scene(), 32, 8 - below, 0, 5, {0, 0, 1});
+        const float light = brickGather(lighting.scene(), {}, start, 4096, below).x;
+        // an endless strip of the height 1 hides this of the plane that it stands on
+        const double distance = below - 0.5;
+        const double expected = 2 * 0.5 * (1 - distance / std::sqrt(distance * distance + 1));
+        EXPECT_NEAR(light, expected, 0.03 * expected) << below;
+    }
+}
+
+} // namespace
+} // namespace hearth::bricks

@@ -1,0 +1,368 @@
+// hearth-bricks from the outside: sources made here, imported and clustered by the real programs.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/bricks/grid/brick_tables.h"
+#include "cook/json/json.h"
+#include "formats/gpu_shared/brick_codes.h"
+#include "formats/pack/pack_check.h"
+#include "sample_assets/samples.h"
+#include "sample_assets/shapes/glb_writer.h"
+#include "sample_assets/shapes/shapes.h"
+#include "tests/support/sandbox.h"
+#include "tests/support/sanitized.h"
+
+#include <filesystem>
+#include <gtest/gtest.h>
+#include <map>
+
+namespace hearth::test
+{
+
+using namespace samples;
+
+namespace
+{
+
+constexpr uint32_t kUp = 3, kDown = 2;
+
+std::string bin(const std::string& program)
+{
+    return HEARTH_BIN "/" + program;
+}
+
+/// What a part has, voxel by voxel.
+struct Voxels
+{
+    struct Face
+    {
+        Float3 albedo, emission, lighting, normal;
+    };
+    struct Voxel
+    {
+        uint8_t opacity = 0;
+        std::map<uint32_t, Face> faces;
+    };
+    formats::BrickGridRecord grid{};
+    std::map<std::array<uint32_t, 3>, Voxel> voxels;
+};
+
+class BricksCook : public ::testing::Test
+{
+protected:
+    ProgramEnd bricks(std::vector<std::string> arguments)
+    {
+        arguments.insert(arguments.begin(), bin("hearth-bricks"));
+        return folder.run(arguments);
+    }
+
+    /// Import and cluster a source; the paths of its three parts.
+    std::vector<std::string> parts(const std::string& name, const Document& document)
+    {
+        const std::string source = folder / (name + ".glb");
+        EXPECT_TRUE(writeFile(source, encodeGlb(document)).ok());
+        const std::string import = name + ".import", clusters = name + ".clusters",
+                          textures = name + ".textures";
+        EXPECT_EQ(folder.run({bin("hearth-import"), name + ".glb", "-o", import}).exit_code, 0);
+        EXPECT_EQ(folder.run({bin("hearth-clusters"), import, "-o", clusters}).exit_code, 0);
+        EXPECT_EQ(folder.run({bin("hearth-textures"), import, "-o", textures}).exit_code, 0);
+        return {import, clusters, textures};
+    }
+    std::vector<std::string> parts(const std::string& kind, const SampleOptions& options)
+    {
+        return parts(kind, generateSample(kind, options).value());
+    }
+
+    /// The room's parts, made once for all tests: its textures take a second.
+    const std::vector<std::string>& room()
+    {
+        static Sandbox shared;
+        static const std::vector<std::string> paths = [&]
+        {
+            std::vector<std::string> made;
+            for (const std::string& name : parts("room", SampleOptions{}))
+            {
+                made.push_back(shared / name);
+                std::filesystem::rename(folder / name, made.back());
+            }
+            return made;
+        }();
+        return paths;
+    }
+
+    Voxels read(const std::string& name)
+    {
+        auto reader = formats::ContainerReader::open(folder / name);
+        EXPECT_TRUE(reader.ok());
+        const auto view = formats::PackView::read(std::move(reader).value());
+        EXPECT_TRUE(view.ok() && formats::checkBricks(*view).ok());
+        Voxels result;
+        result.grid = view->brickGrid()[0];
+        const uint32_t gx = shared::brickGroups(result.grid.voxels[0]),
+                       gy = shared::brickGroups(result.grid.voxels[1]);
+        for (uint32_t g = 0; g < view->brickGroups().size(); ++g)
+        {
+            const formats::BrickGroupRecord& group = view->brickGroups()[g];
+            uint32_t brick = group.first_brick;
+            for (uint32_t b = 0; b < 64; ++b)
+                if (shared::maskHas(group.brick_mask_low, group.brick_mask_high, b))
+                    addBrick(*view, view->bricks()[brick++],
+                             {g % gx * 16 + (b & 3) * 4, g / gx % gy * 16 + (b >> 2 & 3) * 4,
+                              g / gx / gy * 16 + (b >> 4) * 4},
+                             result);
+        }
+        return result;
+    }
+
+    static void addBrick(const formats::PackView& view, const formats::BrickRecord& brick,
+                         const std::array<uint32_t, 3>& least, Voxels& result)
+    {
+        for (uint32_t bit = 0; bit < 64; ++bit)
+        {
+            if (!shared::maskHas(brick.voxel_mask_low, brick.voxel_mask_high, bit))
+                continue;
+            Voxels::Voxel& voxel =
+                result.voxels[{least[0] + (bit & 3), least[1] + (bit >> 2 & 3), least[2] + (bit >> 4)}];
+            voxel.opacity = view.brickOpacity()[shared::brickVoxel(brick, bit)];
+            for (uint32_t side = 0; side < shared::kVoxelFaces; ++side)
+            {
+                const uint32_t face = shared::brickFace(brick, bit, side);
+                if (face != shared::kNoFace)
+                    voxel.faces[side] = {shared::decodeAlbedo(view.brickAlbedo()[face]),
+                                         shared::decodeRadiance(view.brickEmission()[face]),
+                                         shared::decodeRadiance(view.brickLighting()[face]),
+                                         shared::decodeFaceNormal(view.brickNormals()[face])};
+            }
+        }
+    }
+
+    Json statistics() { return Json::parse(folder.read("stats.json")).value(); }
+
+    Sandbox folder;
+};
+
+std::vector<std::string> joined(std::vector<std::string> a, const std::vector<std::string>& b)
+{
+    a.insert(a.end(), b.begin(), b.end());
+    return a;
+}
+
+/// A square of `size` m about the origin, facing up, its texture once over it.
+TriangleMesh square(float size, float height)
+{
+    TriangleMesh mesh = makeGrid(1, 1,
+                                 [&](Float2 uv, Float3& position, Float2& texture_uv)
+                                 {
+                                     position = {(uv.x - 0.5f) * size, height, (0.5f - uv.y) * size};
+                                     texture_uv = {uv.x, 1 - uv.y};
+                                 });
+    setFlatNormals(mesh);
+    return mesh;
+}
+
+void addObject(Document& document, const char* name, TriangleMesh mesh, Material material)
+{
+    Node node;
+    node.name = name;
+    node.mesh =
+        add(document.meshes, Mesh{name, {{std::move(mesh), add(document.materials, std::move(material))}}});
+    addRoot(document, node);
+}
+
+Float3 colorOf(uint32_t x, uint32_t z)
+{
+    return {static_cast<float>((x * 37 + z * 11) % 97) / 97, static_cast<float>((x * 5 + z * 61) % 89) / 89,
+            static_cast<float>((x * 71 + z * 29) % 83) / 83};
+}
+
+float linear(float srgb)
+{
+    return srgb <= 0.04045f ? srgb / 12.92f : std::pow((srgb + 0.055f) / 1.055f, 2.4f);
+}
+
+} // namespace
+
+TEST_F(BricksCook, showsATextureVoxelByVoxel)
+{
+    // 16 x 16 squares of 8 x 8 texels, each as large as a voxel
+    Document document;
+    Image image{"squares", 128, 128, {}};
+    for (uint32_t row = 0; row < 128; ++row)
+        for (uint32_t column = 0; column < 128; ++column)
+        {
+            const Float3 c = colorOf(column / 8, row / 8);
+            for (const float channel : {c.x, c.y, c.z, 1.0f})
+                image.texels.push_back(static_cast<uint8_t>(std::lround(channel * 255)));
+        }
+    Material material;
+    material.base_color_image = add(document.images, std::move(image));
+    addObject(document, "square", square(16, 0.5f), material);
+    const auto arguments = parts("squares", document);
+    ASSERT_EQ(
+        bricks(joined(arguments, {"-o", "a.part", "--voxel-size", "1", "--min", "-8,0,-8", "--max", "8,2,8"}))
+            .exit_code,
+        0);
+    const Voxels voxels = read("a.part");
+    ASSERT_EQ(voxels.voxels.size(), 256u);
+    for (const auto& [cell, voxel] : voxels.voxels)
+    {
+        EXPECT_EQ(cell[1], 0u);
+        EXPECT_EQ(voxel.opacity, 255);
+        const Voxels::Face& face = voxel.faces.at(kUp);
+        const Float3 stored = colorOf(cell[0], cell[2]);
+        for (int channel = 0; channel < 3; ++channel)
+            EXPECT_NEAR(face.albedo[channel], linear(std::round(stored[channel] * 255) / 255), 1.01f / 1023);
+        EXPECT_EQ(face.normal, (Float3{0, 1, 0}));
+        EXPECT_EQ(face.lighting, Float3{});
+        EXPECT_EQ(voxel.faces.at(kDown).albedo, face.albedo);
+    }
+}
+
+TEST_F(BricksCook, multipliesFactorsColoursAndStrengths)
+{
+    Document document;
+    TriangleMesh mesh = square(4, 0.5f);
+    mesh.colors.assign(mesh.positions.size(), {0.5f, 1, 0.25f, 1});
+    Material material;
+    material.base_color = {0.8f, 0.4f, 0.2f, 1};
+    material.emissive = {1, 0.5f, 0.25f};
+    material.emissive_strength = 20;
+    addObject(document, "lamp", mesh, material);
+    const auto arguments = parts("lamp", document);
+    ASSERT_EQ(bricks(joined(arguments, {"-o", "a.part", "--voxel-size", "1"})).exit_code, 0);
+    const Voxels voxels = read("a.part");
+    EXPECT_EQ(voxels.voxels.size(), 16u);
+    for (const auto& [cell, voxel] : voxels.voxels)
+    {
+        const Voxels::Face& face = voxel.faces.at(kUp);
+        EXPECT_NEAR(face.albedo.x, 0.4f, 0.003f);
+        EXPECT_NEAR(face.albedo.y, 0.4f, 0.003f);
+        EXPECT_NEAR(face.albedo.z, 0.05f, 0.003f);
+        EXPECT_EQ(face.emission, (Float3{20, 10, 5})); // exact in R11G11B10F
+        EXPECT_EQ(face.lighting, face.emission);
+        EXPECT_EQ(voxel.faces.at(kDown).emission, Float3{});
+    }
+}
+
+TEST_F(BricksCook, leavesHolesInGrass)
+{
+    const auto arguments = parts("grass", {.triangles = 20000, .texture_size = 64});
+    ASSERT_EQ(bricks(joined(arguments, {"-o", "a.part", "--voxel-size", "0.2"})).exit_code, 0);
+    const Voxels voxels = read("a.part");
+    size_t partly = 0;
+    for (const auto& [cell, voxel] : voxels.voxels)
+        partly += voxel.opacity < 255 ? 1 : 0;
+    EXPECT_GT(partly, 100u);
+    EXPECT_LT(partly, voxels.voxels.size() / 4); // the ground has none
+}
+
+TEST_F(BricksCook, takesOnlyWhatStandsStill)
+{
+    const auto character = parts("character", {.triangles = kSanitized ? 1000u : 3000u});
+    ASSERT_EQ(bricks(joined(room(), {"-o", "room.part"})).exit_code, 0);
+    const ProgramEnd both =
+        bricks(joined(joined(room(), character), {"-o", "both.part", "--stats", "stats.json"}));
+    ASSERT_EQ(both.exit_code, 0);
+    EXPECT_EQ(countOf(both.err, "both.part: warning: "), 1u) << both.err;
+    EXPECT_NE(both.err.find("1 deformed instances have no bricks [W1400]"), std::string::npos) << both.err;
+    EXPECT_EQ(statistics()["left_out"]["deformed"], 1);
+    EXPECT_EQ(folder.read("room.part"), folder.read("both.part"));
+}
+
+TEST_F(BricksCook, putsSourcesSideBySide)
+{
+    const auto rock = parts("rock", {.triangles = 3000, .texture_size = 16});
+    const std::vector<std::string> grid{"--voxel-size", "0.25", "--min", "-5,-3,-5", "--max", "5,5,5", "-o"};
+    ASSERT_EQ(bricks(joined(joined(room(), grid), {"room.part"})).exit_code, 0);
+    ASSERT_EQ(bricks(joined(joined(rock, grid), {"rock.part"})).exit_code, 0);
+    ASSERT_EQ(bricks(joined(joined(joined(room(), rock), grid), {"both.part"})).exit_code, 0);
+    const Voxels a = read("room.part"), b = read("rock.part"), both = read("both.part");
+    auto expected = a.voxels;
+    expected.insert(b.voxels.begin(), b.voxels.end());
+    ASSERT_EQ(both.voxels.size(), expected.size());
+    EXPECT_LT(both.voxels.size(), a.voxels.size() + b.voxels.size());
+    for (const auto& [cell, voxel] : both.voxels)
+        EXPECT_TRUE(expected.contains(cell));
+}
+
+TEST_F(BricksCook, makesTheSameBytesWithAnyNumberOfThreads)
+{
+    const auto arguments =
+        joined(parts("grass", {.triangles = kSanitized ? 4000u : 20000u, .texture_size = 64}), room());
+    for (const char* threads : {"1", "2", "3", "7"})
+        ASSERT_EQ(bricks(joined(arguments, {"-o", threads, "--voxel-size", "0.1", "-j", threads})).exit_code,
+                  0);
+    for (const char* threads : {"2", "3", "7"})
+        EXPECT_EQ(folder.read("1"), folder.read(threads)) << threads;
+}
+
+TEST_F(BricksCook, staysWithinItsMemory)
+{
+    const auto bytes = [&]() { return statistics()["memory"].back()["bytes"].get<uint64_t>(); };
+    ASSERT_EQ(
+        bricks(joined(room(), {"-o", "a.part", "--voxel-size", "0.1", "--stats", "stats.json"})).exit_code,
+        0);
+    const uint64_t whole = bytes();
+    const std::string half = std::to_string(whole / 2);
+    // the voxels stay as they are, and the nearest to the camera are kept
+    const ProgramEnd dropped = bricks(
+        joined(room(), {"-o", "b.part", "--voxel-size", "0.1", "--stats", "stats.json", "--memory", half}));
+    ASSERT_EQ(dropped.exit_code, 0);
+    EXPECT_NE(dropped.err.find("bricks do not fit the memory: those from "), std::string::npos)
+        << dropped.err;
+    EXPECT_LE(bytes(), whole / 2);
+    EXPECT_GT(bytes(), whole / 2 - 1000);
+    const Voxels a = read("a.part"), b = read("b.part");
+    for (const auto& [cell, voxel] : b.voxels)
+    {
+        ASSERT_TRUE(a.voxels.contains(cell));
+        EXPECT_EQ(a.voxels.at(cell).faces.size(), voxel.faces.size());
+    }
+    EXPECT_GT(statistics()["dropped"]["bricks"].get<double>(), 0);
+    // nobody asked for a size: it grows instead
+    ASSERT_EQ(bricks(joined(room(), {"-o", "c.part", "--stats", "stats.json", "--memory", half})).exit_code,
+              0);
+    EXPECT_EQ(statistics()["dropped"]["bricks"], 0);
+    EXPECT_LE(bytes(), whole / 2);
+    EXPECT_GT(statistics()["voxel_size"].get<double>(), 0.12);
+}
+
+TEST_F(BricksCook, makesAnEmptyGridWhereNothingStandsStill)
+{
+    const auto character = parts("character", {.triangles = 1000});
+    ASSERT_EQ(bricks(joined(character, {"-o", "a.part"})).exit_code, 0);
+    const Voxels voxels = read("a.part");
+    EXPECT_TRUE(voxels.voxels.empty());
+    EXPECT_EQ(voxels.grid.group_count, 1u);
+}
+
+TEST_F(BricksCook, refusesWhatMakesNoSenseAndWritesNothing)
+{
+    const auto refuse = [&](const std::vector<std::string>& options, int exit_code)
+    {
+        const ProgramEnd end = bricks(joined(joined(room(), options), {"-o", "a.part"}));
+        EXPECT_EQ(end.exit_code, exit_code) << end.err;
+        EXPECT_NE(end.err, "");
+        EXPECT_FALSE(folder.has("a.part"));
+    };
+    for (const char* size : {"0", "-1", "nan", "inf", "1e-6", "1e-50", "much"})
+        refuse({"--voxel-size", size}, 2);
+    refuse({"--min", "0,0,0"}, 2);
+    refuse({"--min", "0,0,0", "--max", "1,0,1"}, 2);
+    refuse({"--min", "0,0,0", "--max", "1,nan,1"}, 2);
+    refuse({"--min", "0,0", "--max", "1,1,1"}, 2);
+    refuse({"--memory", "0"}, 2);
+    refuse({"--memory", "-5"}, 2);
+    refuse({"--memory", "100"}, 2);
+    refuse({"--error", "-1"}, 2);
+    refuse({"one-more.part"}, 2);
+    EXPECT_EQ(bricks({room()[0], room()[1], "missing.part", "-o", "a.part"}).exit_code, 66);
+    folder.write("bad.part", "no container");
+    EXPECT_EQ(bricks({room()[0], "bad.part", room()[2], "-o", "a.part"}).exit_code, 65);
+    EXPECT_EQ(bricks(joined(room(), {"-o", "nowhere/a.part"})).exit_code, 73);
+    // parts of another source
+    const auto rock = parts("rock", {.triangles = 1000, .texture_size = 16});
+    EXPECT_EQ(bricks({room()[0], rock[1], room()[2], "-o", "a.part"}).exit_code, 65);
+    EXPECT_EQ(bricks({room()[0], room()[1], rock[1], "-o", "a.part"}).exit_code, 65);
+    EXPECT_FALSE(folder.has("a.part"));
+}
+
+} // namespace hearth::test

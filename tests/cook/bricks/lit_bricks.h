@@ -1,0 +1,44 @@
+// Bricks in light, for tests: lamps, suns, a closed room, and what faces send out.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "cook/bricks/light/face_lighting.h"
+#include "tests/support/voxel_model.h"
+
+#include <array>
+#include <vector>
+
+namespace hearth::bricks
+{
+
+shared::Lighting darkness();
+shared::Lighting constantSky(Float3 radiance);
+void addSun(shared::Lighting& lighting, Float3 direction, Float3 illuminance);
+/// position  in metres
+void addLamp(shared::Lighting& lighting, Float3 position, Float3 candela, float range = 0);
+
+struct LitFace
+{
+    uint32_t x, y, z, side, face;
+};
+
+/// All faces whose middle lies in the box, in voxels.
+std::vector<LitFace> facesIn(const BrickTables& tables, Float3 low, Float3 high);
+
+/// A closed box with walls one voxel thick, with a voxel of air around it.
+struct Room
+{
+    BrickTables tables;
+    std::vector<LitFace> inner;
+
+    Room(std::array<uint32_t, 3> inside, const Voxel& wall, float voxel_size = 1);
+};
+
+Float3 radianceOf(const FaceLighting& lighting, uint32_t face);
+
+/// tolerance  of what is expected, by channel
+void expectRelative(Float3 value, Float3 expected, float tolerance);
+
+float largest(Float3 v);
+
+} // namespace hearth::bricks

@@ -1,0 +1,152 @@
+// The distance of whole surfaces: a bound, close to the truth, and the same for any number of threads.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/clusters/surface/surface_bound.h"
+
+#include "cook/clusters/surface/surface_tree.h"
+#include "tests/support/shapes.h"
+#include "tests/support/surface_distance.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include <tbb/global_control.h>
+
+namespace
+{
+
+using namespace hearth;
+using clusters::boundSurfaces;
+using clusters::SurfaceBound;
+using clusters::SurfaceView;
+using mesh::SourceMesh;
+
+SurfaceView viewOf(const SourceMesh& mesh)
+{
+    return {mesh.positions, mesh.indices};
+}
+
+/// What sampling finds.
+double sampled(const SourceMesh& a, const SourceMesh& b)
+{
+    constexpr size_t kSamples = 200000;
+    return std::max(
+        largestDistance(a.positions, a.indices, kSamples, SurfaceDistance(b.positions, b.indices)),
+        largestDistance(b.positions, b.indices, kSamples, SurfaceDistance(a.positions, a.indices)));
+}
+
+void expectTight(const SourceMesh& a, const SourceMesh& b)
+{
+    const SurfaceBound bound = boundSurfaces(viewOf(a), viewOf(b), 0);
+    const double found = sampled(a, b);
+    EXPECT_GE(bound.upper, found * (1 - 1e-6));
+    EXPECT_LE(bound.upper, 1.1 * bound.sure * (1 + 1e-9));
+    EXPECT_LE(bound.sure, bound.upper);
+    EXPECT_GE(bound.sure, found * 0.98) << "the search knows at least what sampling finds";
+    EXPECT_EQ(bound.loose_pieces, 0u);
+}
+
+SourceMesh square(uint32_t n, Float3 offset)
+{
+    SourceMesh mesh = shapes::grid(n);
+    for (Float3& p : mesh.positions)
+        p += offset;
+    return mesh;
+}
+
+TEST(SurfaceBound, ofTwoRocksIsTight)
+{
+    expectTight(shapes::rock(40, 0.4f), shapes::rock(9, 0.4f));
+}
+
+TEST(SurfaceBound, ofARockAndABallIsTight)
+{
+    expectTight(shapes::rock(30, 0.5f), shapes::rock(3, 0));
+}
+
+TEST(SurfaceBound, ofTerrainsIsTight)
+{
+    expectTight(shapes::terrain(100), shapes::terrain(7));
+}
+
+TEST(SurfaceBound, ofLooseTrianglesIsTight)
+{
+    expectTight(shapes::soup(3000, 1), shapes::soup(500, 2));
+}
+
+TEST(SurfaceBound, ofAFoldIsFoundInsideALargeTriangle)
+{
+    // two triangles meet in a ridge over the middle of the large one: no corner of any is as far as the ridge's end
+    SourceMesh flat, ridge;
+    flat.positions = {{-10, 0, -10}, {10, 0, -10}, {0, 0, 10}};
+    flat.indices = {0, 1, 2};
+    ridge.positions = {{-10, 0, -10}, {0, 0, 10}, {10, 0, -10}, {-1, 0, 0}, {1, 0, 0}};
+    ridge.indices = {0, 3, 1, 1, 4, 2};
+    const SurfaceBound bound = boundSurfaces(viewOf(flat), viewOf(ridge), 0);
+    EXPECT_GE(bound.upper, sampled(flat, ridge) * (1 - 1e-6));
+    EXPECT_LE(bound.upper, 1.1 * sampled(flat, ridge) * 1.02);
+}
+
+TEST(SurfaceBound, onAPlaneIsRounding)
+{
+    // the common refinement of both, at an offset that no edge of theirs has in common
+    const SurfaceBound bound = boundSurfaces(viewOf(square(2, {0, 0, 0})), viewOf(square(37, {0, 0, 0})), 0);
+    EXPECT_LE(bound.upper, 2e-6);
+    EXPECT_EQ(bound.loose_pieces, 0u);
+}
+
+TEST(SurfaceBound, ofParallelPlanesIsTheirDistance)
+{
+    const SurfaceBound bound =
+        boundSurfaces(viewOf(square(3, {0, 0.25f, 0})), viewOf(square(10, {0, 0, 0})), 0);
+    EXPECT_NEAR(bound.sure, 0.25, 1e-7);
+    EXPECT_GE(bound.upper, 0.25 - 1e-7);
+    EXPECT_LE(bound.upper, 0.275 + 1e-7);
+}
+
+TEST(SurfaceBound, doesNotTellApartWhatIsNearEnough)
+{
+    const SourceMesh fine = shapes::rock(40, 0.4f), coarse = shapes::rock(20, 0.4f);
+    const double tight = boundSurfaces(viewOf(fine), viewOf(coarse), 0).upper;
+    const double enough = boundSurfaces(viewOf(fine), viewOf(coarse), 10 * tight).upper;
+    EXPECT_GE(enough, sampled(fine, coarse) * (1 - 1e-6));
+    EXPECT_LE(enough, 11 * tight);
+}
+
+TEST(SurfaceBound, doesNotDependOnThreads)
+{
+    const SourceMesh a = shapes::rock(50, 0.4f), b = shapes::rock(11, 0.3f);
+    const SurfaceBound many = boundSurfaces(viewOf(a), viewOf(b), 0);
+    const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+    const SurfaceBound single = boundSurfaces(viewOf(a), viewOf(b), 0);
+    EXPECT_EQ(many.upper, single.upper);
+    EXPECT_EQ(many.sure, single.sure);
+}
+
+TEST(SurfaceTree, findsTheNearestTriangle)
+{
+    const SourceMesh mesh = shapes::tangle(60, 300);
+    const clusters::SurfaceTree tree(viewOf(mesh));
+    std::mt19937 random(5);
+    const auto uniform = [&] { return static_cast<double>(random()) / 2147483648.0 - 1.0; };
+    for (int i = 0; i < 500; ++i)
+    {
+        const Double3 point{uniform(), uniform(), uniform()};
+        double nearest2 = 1e30;
+        for (uint32_t t = 0; t < mesh.triangleCount(); ++t)
+            nearest2 = std::min(nearest2, clusters::distance2(point, tree.triangle(t)));
+        EXPECT_EQ(tree.nearest(point, 0, 0).distance2, nearest2);
+        EXPECT_LE(tree.nearest(point, 4 * nearest2, 0).distance2, 4 * nearest2);
+    }
+}
+
+TEST(SurfaceTree, measuresNeedlesAndPoints)
+{
+    const clusters::Corners3 needle{{{0, 0, 0}, {1, 0, 0}, {0.5, 0, 0}}};
+    EXPECT_DOUBLE_EQ(clusters::distance2({0.25, 2, 0}, needle), 4);
+    EXPECT_DOUBLE_EQ(clusters::distance2({-3, 0, 4}, needle), 25);
+    const clusters::Corners3 point{{{1, 1, 1}, {1, 1, 1}, {1, 1, 1}}};
+    EXPECT_DOUBLE_EQ(clusters::distance2({1, 1, 3}, point), 4);
+}
+
+} // namespace

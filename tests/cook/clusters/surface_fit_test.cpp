@@ -1,0 +1,206 @@
+// What fitting moves, what it leaves alone, and that the surface is nearer to the old one afterwards.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/clusters/surface/surface_fit.h"
+
+#include "cook/clusters/core/cluster.h"
+#include "cook/clusters/partition/split.h"
+#include "tests/support/shapes.h"
+#include "tests/support/surface_distance.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace
+{
+
+using namespace hearth;
+using namespace hearth::clusters;
+using mesh::SourceMesh;
+
+/// A group, what its simplification left, and what fitting made of that.
+struct Fitted
+{
+    GroupMesh group;
+    Simplified before;
+    Simplified after;
+    SurfacePoints points;
+    Surface surface;
+};
+
+/// All clusters of a mesh as one group, with every `lock_every`-th position locked.
+Fitted fit(const SourceMesh& mesh, double share, size_t lock_every)
+{
+    const PreparedMesh prepared = prepareMesh(mesh);
+    const ClusterStore store = splitMesh(prepared);
+    std::vector<uint32_t> members(store.shapes.size());
+    std::iota(members.begin(), members.end(), 0u);
+    std::vector<uint8_t> locked(prepared.position_count, 0);
+    for (size_t p = 0; p < locked.size(); p += lock_every)
+        locked[p] = 1;
+    GroupMesh group = gatherGroup(prepared, store, members, locked, {});
+    const auto target = static_cast<size_t>(share * static_cast<double>(group.triangleCount()));
+    const Simplified before = simplifyGroup(group, target, target);
+    Simplified after = before;
+    Surface surface(positionsOfCorners(group, after.corners), after.placement.places);
+    SurfacePoints points = findPoints(group, after, surface);
+    fitToGroup(group, after, surface, points);
+    return {std::move(group), before, std::move(after), std::move(points), std::move(surface)};
+}
+
+double rmsDistance(const GroupMesh& group, const Simplified& simplified)
+{
+    const std::vector<uint32_t> old_triangles = positionsOfCorners(group, group.corners);
+    const std::vector<uint32_t> new_triangles = positionsOfCorners(group, simplified.corners);
+    const SurfaceDistance distance(simplified.placement.places, new_triangles);
+    double sum = 0;
+    const auto points = evenlySpread(group.positions, old_triangles, 20000);
+    for (const SurfacePoint& point : points)
+    {
+        const double away = distance.to(valueAt(point, group.positions, old_triangles));
+        sum += away * away;
+    }
+    return std::sqrt(sum / static_cast<double>(points.size()));
+}
+
+SourceMesh sphere()
+{
+    return shapes::rock(16, 0);
+}
+
+TEST(SurfaceFit, bringsCurvedGroundNearer)
+{
+    const Fitted ball = fit(sphere(), 0.3, 1000000);
+    EXPECT_LT(rmsDistance(ball.group, ball.after), 0.85 * rmsDistance(ball.group, ball.before));
+}
+
+TEST(SurfaceFit, bringsRoughGroundNearer)
+{
+    const Fitted rock = fit(shapes::rock(20, 0.3f), 0.3, 50);
+    EXPECT_LT(rmsDistance(rock.group, rock.after), 0.97 * rmsDistance(rock.group, rock.before));
+}
+
+/// Stairs: floors three cells deep, walls one cell high.
+SourceMesh stairs()
+{
+    constexpr uint32_t kCells = 36;
+    SourceMesh mesh = shapes::grid(kCells);
+    for (Float3& p : mesh.positions)
+    {
+        const auto along = static_cast<uint32_t>(std::lround(p.x * kCells));
+        p.x = static_cast<float>(along / 4 * 3 + along % 4) / kCells;
+        p.z = static_cast<float>(along / 4) / kCells;
+    }
+    return mesh;
+}
+
+TEST(SurfaceFit, leavesWhatIsExactAsItIs)
+{
+    // what lies beyond the rim of a fan must not pull at it
+    for (const double share : {0.8, 0.6, 0.4})
+    {
+        const Fitted fitted = fit(stairs(), share, 1000000);
+        const double before = rmsDistance(fitted.group, fitted.before);
+        EXPECT_LT(rmsDistance(fitted.group, fitted.after), 1.2 * before + 1e-6) << share << ", " << before;
+    }
+}
+
+/// Square floors of `cells` x `cells`, each at a height of its own, with walls between them.
+SourceMesh terraces(uint32_t cells)
+{
+    const uint32_t across = cells + 1;
+    const uint32_t count = across * 7;
+    SourceMesh mesh = shapes::grid(count);
+    for (Float3& p : mesh.positions)
+    {
+        const auto x = static_cast<uint32_t>(std::lround(p.x * static_cast<float>(count)));
+        const auto y = static_cast<uint32_t>(std::lround(p.y * static_cast<float>(count)));
+        p = {static_cast<float>(x / across * cells + x % across),
+             static_cast<float>(y / across * cells + y % across),
+             static_cast<float>((x / across * 5 + y / across * 3) % 4) * 0.375f};
+    }
+    return mesh;
+}
+
+TEST(SurfaceFit, keepsFloorsFlatBesideWalls)
+{
+    // more than half can go without loss; middles of walls and of other floors must not pull at what stays
+    for (const uint32_t cells : {3u, 4u, 6u})
+        for (const double share : {0.6, 0.5, 0.4})
+        {
+            const Fitted fitted = fit(terraces(cells), share, 1000000);
+            ASSERT_LT(rmsDistance(fitted.group, fitted.before), 1e-9);
+            EXPECT_LT(rmsDistance(fitted.group, fitted.after), 1e-9) << cells << ", " << share;
+        }
+}
+
+TEST(SurfaceFit, movesOnlyWhatIsRemade)
+{
+    const Fitted rock = fit(shapes::rock(20, 0.3f), 0.4, 3);
+    size_t moved = 0;
+    for (size_t p = 0; p < rock.group.positions.size(); ++p)
+    {
+        const bool stays = rock.after.placement.places[p] == rock.before.placement.places[p];
+        EXPECT_TRUE(stays || (rock.before.placement.remade[p] != 0 && rock.group.locked[p] == 0)) << p;
+        moved += stays ? 0 : 1;
+    }
+    EXPECT_GT(moved, 100u);
+    EXPECT_EQ(rock.after.corners, rock.before.corners);
+    EXPECT_EQ(rock.after.placement.remade, rock.before.placement.remade);
+}
+
+TEST(SurfaceFit, keepsMovedPlacesOnTheGrid)
+{
+    const Fitted rock = fit(shapes::rock(20, 0.3f), 0.4, 3);
+    for (size_t p = 0; p < rock.group.positions.size(); ++p)
+        if (rock.after.placement.remade[p] != 0)
+            for (int axis = 0; axis < 3; ++axis)
+            {
+                const double steps = rock.after.placement.object_places[p][axis] / rock.group.grid_step;
+                EXPECT_EQ(steps, std::nearbyint(steps));
+            }
+}
+
+TEST(SurfaceFit, leavesAttributesAtSeamsAlone)
+{
+    // a chart of UVs for each side of the cube: two wedges at each position between them
+    const Fitted rock = fit(shapes::rock(20, 0.2f), 0.4, 1000000);
+    const uint32_t rows = rock.group.attribute_rows;
+    size_t changed = 0, at_seams = 0;
+    for (size_t wedge = 0; wedge < rock.group.vertex_of_wedge.size(); ++wedge)
+    {
+        const uint32_t position = rock.group.position_of_wedge[wedge];
+        bool same = true;
+        for (uint32_t r = 0; r < rows; ++r)
+            for (size_t lane = 0; lane < kLanes; ++lane)
+                same &= rock.after.placement.attributes[wedge * rows + r][lane] ==
+                        rock.before.placement.attributes[wedge * rows + r][lane];
+        if (rock.points.on_seam[position] != 0 && rock.after.placement.remade[position] != 0)
+        {
+            EXPECT_TRUE(same) << wedge;
+            ++at_seams;
+        }
+        changed += same ? 0 : 1;
+    }
+    EXPECT_GT(at_seams, 10u);
+    EXPECT_GT(changed, 100u);
+}
+
+TEST(SurfaceFit, pointsAndSurfaceGoWithIt)
+{
+    const Fitted rock = fit(shapes::rock(20, 0.3f), 0.4, 3);
+    for (size_t f = 0; f < rock.surface.facetCount(); ++f)
+        for (size_t k = 0; k < 3; ++k)
+            EXPECT_EQ(rock.surface.places[f * 3 + k],
+                      rock.after.placement.places[rock.surface.positions[f * 3 + k]]);
+    for (size_t p = 0; p < rock.group.positions.size(); ++p)
+        if (const FacetPoint& point = rock.points.of_position[p]; point.facet != kNoFacet)
+        {
+            const Float3 away = rock.group.positions[p] - placeOf(point, rock.surface.facets);
+            EXPECT_EQ(point.distance2, dot(away, away));
+        }
+}
+
+} // namespace

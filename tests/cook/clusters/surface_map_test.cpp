@@ -1,0 +1,307 @@
+// The map between a group's surfaces, and the errors that are carried on with it, against points that are looked at one
+// by one.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/clusters/surface/surface_map.h"
+
+#include "cook/clusters/core/cluster.h"
+#include "cook/clusters/error/deviation.h"
+#include "cook/clusters/partition/split.h"
+#include "cook/clusters/simplify/cell_merge.h"
+#include "tests/support/sanitized.h"
+#include "tests/support/shapes.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <random>
+
+namespace
+{
+
+using namespace hearth;
+using namespace hearth::clusters;
+using mesh::SourceMesh;
+
+// Rounding of distances between points in [-1, 1]^3.
+constexpr double kRounding = 4e-6;
+
+/// A group and what became of it.
+struct Pair
+{
+    GroupMesh group;
+    Simplified simplified;
+    Surface before;
+    Surface after;
+    SurfacePoints points;
+};
+
+/// A few clusters of a mesh, where some positions stay.
+GroupMesh groupOf(const SourceMesh& mesh, double locked_share, std::mt19937& random)
+{
+    const PreparedMesh prepared = prepareMesh(mesh);
+    const ClusterStore store = splitMesh(prepared);
+    std::vector<uint32_t> members(std::min<size_t>(store.shapes.size(), 8));
+    std::iota(members.begin(), members.end(), 0u);
+    std::vector<uint8_t> locked(prepared.position_count);
+    std::bernoulli_distribution stays(locked_share);
+    for (uint8_t& lock : locked)
+        lock = stays(random) ? 1 : 0;
+    GroupMesh group = gatherGroup(prepared, store, members, locked, {});
+    std::uniform_real_distribution<float> error(0, 0.05f);
+    for (float& e : group.errors)
+        e = error(random);
+    return group;
+}
+
+Pair simplifiedTo(double share, const GroupMesh& group, bool merge)
+{
+    const auto target = static_cast<size_t>(share * static_cast<double>(group.triangleCount()));
+    Simplified simplified = simplifyGroup(group, target, target);
+    if (merge)
+        mergeByCells(group, target, simplified);
+    Surface before(positionsOfCorners(group, group.corners), group.positions);
+    Surface after(positionsOfCorners(group, simplified.corners), simplified.placement.places);
+    SurfacePoints points = findPoints(group, simplified, after);
+    return {group, std::move(simplified), std::move(before), std::move(after), std::move(points)};
+}
+
+double distanceToSegment(Float3 p, Float3 a, Float3 b)
+{
+    const Float3 ab = b - a;
+    const float t = dot(ab, ab) > 0 ? std::clamp(dot(p - a, ab) / dot(ab, ab), 0.0f, 1.0f) : 0.0f;
+    return length(p - (a + ab * t));
+}
+
+double distanceToTriangle(Float3 p, const Corners& t)
+{
+    const Float3 n = cross(t[1] - t[0], t[2] - t[0]);
+    bool inside = dot(n, n) > 0;
+    double nearest = 1e30;
+    for (size_t k = 0; k < 3; ++k)
+    {
+        const Float3 a = t[k], b = t[(k + 1) % 3];
+        inside = inside && dot(cross(b - a, p - a), n) >= 0;
+        nearest = std::min(nearest, distanceToSegment(p, a, b));
+    }
+    return inside ? std::min(nearest, std::abs(double{dot(p - t[0], n)}) / length(n)) : nearest;
+}
+
+std::vector<Float3> samplesOf(const Corners& triangle, std::mt19937& random)
+{
+    std::vector<Float3> samples(triangle.begin(), triangle.end());
+    std::uniform_real_distribution<float> unit(0, 1);
+    for (int i = 0; i < 5; ++i)
+    {
+        float v = unit(random), w = unit(random);
+        if (v + w > 1)
+        {
+            v = 1 - v;
+            w = 1 - w;
+        }
+        if (i < 2)
+            v = 0; // on a side
+        samples.push_back(triangle[0] * (1 - v - w) + triangle[1] * v + triangle[2] * w);
+    }
+    return samples;
+}
+
+/// Each point of the triangles `from` for which `tells` says so is near a triangle of `to`: within what is allowed for
+/// the pair.
+template <typename Tells, typename Allowed>
+void expectNear(const Surface& from, const Surface& to, Tells tells, Allowed allowed, const char* what)
+{
+    std::mt19937 random(9);
+    size_t bad = 0;
+    for (size_t t = 0; t < from.facetCount(); t += test::kSanitized ? 10 : 1)
+    {
+        if (!tells(t))
+            continue;
+        for (const Float3 point : samplesOf(from.cornersOf(t), random))
+        {
+            bool found = false;
+            for (size_t f = 0; f < to.facetCount() && !found; ++f)
+                if (const double limit = allowed(t, f) + kRounding; limit >= 0)
+                    found = distanceToTriangle(point, to.cornersOf(f)) <= limit;
+            bad += found ? 0 : 1;
+        }
+    }
+    EXPECT_EQ(bad, 0u) << what;
+}
+
+struct Shares
+{
+    double mapped = 0, covered = 0; ///< of those that changed
+};
+
+/// All that the map says holds.
+Shares expectSoundMap(const Pair& pair, std::span<const FacetPoint> points)
+{
+    std::vector<uint8_t> all(pair.before.facetCount(), 1);
+    const SurfaceMap map(pair.group, pair.simplified, pair.before.positions, pair.after, points, all);
+    const std::vector<float>& errors = pair.group.errors;
+    const std::vector<float> sums = map.sumsOver(errors);
+    // a source that is as far from a triangle as it may be is near what the triangle became
+    expectNear(
+        pair.before, pair.after, [&](size_t t) { return map.maps(t); },
+        [&](size_t t, size_t f)
+        { return std::min(double{map.farOf(t)}, double{sums[f]} - double{errors[t]}); },
+        "before to after");
+    expectNear(
+        pair.after, pair.before, [&](size_t f) { return map.covers(f); },
+        [&](size_t f, size_t t) { return map.maps(t) ? double{sums[f]} - double{errors[t]} : -1.0; },
+        "after to before");
+    Shares shares;
+    for (size_t t = 0; t < all.size(); ++t)
+        shares.mapped += map.maps(t) ? 1.0 : 0.0;
+    for (size_t f = 0; f < pair.after.facetCount(); ++f)
+        shares.covered += map.covers(f) ? 1.0 : 0.0;
+    shares.mapped /= static_cast<double>(all.size());
+    shares.covered /= static_cast<double>(pair.after.facetCount());
+    return shares;
+}
+
+void expectSoundErrors(const Pair& pair)
+{
+    const Deviation deviation =
+        boundDeviation(pair.group, pair.simplified, pair.after, pair.points.of_position);
+    const auto allowed = [&](size_t t, size_t f)
+    { return double{deviation.errors[f]} - double{pair.group.errors[t]}; };
+    const auto always = [](size_t) { return true; };
+    expectNear(pair.before, pair.after, always, allowed, "errors, before to after");
+    expectNear(
+        pair.after, pair.before, always, [&](size_t f, size_t t) { return allowed(t, f); },
+        "errors, after to before");
+}
+
+/// Points that are anywhere near: the map may be bad, but what it says must hold.
+std::vector<FacetPoint> scattered(const Pair& pair, double share, std::mt19937& random)
+{
+    std::vector<FacetPoint> points = pair.points.of_position;
+    std::uniform_real_distribution<float> unit(0, 1);
+    for (size_t p = 0; p < points.size(); ++p)
+    {
+        FacetPoint& point = points[p];
+        if (point.facet == kNoFacet || unit(random) > share)
+            continue;
+        for (int steps = 0; steps < 2; ++steps)
+        {
+            const uint32_t corner = point.facet * 3 + static_cast<uint32_t>(random() % 3);
+            const auto fan = pair.after.facets_at.of(pair.after.positions[corner]);
+            point.facet = fan[random() % fan.size()];
+        }
+        point.v = unit(random);
+        point.w = unit(random) * (1 - point.v);
+        if (random() % 4 == 0)
+            point.v = 0;
+        if (random() % 4 == 0)
+            point.w = 0;
+        const Corners c = pair.after.cornersOf(point.facet);
+        const Float3 away =
+            c[0] * (1 - point.v - point.w) + c[1] * point.v + c[2] * point.w - pair.group.positions[p];
+        point.distance2 = dot(away, away);
+    }
+    return points;
+}
+
+/// The least shares over several ways to simplify a mesh.
+Shares expectSound(const SourceMesh& mesh)
+{
+    std::mt19937 random(3);
+    Shares least{1, 1};
+    for (const double locked : {0.0, 0.3})
+    {
+        const GroupMesh group = groupOf(mesh, locked, random);
+        for (const double share : {0.5, 0.1})
+            for (const bool merge : {false, true})
+            {
+                SCOPED_TRACE(testing::Message()
+                             << locked << " locked, " << share << " left, merge " << merge);
+                const Pair pair = simplifiedTo(share, group, merge);
+                if (pair.after.facetCount() == 0)
+                    continue;
+                const Shares shares = expectSoundMap(pair, pair.points.of_position);
+                expectSoundMap(pair, scattered(pair, 0.05, random));
+                expectSoundMap(pair, scattered(pair, 1, random));
+                expectSoundErrors(pair);
+                if (share == 0.5 && !merge)
+                    least = {std::min(least.mapped, shares.mapped), std::min(least.covered, shares.covered)};
+            }
+    }
+    return least;
+}
+
+TEST(SurfaceMap, ofARockIsSoundAndWhole)
+{
+    const Shares shares = expectSound(shapes::rock(9, 0.4f));
+    EXPECT_GT(shares.mapped, 0.99);
+    EXPECT_GT(shares.covered, 0.97);
+}
+
+TEST(SurfaceMap, ofATerrainIsSoundAndWholeInside)
+{
+    const Shares shares = expectSound(shapes::terrain(22));
+    EXPECT_GT(shares.mapped, 0.97);
+    EXPECT_GT(shares.covered, 0.5) << "not where the border moved";
+}
+
+TEST(SurfaceMap, ofBlocksIsSound)
+{
+    expectSound(shapes::blocks(9));
+}
+
+TEST(SurfaceMap, ofAPlaneIsSound)
+{
+    expectSound(shapes::grid(20));
+}
+
+TEST(SurfaceMap, ofAMoebiusStripIsSound)
+{
+    expectSound(shapes::moebius(60, 6));
+}
+
+TEST(SurfaceMap, ofLooseQuadsIsSound)
+{
+    expectSound(shapes::foliage(300));
+}
+
+TEST(SurfaceMap, ofNonManifoldTrianglesIsSound)
+{
+    expectSound(shapes::tangle(120, 500));
+    expectSound(shapes::tangle(30, 300));
+    expectSound(shapes::soup(300));
+}
+
+TEST(SurfaceMap, ofSheetsThatLieOnEachOtherIsSound)
+{
+    SourceMesh mesh = shapes::rock(5, 0.4f);
+    SourceMesh other = mesh;
+    for (Float3& p : other.positions)
+        p = p * 1.001f;
+    shapes::append(mesh, other);
+    for (size_t i = 0; i < other.indices.size(); i += 3)
+        std::swap(other.indices[i], other.indices[i + 1]);
+    shapes::append(mesh, other);
+    expectSound(mesh);
+}
+
+TEST(SideTwins, areWhereTwoSidesMeetTheOtherWayRound)
+{
+    // two facets that share a side; three around another; one with a corner twice
+    const std::vector<uint32_t> positions{0, 1, 2, 0, 2, 3, 3, 4, 5, 4, 3, 6, 4, 3, 7, 8, 8, 9};
+    const std::vector<uint32_t> twins = sideTwins(positions, 10);
+    EXPECT_EQ(twins[2], 3u);
+    EXPECT_EQ(twins[3], 2u);
+    for (size_t side = 4; side < 16; ++side)
+        EXPECT_EQ(twins[side], kNoSide) << side;
+    // more around one position than usual
+    std::vector<uint32_t> fan;
+    for (uint32_t k = 1; k <= 30; ++k)
+        fan.insert(fan.end(), {0, k, k % 30 + 1});
+    const std::vector<uint32_t> around = sideTwins(fan, 31);
+    for (uint32_t k = 0; k < 30; ++k)
+        EXPECT_EQ(around[k * 3], (k + 29) % 30 * 3 + 2);
+}
+
+} // namespace

@@ -1,0 +1,199 @@
+// A clusters part whose visibilities are written again.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/clusters/program/cluster_part.h"
+#include "cook/pages/rewrite.h"
+#include "formats/pack/pack_check.h"
+#include "tests/support/shapes.h"
+#include "tests/support/small_pack.h"
+#include "tests/support/temporary_folder.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <fstream>
+#include <iterator>
+#include <set>
+
+#include <tbb/global_control.h>
+
+namespace
+{
+
+using namespace hearth;
+using namespace hearth::formats;
+using pages::PageVertices;
+
+std::string messageOf(const Status& status)
+{
+    return status.ok() ? "" : formatMessage(status.error());
+}
+
+std::string readFile(const std::string& path)
+{
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
+ContainerReader open(const std::string& path)
+{
+    auto reader = ContainerReader::open(path);
+    EXPECT_TRUE(reader.ok()) << path;
+    return std::move(*reader);
+}
+
+/// Meshes whose triangles do and do not hang together, with levels by hand, joints and morph targets; the last has no normals.
+std::vector<mesh::SourceMesh> sampleMeshes()
+{
+    std::vector<mesh::SourceMesh> meshes{shapes::rock(24, 0.3f),  shapes::rock(12, 0), shapes::soup(300),
+                                         shapes::tangle(60, 400), shapes::blocks(8),   shapes::grid(30)};
+    for (size_t i = 0; i < 5; ++i)
+        meshes[i].normals.resize(meshes[i].vertexCount(), Float3{0, 0.6f, 0.8f});
+    meshes[5].normals.clear();
+    meshes[2].joint_sets.push_back(std::vector<mesh::Joints4>(meshes[2].vertexCount()));
+    meshes[2].weight_sets.push_back(std::vector<Float4>(meshes[2].vertexCount(), {1, 0, 0, 0}));
+    mesh::MorphTarget target;
+    for (uint32_t v = 0; v < meshes[4].vertexCount(); ++v)
+        target.positions.push_back({0, v % 3 == 0 ? 0.25f : 0, 0});
+    meshes[4].morph_targets.push_back(std::move(target));
+    return meshes;
+}
+
+class Rewrite : public ::testing::Test
+{
+protected:
+    Rewrite()
+    {
+        const std::string import_path = folder.file("import.part");
+        auto writer = ContainerWriter::create(import_path, ContainerKind::part);
+        const std::vector<mesh::SourceMesh> meshes = sampleMeshes();
+        for (uint32_t i = 0; i < meshes.size(); ++i)
+            EXPECT_TRUE(mesh::writeSourceMesh(*writer, i, meshes[i]).ok());
+        EXPECT_TRUE(writer->finish().ok());
+        const auto configure = [](const std::string&)
+        {
+            clusters::Config config;
+            config.visibility = true;
+            return config;
+        };
+        EXPECT_EQ(messageOf(clusters::writeClustersPart(open(import_path), path, configure, {})), "");
+    }
+
+    const test::TemporaryFolder folder;
+    const std::string path = folder.file("clusters.part");
+};
+
+/// Of a place: what two clusters share they get alike.
+uint32_t codeOf(Float3 position)
+{
+    const auto wave = [](float x) { return std::abs(std::sin(7 * x)); };
+    const float share = wave(position.x + position.y) * wave(position.z);
+    return encodeVisibility(6.2f * share, {0, 0.1f * share, 3 * share}, {0, 0, 1});
+}
+
+void editByPlace(const PageVertices& page, std::span<uint32_t> codes)
+{
+    size_t next = 0;
+    for (const ClusterGeometry& cluster : page.geometry)
+        for (uint32_t v = 0; v < cluster.vertexCount(); ++v)
+            codes[next++] = codeOf(cluster.position(v));
+    ASSERT_EQ(next, codes.size());
+}
+
+TEST_F(Rewrite, ofNothingIsTheSameToTheByte)
+{
+    const std::string out = folder.file("same.part");
+    std::atomic<uint32_t> vertices = 0, open_vertices = 0;
+    const auto count = [&](const PageVertices&, std::span<uint32_t> codes)
+    {
+        vertices += static_cast<uint32_t>(codes.size());
+        open_vertices += static_cast<uint32_t>(std::count(codes.begin(), codes.end(), kVisibilityOpen));
+    };
+    ASSERT_EQ(messageOf(pages::rewriteVisibility(open(path), out, count)), "");
+    EXPECT_TRUE(readFile(path) == readFile(out));
+    EXPECT_EQ(vertices, open_vertices) << "as hearth-clusters writes them";
+    EXPECT_GT(vertices, 10000u);
+}
+
+TEST_F(Rewrite, changesVisibilitiesAndNothingElse)
+{
+    const std::string out = folder.file("edited.part");
+    ASSERT_EQ(messageOf(pages::rewriteVisibility(open(path), out, editByPlace)), "");
+    const auto before = PackView::read(open(path)), after = PackView::read(open(out));
+    ASSERT_TRUE(before.ok() && after.ok());
+    EXPECT_EQ(messageOf(checkHierarchy(*after)), "");
+    for (uint32_t p = 0; p < before->pages().size(); ++p)
+    {
+        const std::vector<std::byte> old_bytes = before->decodePage(p).value();
+        const std::vector<std::byte> new_bytes = after->decodePage(p).value();
+        ASSERT_EQ(old_bytes.size(), new_bytes.size());
+        const PageRecord& page = before->pages()[p];
+        const MeshRecord& mesh = before->meshes()[page.mesh];
+        std::vector<std::byte> reverted = new_bytes;
+        for (const ClusterRecord& record : recordsOf(after->clusters(), page.clusters))
+        {
+            const auto geometry = ClusterGeometry::at(new_bytes, record, mesh);
+            ASSERT_TRUE(geometry.has_value());
+            for (uint32_t v = 0; geometry->has(kVertexVisibility) && v < geometry->vertexCount(); ++v)
+            {
+                ASSERT_EQ(geometry->visibilityCode(v), codeOf(geometry->position(v)));
+                const uint32_t layout = geometry->layout();
+                const size_t word = record.page_word + uvBaseWords(layout) + v * vertexWords(layout) +
+                                    attributeWord(layout, kVertexVisibility);
+                std::memcpy(reverted.data() + word * 4, &kVisibilityOpen, 4);
+            }
+        }
+        ASSERT_TRUE(reverted == old_bytes) << "page " << p;
+    }
+    // back again
+    const std::string back = folder.file("back.part");
+    const auto open_all = [](const PageVertices&, std::span<uint32_t> codes)
+    { std::fill(codes.begin(), codes.end(), kVisibilityOpen); };
+    ASSERT_EQ(messageOf(pages::rewriteVisibility(open(out), back, open_all)), "");
+    EXPECT_TRUE(readFile(path) == readFile(back));
+}
+
+TEST_F(Rewrite, ofManyThreadsIsThatOfOne)
+{
+    const std::string one = folder.file("one.part"), many = folder.file("many.part");
+    {
+        const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, 1);
+        ASSERT_EQ(messageOf(pages::rewriteVisibility(open(path), one, editByPlace)), "");
+    }
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, 4);
+    ASSERT_EQ(messageOf(pages::rewriteVisibility(open(path), many, editByPlace)), "");
+    EXPECT_TRUE(readFile(one) == readFile(many));
+}
+
+TEST_F(Rewrite, leavesMeshesWithoutNormalsAlone)
+{
+    const auto view = PackView::read(open(path));
+    ASSERT_TRUE(view.ok());
+    EXPECT_EQ(view->meshes()[0].attributes & kVertexVisibility, kVertexVisibility);
+    EXPECT_EQ(view->meshes()[5].attributes & kVertexVisibility, 0u);
+    std::array<std::atomic<uint32_t>, 6> pages_of_mesh{};
+    const auto count = [&](const PageVertices& page, std::span<uint32_t>)
+    {
+        EXPECT_EQ(page.geometry.size(), page.clusters.count);
+        EXPECT_EQ(view->pages()[page.page].clusters.first, page.clusters.first);
+        ++pages_of_mesh[page.mesh];
+    };
+    ASSERT_EQ(messageOf(pages::rewriteVisibility(open(path), folder.file("out.part"), count)), "");
+    for (uint32_t mesh = 0; mesh < 5; ++mesh)
+        EXPECT_EQ(pages_of_mesh[mesh], view->meshes()[mesh].pages.count);
+    EXPECT_EQ(pages_of_mesh[5], 0u);
+}
+
+TEST_F(Rewrite, refusesPagesOfAnotherCodec)
+{
+    const test::AlignedBytes bytes = test::smallPack().bytes();
+    const auto pack = ContainerReader::fromBytes(bytes.span(), "small.hearth");
+    ASSERT_TRUE(pack.ok());
+    const std::string out = folder.file("out.part");
+    const Status status =
+        pages::rewriteVisibility(*pack, out, [](const PageVertices&, std::span<uint32_t>) {});
+    ASSERT_FALSE(status.ok());
+    EXPECT_EQ(status.error().issue, Issue::chunk_codec) << formatMessage(status.error());
+    EXPECT_FALSE(std::ifstream(out).good());
+}
+
+} // namespace

@@ -1,0 +1,103 @@
+// Samples that something covers closely: which they are, and that they hardly count.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/visibility/fit/vertex_fit.h"
+#include "cook/visibility/rays/interior_samples.h"
+#include "tests/cook/visibility/ray_scenes.h"
+#include "tests/cook/visibility/surface_samples_of.h"
+
+#include <gtest/gtest.h>
+
+namespace hearth::visibility
+{
+
+namespace
+{
+
+/// Whether a point of a floor is buried below a sheet of 2 x 2 m at a height.
+bool isBuried(float height, Float3 position, float reach)
+{
+    Mesh sheet;
+    sheet.addQuad({-1, -1, height}, {1, -1, height}, {1, 1, height}, {-1, 1, height});
+    const Occluders occluders = occludersOf({sheet.occluder()});
+    const SamplePoint point{position, kUp, 1e-6f};
+    const auto moments = visibilityMoments(occluders, {&point, 1}, {});
+    return buriedPoints(occluders, {&point, 1}, *moments, {&reach, 1}, 0)[0] != 0;
+}
+
+} // namespace
+
+TEST(BuriedPoints, areThoseThatSomethingCoversClosely)
+{
+    EXPECT_TRUE(isBuried(0.005f, {0.2f, -0.3f, 0}, 0.1f));
+    EXPECT_FALSE(isBuried(0.005f, {1.1f, 0, 0}, 0.1f)) << "beside it";
+    EXPECT_FALSE(isBuried(0.005f, {0.2f, -0.3f, 0}, 0.004f)) << "as seen by a fine mesh";
+    EXPECT_FALSE(isBuried(0.3f, {0, 0, 0}, 0.1f)) << "a ceiling";
+}
+
+TEST(BuriedPoints, areNotThoseInTheDark)
+{
+    // within a closed box of two metres, where nothing is seen of the sky
+    Mesh box;
+    box.addQuad({-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0});
+    box.addQuad({-1, -1, 2}, {-1, 1, 2}, {1, 1, 2}, {1, -1, 2});
+    box.addQuad({-1, -1, 0}, {-1, -1, 2}, {1, -1, 2}, {1, -1, 0});
+    box.addQuad({-1, 1, 0}, {1, 1, 0}, {1, 1, 2}, {-1, 1, 2});
+    box.addQuad({-1, -1, 0}, {-1, 1, 0}, {-1, 1, 2}, {-1, -1, 2});
+    box.addQuad({1, -1, 0}, {1, -1, 2}, {1, 1, 2}, {1, 1, 0});
+    const Occluders occluders = occludersOf({box.occluder()});
+    const SamplePoint points[] = {{{0, 0, 0}, kUp, 1e-6f}, {{0.9f, 0.9f, 0}, kUp, 1e-6f}};
+    const auto moments = visibilityMoments(occluders, points, {});
+    EXPECT_EQ((*moments)[0].m0, 0);
+    const float reach[] = {0.06f, 0.06f};
+    for (const uint8_t buried : buriedPoints(occluders, points, *moments, reach, 0))
+        EXPECT_EQ(buried, 0);
+}
+
+TEST(FitVertices, doesNotChangeWhereAllSamplesCountAsLittle)
+{
+    const mesh::SourceMesh rock = shapes::rock(8, 0.4f);
+    const Proxy proxy = makeProxy(test::viewOf(rock));
+    std::vector<SurfaceSample> samples = test::samplesOf(proxy.view(), 2);
+    std::vector<Moments> values;
+    for (const SurfaceSample& sample : samples)
+        values.push_back({3 + test::pointOf(proxy.view(), sample).x, {0, 0.1f, 0.2f}});
+    const FitResult whole = fitVertices(proxy, samples, values);
+    for (SurfaceSample& sample : samples)
+        sample.weight = 1e-3f;
+    const FitResult little = fitVertices(proxy, samples, values);
+    for (size_t v = 0; v < whole.moments.size(); ++v)
+        EXPECT_NEAR(whole.moments[v].m0, little.moments[v].m0, 1e-5);
+}
+
+TEST(FitVertices, isRightBesideWhatIsBuriedInFewIterations)
+{
+    // half of a plane hardly counts and is dark: the other half does not feel it, nor does the solver
+    mesh::SourceMesh grid = shapes::grid(40);
+    grid.normals.assign(grid.vertexCount(), {});
+    const Proxy proxy = makeProxy(test::viewOf(grid));
+    Box3 box;
+    for (const Float3 p : proxy.positions)
+        box.add(p);
+    const float middle = box.center().x;
+    std::vector<SurfaceSample> samples = test::samplesOf(proxy.view(), 3);
+    std::vector<Moments> values;
+    for (SurfaceSample& sample : samples)
+    {
+        const bool buried = test::pointOf(proxy.view(), sample).x > middle + 0.01f;
+        sample.weight = buried ? 1e-3f : 1;
+        values.push_back({buried ? 0.0f : 6.0f, {}});
+    }
+    const FitResult fit = fitVertices(proxy, samples, values);
+    EXPECT_LE(fit.statistics.solve.iterations, 25u);
+    const float step = (box.max.x - box.min.x) / 40;
+    for (size_t v = 0; v < proxy.positions.size(); ++v)
+    {
+        const float x = proxy.positions[v].x;
+        if (x < middle || x > middle + 3 * step)
+        {
+            EXPECT_NEAR(fit.moments[v].m0, x < middle ? 6 : 0, 0.05);
+        }
+    }
+}
+
+} // namespace hearth::visibility

@@ -1,0 +1,26 @@
+// Samples on meshes for tests of the visibility fit; the same on every machine.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "cook/mesh/source_mesh.h"
+#include "cook/visibility/mesh/mesh_view.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace hearth::test
+{
+
+inline visibility::MeshView viewOf(const mesh::SourceMesh& mesh)
+{
+    return {mesh.positions, mesh.normals, mesh.indices};
+}
+
+/// `per_triangle` samples on each triangle, uniform at random, each for its share of the area.
+std::vector<visibility::SurfaceSample> samplesOf(const visibility::MeshView& mesh, uint32_t per_triangle,
+                                                 uint32_t seed = 1);
+
+/// Where a sample is.
+Float3 pointOf(const visibility::MeshView& mesh, const visibility::SurfaceSample& sample);
+
+} // namespace hearth::test

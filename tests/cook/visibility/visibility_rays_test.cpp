@@ -1,0 +1,219 @@
+// Moments by rays against closed forms.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "tests/cook/visibility/ray_scenes.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace hearth::visibility
+{
+namespace
+{
+
+TEST(VisibilityMoments, ofAPlaneAreExactlyTheOpenHemisphere)
+{
+    const Mesh floor = floorOf(1);
+    const Occluders occluders = occludersOf({floor.occluder()});
+    const std::vector<SamplePoint> points = pointsOf(floor, 100);
+    const auto moments = visibilityMoments(occluders, points, {});
+    for (const Moments& m : *moments)
+    {
+        EXPECT_EQ(m.m0, static_cast<float>(2 * kPi));
+        EXPECT_EQ(m.m1, (Float3{0, 0, static_cast<float>(kPi)}));
+    }
+}
+
+TEST(VisibilityMoments, insideASolidAreExactlyNothing)
+{
+    const Mesh sphere = sphereOf(16, 32, 1, true);
+    const auto moments = visibilityMoments(occludersOf({sphere.occluder()}), pointsOf(sphere, 1), {});
+    for (const Moments& m : *moments)
+    {
+        EXPECT_EQ(m.m0, 0);
+        EXPECT_EQ(m.m1, (Float3{}));
+    }
+}
+
+TEST(VisibilityMoments, atACreaseAreHalf)
+{
+    Mesh mesh = floorOf(kFar);
+    mesh.addQuad({0, -kFar, 0}, {0, kFar, 0}, {0, kFar, kFar}, {0, -kFar, kFar});
+    const Moments m = seenFrom(occludersOf({mesh.occluder()}), {0.01f, 0, 0}, kUp);
+    EXPECT_NEAR(occlusionOf(m, kUp), 0.5, 3e-4);
+    EXPECT_NEAR(m.m0, kPi, 2e-3);
+    // the design note's cone: 65.53 degrees, scale 0.8536
+    const double rho = double{length(m.m1)} / double{m.m0};
+    EXPECT_NEAR(std::acos(2 * rho - 1) * 180 / kPi, 65.53, 0.05);
+    EXPECT_NEAR(double{m.m0} / (4 * kPi * (1 - rho)), 0.8536, 1e-3);
+}
+
+TEST(VisibilityMoments, atACornerAreAQuarter)
+{
+    Mesh mesh = floorOf(kFar);
+    mesh.addQuad({0, -kFar, 0}, {0, kFar, 0}, {0, kFar, kFar}, {0, -kFar, kFar});
+    mesh.addQuad({-kFar, 0, 0}, {kFar, 0, 0}, {kFar, 0, kFar}, {-kFar, 0, kFar});
+    const Moments m = seenFrom(occludersOf({mesh.occluder()}), {0.01f, 0.01f, 0}, kUp);
+    EXPECT_NEAR(occlusionOf(m, kUp), 0.25, 3e-4);
+    const double rho = double{length(m.m1)} / double{m.m0};
+    EXPECT_NEAR(std::acos(2 * rho - 1) * 180 / kPi, 42.94, 0.05);
+}
+
+TEST(VisibilityMoments, besideAWallAreThoseOfItsHeight)
+{
+    const float h = 1;
+    Mesh mesh = floorOf(kFar);
+    mesh.addQuad({0, -kFar, 0}, {0, kFar, 0}, {0, kFar, h}, {0, -kFar, h});
+    const Occluders occluders = occludersOf({mesh.occluder()});
+    for (const float x : {0.1f, 0.5f, 1.0f, 4.0f})
+    {
+        const Moments m = seenFrom(occluders, {x, 0, 0}, kUp);
+        const double phi = std::atan2(double{h}, double{x});
+        EXPECT_NEAR(m.m0, 2 * kPi - 2 * phi, 3e-3) << x;
+        EXPECT_NEAR(m.m1.x, kPi / 2 * std::sin(phi), 1.5e-3) << x;
+        EXPECT_NEAR(m.m1.y, 0, 1.5e-3) << x;
+        EXPECT_NEAR(m.m1.z, kPi / 2 * (1 + std::cos(phi)), 1.5e-3) << x;
+    }
+}
+
+TEST(VisibilityMoments, atTheBottomOfAGrooveAreThoseOfItsOpening)
+{
+    for (const double opening : {0.3, 1.0, 2.0})
+    {
+        const double s = std::sin(opening / 2) * double{kFar}, c = std::cos(opening / 2) * double{kFar};
+        const auto x = static_cast<float>(s), z = static_cast<float>(c);
+        Mesh mesh;
+        mesh.addQuad({0, -kFar, 0}, {x, -kFar, z}, {x, kFar, z}, {0, kFar, 0});
+        mesh.addQuad({0, -kFar, 0}, {0, kFar, 0}, {-x, kFar, z}, {-x, -kFar, z});
+        const Moments m = seenFrom(occludersOf({mesh.occluder()}), {0, 0, 1e-3f}, kUp);
+        EXPECT_NEAR(occlusionOf(m, kUp), std::sin(opening / 2), 1e-3) << opening;
+    }
+}
+
+TEST(VisibilityMoments, inAPitAreThoseOfItsMouth)
+{
+    const float r = 0.7f, d = 1.1f;
+    Mesh mesh;
+    constexpr int kSectors = 256;
+    for (int i = 0; i < kSectors; ++i)
+    {
+        const double a = 2 * kPi * i / kSectors, b = 2 * kPi * (i + 1) / kSectors;
+        const Float3 at_a{r * static_cast<float>(std::cos(a)), r * static_cast<float>(std::sin(a)), 0};
+        const Float3 at_b{r * static_cast<float>(std::cos(b)), r * static_cast<float>(std::sin(b)), 0};
+        mesh.addQuad(at_a, at_a + kUp * d, at_b + kUp * d, at_b);
+    }
+    const Moments m = seenFrom(occludersOf({mesh.occluder()}), {}, kUp);
+    const double exact = double{r} * r / (double{r} * r + double{d} * d);
+    EXPECT_NEAR(occlusionOf(m, kUp), exact, 5e-4);
+    // a cone of scale 1: its half angle is the mouth's
+    const double rho = double{length(m.m1)} / double{m.m0};
+    EXPECT_NEAR(2 * rho - 1, std::sqrt(1 - exact), 1e-3);
+    EXPECT_NEAR(double{m.m0} / (4 * kPi * (1 - rho)), 1, 2e-3);
+}
+
+TEST(VisibilityMoments, underASphereAreThoseOfItsCap)
+{
+    const float height = 1.2f;
+    const Mesh floor = floorOf(10);
+    const Mesh sphere = transformed(sphereOf(64, 128, 1, false), scaledAndMoved(1, {0, 0, height}));
+    const Occluders occluders = occludersOf({floor.occluder(), sphere.occluder()});
+    for (const float x : {0.0f, 0.8f, 2.0f})
+    {
+        const double h = double{height}, exact = 1 - h / std::pow(h * h + double{x} * x, 1.5);
+        EXPECT_NEAR(occlusionOf(seenFrom(occluders, {x, 0, 0}, kUp), kUp), exact, 1e-3) << x;
+    }
+}
+
+TEST(VisibilityMoments, underAnAttenuatedCeilingAreThoseOfItsLaw)
+{
+    Mesh ceiling = floorOf(kFar);
+    for (Float3& p : ceiling.positions)
+        p.z = 0.6f;
+    const Occluders occluders = occludersOf({ceiling.occluder()});
+    const float distance = 1.5f;
+    const double k = 0.4, log_k = std::log(k);
+    const Moments p1 = seenFrom(occluders, {}, kUp, {.distance = distance, .power = 1});
+    EXPECT_NEAR(p1.m0, 2 * kPi * k * (1 - log_k), 5e-4);
+    EXPECT_NEAR(p1.m1.z, 2 * kPi * (k - k * k / 2), 5e-4);
+    const Moments p2 = seenFrom(occluders, {}, kUp, {.distance = distance, .power = 2});
+    EXPECT_NEAR(p2.m0, 2 * kPi * (2 * k - k * k), 5e-4);
+    EXPECT_NEAR(p2.m1.z, 2 * kPi * k * k * (0.5 - log_k), 5e-4);
+    // powers in between go between
+    const Moments p15 = seenFrom(occluders, {}, kUp, {.distance = distance, .power = 1.5f});
+    EXPECT_LT(p15.m0, p1.m0);
+    EXPECT_GT(p15.m0, p2.m0);
+    // a limit without attenuation: hidden where the ceiling is nearer, and so with hits from nearest on
+    const Moments limited = seenFrom(occluders, {}, kUp, {.distance = distance});
+    EXPECT_NEAR(limited.m0, 2 * kPi * k, 2e-3);
+    const Moments ring = seenFrom(occluders, {}, kUp, {.distance = distance, .nearest = 1.2f});
+    EXPECT_NEAR(ring.m0, 2 * kPi * (k + 1 - 0.5), 2e-3);
+}
+
+TEST(VisibilityMoments, ofABowlAreConstant)
+{
+    // the bottom of a sphere up to polar angle 0.4 pi: occlusion 1 - A / (4 pi R^2) at every point
+    const Mesh bowl = sphereOf(40, 160, 0.4, true);
+    const std::vector<SamplePoint> all = pointsOf(bowl, 0);
+    std::vector<SamplePoint> points;
+    for (size_t i = 0; i < all.size(); i += 20)
+        points.push_back(all[i]);
+    const auto moments = visibilityMoments(occludersOf({bowl.occluder()}), points, {.rays_per_sample = 1024});
+    const double exact = 1 - (1 - std::cos(0.4 * kPi)) / 2;
+    double squares = 0, mean = 0;
+    for (size_t i = 0; i < points.size(); ++i)
+    {
+        const double ao = occlusionOf((*moments)[i], points[i].normal);
+        mean += ao / static_cast<double>(points.size());
+        squares += (ao - exact) * (ao - exact) / static_cast<double>(points.size());
+    }
+    // facets of 2.25 degrees see a little less or more than the sphere
+    EXPECT_NEAR(mean, exact, 5e-4);
+    EXPECT_LT(std::sqrt(squares), 0.004);
+}
+
+TEST(VisibilityHigherMoments, areThoseOfACapAndOfTheOpenHemisphere)
+{
+    // what is above a round mouth: visible within a half-angle of the normal
+    const double mouth = 0.8;
+    Mesh funnel;
+    constexpr int kSectors = 256;
+    for (int i = 0; i < kSectors; ++i)
+    {
+        const auto at = [&](int sector, float height)
+        {
+            const double azimuth = 2 * kPi * sector / kSectors, r = height == 0 ? 20 : std::tan(mouth);
+            return Float3{static_cast<float>(r * std::cos(azimuth)),
+                          static_cast<float>(r * std::sin(azimuth)), height};
+        };
+        funnel.addQuad(at(i, 0), at(i, 1), at(i + 1, 1), at(i + 1, 0));
+    }
+    const Occluders occluders = occludersOf({funnel.occluder()});
+    const SamplePoint point{{}, kUp, 1e-6f};
+    const RaySettings settings{.rays_per_sample = 1 << 16};
+    const HigherMoments m = visibilityHigherMoments(occluders, {&point, 1}, settings).value()[0];
+    const double c = std::cos(mouth), zz = 2 * kPi * (1 - c * c * c) / 3, xx = (2 * kPi * (1 - c) - zz) / 2;
+    EXPECT_NEAR(m.second.xx, xx, 1.5e-3);
+    EXPECT_NEAR(m.second.yy, xx, 1.5e-3);
+    EXPECT_NEAR(m.second.zz, zz, 1.5e-3);
+    EXPECT_NEAR(m.second.xy, 0, 1e-3);
+    EXPECT_NEAR(m.second.xz, 0, 1e-3);
+    EXPECT_NEAR(m.second.yz, 0, 1e-3);
+    EXPECT_NEAR(m.second.xx + m.second.yy + m.second.zz, m.moments.m0, 1e-5);
+    EXPECT_EQ(m.moments.m1, visibilityMoments(occluders, {&point, 1}, settings).value()[0].m1);
+
+    const Occluders nothing = occludersOf({});
+    const SecondMoments open = visibilityHigherMoments(nothing, {&point, 1}, {}).value()[0].second;
+    EXPECT_EQ(open.xx, static_cast<float>(2 * kPi / 3));
+    EXPECT_EQ(open.zz, static_cast<float>(2 * kPi / 3));
+    EXPECT_EQ(open.xy, 0);
+    // of a slanted normal they turn along
+    const Mesh wall = transformed(funnel, {{{0, 0, 1, 0}, {1, 0, 0, 0}, {0, 1, 0, 0}}});
+    const SamplePoint sideways{{}, {1, 0, 0}, 1e-6f};
+    EXPECT_NEAR(visibilityHigherMoments(occludersOf({wall.occluder()}), {&sideways, 1}, settings)
+                    .value()[0]
+                    .second.xx,
+                zz, 1.5e-3);
+}
+
+} // namespace
+} // namespace hearth::visibility

@@ -1,0 +1,275 @@
+// The parts of the ray-traced reference against what can be worked out by hand.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "tests/reference/tracer/embree_scene.h"
+#include "tests/reference/tracer/gltf_material.h"
+#include "tests/reference/tracer/reference_renderer.h"
+#include "tests/reference/tracer/texture_lookup.h"
+#include "tests/support/small_pack.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace hearth::reference
+{
+namespace
+{
+
+using namespace formats;
+
+constexpr double kPi = 3.14159265358979323846;
+
+/// A pack in memory and its view.
+struct HeldPack
+{
+    test::AlignedBytes bytes;
+    PackView view;
+
+    explicit HeldPack(const test::PackModel& model)
+        : bytes(model.bytes()),
+          view(PackView::read(ContainerReader::fromBytes(bytes.span(), "held.hearth").value()).value())
+    {
+    }
+};
+
+Coating coatingOf(double roughness, double metallic)
+{
+    return {{0.8, 0.5, 0.2}, metallic, roughness, 1, {}, {0, 1, 0}};
+}
+
+Double3 direction(double elevation, double azimuth)
+{
+    return {std::cos(elevation) * std::cos(azimuth), std::sin(elevation),
+            std::cos(elevation) * std::sin(azimuth)};
+}
+
+TEST(Reflected, isTheSameBothWaysUpToTheCosine)
+{
+    for (const double roughness : {0.1, 0.5, 1.0})
+        for (const double metallic : {0.0, 1.0})
+        {
+            const Coating c = coatingOf(roughness, metallic);
+            const Double3 a = direction(0.4, 0.3), b = direction(1.1, 2.5);
+            EXPECT_NEAR(reflected(c, a, b).x / b.y, reflected(c, b, a).x / a.y, 1e-9);
+        }
+}
+
+TEST(Reflected, neverSendsBackMoreThanArrivesAtAWhiteMetal)
+{
+    // Integral over all directions of light, by elevation with equal solid angles. Single scattering loses up to
+    // 70 % at full roughness. Dielectrics are left out: the specification's sum of both lobes may exceed 1 at grazing
+    // angles.
+    for (const double roughness : {0.1, 0.3, 0.6, 1.0})
+        for (const double elevation : {0.1, 0.7, 1.5})
+        {
+            Coating c = coatingOf(roughness, 1);
+            c.base = {1, 1, 1};
+            const Double3 view = direction(elevation, 0);
+            constexpr int kUp = 400, kAround = 400;
+            double sum = 0;
+            for (int i = 0; i < kUp; ++i)
+                for (int j = 0; j < kAround; ++j)
+                    sum += reflected(c, view,
+                                     direction(std::asin((i + 0.5) / kUp), 2 * kPi * (j + 0.5) / kAround))
+                               .x;
+            const double albedo = sum * 2 * kPi / (kUp * kAround);
+            EXPECT_LE(albedo, 1.001) << roughness << " " << elevation;
+            EXPECT_GT(albedo, 0.1) << roughness << " " << elevation;
+        }
+}
+
+TEST(Reflected, isLambertsLawForARoughDielectricSeenFromAbove)
+{
+    const Coating c = coatingOf(1, 0);
+    // Straight up and down the Fresnel term is 0.04 and the specular lobe 0.04 / (4 pi).
+    EXPECT_NEAR(reflected(c, {0, 1, 0}, {0, 1, 0}).x, 0.96 * 0.8 / kPi + 0.04 / (4 * kPi), 1e-9);
+    EXPECT_EQ(reflected(c, {0, 1, 0}, {0, -1, 0}).x, 0);
+}
+
+TEST(Filmic, isBlackInTheDarkAndApproachesOne)
+{
+    EXPECT_EQ(filmic(0), 0);
+    EXPECT_EQ(filmic(0.004), 0);
+    EXPECT_NEAR(filmic(1e6), 1, 1e-4);
+    // x = 0.18: (0.18 * 1.616) / (0.18 * 2.816 + 0.06) = 0.51314 on the display
+    EXPECT_NEAR(filmic(0.184), std::pow(0.18 * 1.616 / (0.18 * 2.816 + 0.06), 2.2), 1e-12);
+}
+
+TEST(SceneLight, fallsOffAsTheLawSays)
+{
+    SceneLight light{LightType::point, {0, 3, 0}, {0, -1, 0}, {10, 20, 30}, 0, 1, 0};
+    EXPECT_NEAR(light.at({0, 1, 0}).irradiance.y, 20.0 / 4, 1e-12);
+    EXPECT_NEAR(light.at({0, 1, 0}).to_light.y, 1, 1e-12);
+    light.range = 4;
+    EXPECT_NEAR(light.at({0, 1, 0}).irradiance.y, 20.0 / 4 * (1 - 1.0 / 16), 1e-12);
+    EXPECT_EQ(light.at({0, -2, 0}).irradiance.y, 0) << "out of range";
+
+    light.type = LightType::spot;
+    light.range = 0;
+    light.cos_inner = 0.9;
+    light.cos_outer = 0.6;
+    EXPECT_NEAR(light.at({0, 1, 0}).irradiance.y, 5, 1e-12) << "in the middle of the cone";
+    EXPECT_EQ(light.at({10, 1, 0}).irradiance.y, 0) << "outside the cone";
+    const double sine = std::sqrt(1 - 0.75 * 0.75);
+    EXPECT_NEAR(light.at({2 * sine / 0.75, 1, 0}).irradiance.y, 20 / (4 / (0.75 * 0.75)) * 0.25, 1e-9)
+        << "half way between the cosines: a quarter";
+
+    light.type = LightType::directional;
+    EXPECT_EQ(light.at({0, 50, 0}).irradiance.z, 30);
+}
+
+TEST(TextureSet, filtersBetweenTexelsAndWraps)
+{
+    test::PackModel model = test::smallPack();
+    // image 0, sRGB: 4 x 2; make it data, the first row 0, 51, 102, 153, the second 255
+    model.images[0].format = static_cast<uint32_t>(TexelFormat::rgba8_unorm);
+    for (size_t i = 0; i < 8; ++i)
+        for (size_t channel = 0; channel < 4; ++channel)
+            model.image_data[0][i * 4 + channel] = static_cast<std::byte>(i < 4 ? i * 51 : 255);
+    const HeldPack pack(model);
+    const TextureSet textures = TextureSet::load(pack.view).value();
+    const auto at = [&](float u, float v, Wrap wrap)
+    {
+        const TextureRef texture{
+            0, 0, static_cast<uint8_t>(wrap), static_cast<uint8_t>(wrap), 0, {1, 0, 0, 0, 1, 0}};
+        return textures.sample(texture, {u, v}, 0).rgb.x;
+    };
+    EXPECT_NEAR(at(0.375f, 0.25f, Wrap::repeat), 0.2, 1e-6) << "the middle of a texel";
+    EXPECT_NEAR(at(0.5f, 0.25f, Wrap::repeat), 0.3, 1e-6) << "half way between two";
+    EXPECT_NEAR(at(0.375f, 0.5f, Wrap::repeat), 0.6, 1e-6) << "half way between rows";
+    EXPECT_NEAR(at(0.0f, 0.25f, Wrap::repeat), 0.3, 1e-6) << "first and last texel";
+    EXPECT_NEAR(at(0.0f, 0.25f, Wrap::clamp_to_edge), 0.0, 1e-6);
+    EXPECT_NEAR(at(1.125f, 0.25f, Wrap::mirrored_repeat), 0.6, 1e-6);
+    EXPECT_NEAR(at(-0.125f, 0.25f, Wrap::mirrored_repeat), 0.0, 1e-6);
+    EXPECT_NEAR(at(2.375f, 0.25f, Wrap::repeat), 0.2, 1e-5);
+}
+
+TEST(TextureSet, takesTheMipThatASampleCovers)
+{
+    test::PackModel model = test::smallPack();
+    model.images[0].format = static_cast<uint32_t>(TexelFormat::rgba8_unorm);
+    for (size_t i = 0; i < model.image_data[0].size(); ++i)
+        model.image_data[0][i] = static_cast<std::byte>(i < 32 ? 0 : i < 40 ? 100 : 200); // mips 0, 1, 2
+    const HeldPack pack(model);
+    const TextureSet textures = TextureSet::load(pack.view).value();
+    const TextureRef texture{0, 0, 0, 0, 0, {1, 0, 0, 0, 1, 0}};
+    const double texel = 1 / std::sqrt(8.0); // a side of the 4 x 2 image, on average
+    EXPECT_NEAR(textures.sample(texture, {0.4f, 0.4f}, 0.5 * texel).rgb.x, 0, 1e-9);
+    EXPECT_NEAR(textures.sample(texture, {0.4f, 0.4f}, 2 * texel).rgb.x, 100 / 255.0, 1e-9);
+    EXPECT_NEAR(textures.sample(texture, {0.4f, 0.4f}, std::sqrt(2) * texel).rgb.x, 50 / 255.0, 1e-9);
+    EXPECT_NEAR(textures.sample(texture, {0.4f, 0.4f}, 100 * texel).rgb.x, 200 / 255.0, 1e-9);
+}
+
+/// The strip of the small pack alone, in its place or as the second instance has it: mirrored.
+test::PackModel strip(uint32_t instance)
+{
+    test::PackModel model = test::smallPack();
+    model.instances[0].world_from_object = model.instances[instance].world_from_object;
+    model.instances.resize(1);
+    return model;
+}
+
+TEST(EmbreeScene, findsTheTrianglesOfTheFinestLevel)
+{
+    const HeldPack pack(strip(0));
+    const PackGeometry geometry = PackGeometry::decode(pack.view).value();
+    const Placement placement(geometry);
+    const EmbreeScene all(placement, [](const SurfaceHit&) { return true; });
+    // The strip's first quad rises from y = 0 at x = 0 to y = 3/32 at x = 1.
+    const auto hit = all.nearest({{0.25, 2, 0.5}, {0, -1, 0}});
+    ASSERT_TRUE(hit.has_value());
+    EXPECT_EQ(hit->instance, 0u);
+    EXPECT_EQ(pack.view.clusters()[hit->cluster].level, 0u);
+    EXPECT_NEAR(hit->distance, 2 - 0.0234375, 1e-6);
+    EXPECT_TRUE(hit->front);
+    const SurfacePoint point = surfaceAt(placement, *hit, 0);
+    EXPECT_NEAR(point.position.x, 0.25, 1e-6);
+    EXPECT_NEAR(point.position.y, 0.0234375, 1e-6);
+    EXPECT_NEAR(point.geometric_normal.x, -0.09375 / std::sqrt(1 + 0.09375 * 0.09375), 1e-6);
+    EXPECT_NEAR(double{point.uv[0].x}, 0.25 / 4, 1e-6);
+    EXPECT_NEAR(double{point.uv[0].y}, 0.5, 1e-6);
+
+    const auto below = all.nearest({{0.25, -2, 0.5}, {0, 1, 0}});
+    ASSERT_TRUE(below.has_value());
+    EXPECT_FALSE(below->front);
+    EXPECT_FALSE(all.nearest({{0.25, 2, 1.5}, {0, -1, 0}}).has_value()) << "beside the strip";
+    EXPECT_TRUE(all.occluded({{0.25, 2, 0.5}, {0, -1, 0}, 0, 3}));
+    EXPECT_FALSE(all.occluded({{0.25, 2, 0.5}, {0, -1, 0}, 0, 1})) << "too short";
+}
+
+TEST(EmbreeScene, knowsTheFrontOfAMirroredInstance)
+{
+    const HeldPack pack(strip(1));
+    const PackGeometry geometry = PackGeometry::decode(pack.view).value();
+    const Placement placement(geometry);
+    const EmbreeScene all(placement, [](const SurfaceHit&) { return true; });
+    // x -> 5 - 2x
+    const auto hit = all.nearest({{4.5, 1, 0.25}, {0, -1, 0}});
+    ASSERT_TRUE(hit.has_value());
+    EXPECT_TRUE(hit->front);
+    EXPECT_NEAR(surfaceAt(placement, *hit, 0).geometric_normal.y, 1 / std::hypot(1, 0.046875), 1e-6);
+}
+
+TEST(EmbreeScene, looksThroughWhatIsNotAccepted)
+{
+    const HeldPack pack(strip(0));
+    const PackGeometry geometry = PackGeometry::decode(pack.view).value();
+    const Placement placement(geometry);
+    const EmbreeScene fronts(placement, [](const SurfaceHit& hit) { return hit.front; });
+    EXPECT_TRUE(fronts.nearest({{0.25, 2, 0.5}, {0, -1, 0}}).has_value());
+    EXPECT_FALSE(fronts.nearest({{0.25, -2, 0.5}, {0, 1, 0}}).has_value());
+}
+
+/// The mean colour that the reference gives a camera straight above the strip.
+std::array<double, 3> meanFromAbove(const test::PackModel& model)
+{
+    const HeldPack pack(model);
+    ReferenceOptions options;
+    options.camera.position = {2, 1, 0.5f};
+    options.camera.target = {2, 0, 0.5f};
+    options.camera.up = {0, 0, -1};
+    options.camera.y_fov_rad = 0.3f;
+    options.width = options.height = 8;
+    options.samples_per_side = 1;
+    const Picture picture = renderReference(pack.view, options).value();
+    std::array<double, 3> mean{};
+    for (size_t i = 0; i < picture.rgb.size(); ++i)
+        mean[i % 3] += picture.rgb[i] / 255.0 / 64;
+    return mean;
+}
+
+TEST(RenderReference, showsUnlitColoursAsTheyAre)
+{
+    test::PackModel model = test::smallPack();
+    MaterialRecord& material = model.materials[0];
+    material.flags = kMaterialDoubleSided | kMaterialUnlit;
+    material.alpha_mode = static_cast<uint32_t>(AlphaMode::opaque);
+    material.base_color_texture.image = kNone;
+    material.base_color = {0.25f, 0.5f, 1, 1};
+    const auto mean = meanFromAbove(model);
+    // the strip's vertices are coloured (1, 0.5, 0.25)
+    EXPECT_NEAR(mean[0], srgbFromLinear(0.25), 0.003);
+    EXPECT_NEAR(mean[1], srgbFromLinear(0.25), 0.003);
+    EXPECT_NEAR(mean[2], srgbFromLinear(0.25), 0.003);
+}
+
+TEST(RenderReference, showsTheRadianceOfAnEmissiveSurfaceInTheDark)
+{
+    test::PackModel model = test::smallPack();
+    MaterialRecord& material = model.materials[0];
+    material.flags = kMaterialDoubleSided;
+    material.alpha_mode = static_cast<uint32_t>(AlphaMode::opaque);
+    material.base_color_texture.image = kNone;
+    material.emissive_texture.image = kNone;
+    material.base_color = {0, 0, 0, 1};
+    material.metallic = 1; // a black metal sends nothing back but at grazing angles
+    material.emissive = {0.2f, 0.5f, 3};
+    model.lights.clear();
+    const auto mean = meanFromAbove(model);
+    EXPECT_NEAR(mean[0], srgbFromLinear(filmic(0.2)), 0.03);
+    EXPECT_NEAR(mean[1], srgbFromLinear(filmic(0.5)), 0.02);
+    EXPECT_NEAR(mean[2], srgbFromLinear(filmic(3)), 0.01);
+}
+
+} // namespace
+} // namespace hearth::reference

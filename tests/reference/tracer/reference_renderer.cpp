@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "tests/reference/tracer/reference_renderer.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+
+namespace hearth::reference
+{
+
+using namespace formats;
+
+namespace
+{
+
+class ReferenceRenderer
+{
+public:
+    ReferenceRenderer(const PackGeometry& geometry, const TextureSet& textures,
+                      const ReferenceOptions& options)
+        : options_(options), scene_(geometry, textures, options.pose)
+    {
+        options_.sky.shadows = options.shadows;
+        forward_ = normalize(Double3(options.camera.target) - Double3(options.camera.position));
+        right_ = normalize(cross(forward_, Double3(options.camera.up)));
+        up_ = cross(right_, forward_);
+        slope_ = std::tan(double{options.camera.y_fov_rad} / 2);
+        // the side of a sample at a distance of one metre
+        sample_angle_ = 2 * slope_ / (options.height * options.samples_per_side);
+    }
+
+    /// Display-linear colour of a pixel: each sample is tone-mapped by itself, as in multisampled rendering.
+    Double3 pixel(uint32_t x, uint32_t y) const
+    {
+        const uint32_t side = options_.samples_per_side;
+        Double3 sum;
+        for (uint32_t sy = 0; sy < side; ++sy)
+            for (uint32_t sx = 0; sx < side; ++sx)
+                sum += sample(x + (sx + 0.5) / side, y + (sy + 0.5) / side,
+                              ((uint64_t{y} * options_.width + x) * side + sy) * side + sx);
+        return sum / (double{1} * side * side);
+    }
+
+private:
+    Double3 sample(double x, double y, uint64_t seed) const
+    {
+        const double aspect = double{1} * options_.width / options_.height;
+        const Double3 across = right_ * ((2 * x / options_.width - 1) * slope_ * aspect);
+        const Double3 upwards = up_ * ((1 - 2 * y / options_.height) * slope_);
+        const Double3 ray = forward_ + across + upwards; // depth 1
+        const Double3 direction = normalize(ray);
+        const double near = double{options_.camera.z_near} * length(ray);
+        const auto point =
+            scene_.nearest({Double3(options_.camera.position), direction, near, 1e30}, sample_angle_);
+        if (point && point->unlit)
+            return point->coating.base;
+        const Double3 radiance = !point ? scene_.lighting().radiance(direction, 0.4)
+                                        : point->coating.emitted +
+                                              underLights(scene_, *point, -direction, options_.shadows) +
+                                              tracedSky(scene_, *point, -direction, options_.sky, seed);
+        return {filmic(radiance.x), filmic(radiance.y), filmic(radiance.z)};
+    }
+
+    ReferenceOptions options_;
+    ShadedScene scene_;
+    Double3 forward_, right_, up_;
+    double slope_ = 1, sample_angle_ = 0;
+};
+
+} // namespace
+
+Result<Picture> renderReference(const PackView& view, const ReferenceOptions& options)
+{
+    HEARTH_ASSIGN_OR_RETURN(const PackGeometry geometry, PackGeometry::decode(view));
+    HEARTH_ASSIGN_OR_RETURN(const TextureSet textures, TextureSet::load(view));
+    const ReferenceRenderer renderer(geometry, textures, options);
+    Picture picture(options.width, options.height);
+    tbb::parallel_for(
+        0u, options.height,
+        [&](uint32_t y)
+        {
+            for (uint32_t x = 0; x < options.width; ++x)
+            {
+                const Double3 c = renderer.pixel(x, y);
+                uint8_t* const out = picture.at(x, y);
+                const double rgb[3] = {c.x, c.y, c.z};
+                for (size_t i = 0; i < 3; ++i)
+                    out[i] = static_cast<uint8_t>(
+                        std::clamp(srgbFromLinear(std::clamp(rgb[i], 0.0, 1.0)), 0.0, 1.0) * 255 + 0.5);
+            }
+        });
+    return picture;
+}
+
+} // namespace hearth::reference

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "tests/reference/tracer/scene_lighting.h"
+
+#include "formats/gpu_shared/shading.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace hearth::reference
+{
+
+using namespace formats;
+
+namespace
+{
+
+double smooth(double from, double to, double x)
+{
+    const double t = std::clamp((x - from) / (to - from), 0.0, 1.0);
+    return t * t * (3 - 2 * t);
+}
+
+Double3 mixed(Double3 a, Double3 b, double t)
+{
+    return a * (1 - t) + b * t;
+}
+
+SceneLight lightOf(const LightRecord& record)
+{
+    const DoubleAffine world(record.world_from_light);
+    return {static_cast<LightType>(record.type),
+            world.translation,
+            normalize(world.vector({0, 0, -1})),
+            Double3(record.color) * double{record.intensity},
+            double{record.range},
+            std::cos(double{record.inner_cone_rad}),
+            std::cos(double{record.outer_cone_rad})};
+}
+
+/// World box of everything that is drawn.
+void sceneBox(const PackView& view, Double3& low, Double3& high)
+{
+    low = {HUGE_VAL, HUGE_VAL, HUGE_VAL};
+    high = -low;
+    for (const InstanceRecord& instance : view.instances())
+    {
+        const MeshRecord& mesh = view.meshes()[instance.mesh];
+        if (mesh.clusters.count == 0)
+            continue;
+        for (int corner = 0; corner < 8; ++corner)
+        {
+            const Double3 p = DoubleAffine(instance.world_from_object)
+                                  .point({double{corner & 1 ? mesh.box_max.x : mesh.box_min.x},
+                                          double{corner & 2 ? mesh.box_max.y : mesh.box_min.y},
+                                          double{corner & 4 ? mesh.box_max.z : mesh.box_min.z}});
+            low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+            high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+        }
+    }
+    if (low.x > high.x)
+    {
+        low = {-0.5, -0.5, -0.5};
+        high = {0.5, 0.5, 0.5};
+    }
+}
+
+/// The exposure rule: lights that give the middle of the scene more than the key are dimmed to it, all alike.
+void expose(const PackView& view, std::vector<SceneLight>& lights)
+{
+    Double3 low, high;
+    sceneBox(view, low, high);
+    const Double3 center = (low + high) * 0.5;
+    const double radius = 0.5 * length(high - low);
+    double illuminance = 0;
+    for (const SceneLight& light : lights)
+    {
+        const double luminance = dot(light.intensity, {0.2126, 0.7152, 0.0722});
+        const double distance = std::max({length(light.position - center), 0.25 * radius, 1e-3});
+        illuminance += light.type == LightType::directional ? luminance : luminance / (distance * distance);
+    }
+    constexpr double kKey = shared::kKeyIlluminance;
+    if (illuminance > kKey)
+        for (SceneLight& light : lights)
+            light.intensity = light.intensity * (kKey / illuminance);
+}
+
+} // namespace
+
+Incident SceneLight::at(Double3 point) const
+{
+    if (type == LightType::directional)
+        return {-direction, std::numeric_limits<double>::infinity(), intensity};
+    const Double3 offset = position - point;
+    const double distance = std::max(length(offset), 1e-4);
+    double attenuation = 1 / (distance * distance);
+    if (range > 0)
+        attenuation *= std::clamp(1 - std::pow(distance / range, 4), 0.0, 1.0);
+    const Double3 to_light = offset / distance;
+    if (type == LightType::spot)
+    {
+        const double inside = std::clamp(
+            (dot(direction, -to_light) - cos_outer) / std::max(0.001, cos_inner - cos_outer), 0.0, 1.0);
+        attenuation *= inside * inside;
+    }
+    return {to_light, distance, intensity * attenuation};
+}
+
+Double3 SceneLighting::radiance(Double3 direction, double roughness) const
+{
+    const double width = 0.12 + 0.88 * roughness;
+    const Double3 above = mixed(horizon, zenith, smooth(-roughness, 1, direction.y));
+    return mixed(ground, above, smooth(-width, width, direction.y));
+}
+
+Double3 SceneLighting::irradiance(Double3 normal) const
+{
+    return mixed(ground, mixed(horizon, zenith, 0.5 + 0.3 * normal.y), 0.5 + 0.5 * normal.y);
+}
+
+SceneLighting lightingOf(const PackView& view)
+{
+    SceneLighting lighting{
+        Double3(shared::kSkyZenith), Double3(shared::kSkyHorizon), Double3(shared::kSkyGround), {}};
+    for (const LightRecord& record : view.lights())
+        lighting.lights.push_back(lightOf(record));
+    if (lighting.lights.empty())
+        lighting.lights.push_back({LightType::directional,
+                                   {},
+                                   normalize(Double3(shared::kSunDirection)),
+                                   Double3(shared::kSunIlluminance),
+                                   0,
+                                   1,
+                                   0});
+    else
+        expose(view, lighting.lights);
+    return lighting;
+}
+
+} // namespace hearth::reference

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "tests/reference/tracer/shaded_scene.h"
+
+#include <algorithm>
+
+namespace hearth::reference
+{
+
+using namespace formats;
+
+namespace
+{
+
+constexpr double kPi = 3.14159265358979323846;
+
+/// glTF's default material.
+MaterialRecord defaultMaterial()
+{
+    MaterialRecord material{};
+    material.base_color = {1, 1, 1, 1};
+    material.metallic = material.roughness = material.normal_scale = 1;
+    for (TextureRef* texture :
+         {&material.base_color_texture, &material.metallic_roughness_texture, &material.normal_texture,
+          &material.occlusion_texture, &material.emissive_texture})
+        texture->image = kNone;
+    return material;
+}
+
+} // namespace
+
+ShadedScene::ShadedScene(const PackGeometry& geometry, const TextureSet& textures, const ScenePose* pose)
+    : geometry_(geometry),
+      textures_(textures),
+      lighting_(lightingOf(geometry.view())),
+      placement_(geometry, pose),
+      rays_(
+          placement_, [this](const SurfaceHit& hit) { return isThere(hit); },
+          [this](const SurfaceHit& hit) { return blocks(hit); })
+{
+}
+
+std::optional<ShadedPoint> ShadedScene::nearest(const Ray& ray, double sample_angle) const
+{
+    const auto hit = rays_.nearest(ray);
+    if (!hit)
+        return std::nullopt;
+    const MaterialRecord& material = materialOf(*hit);
+    ShadedPoint point{*hit, surfaceAt(placement_, *hit, material.normal_texture.uv_set), {}, false};
+    point.coating = coatingAt(*hit, point.surface, hit->distance * sample_angle);
+    point.unlit = (material.flags & kMaterialUnlit) != 0;
+    return point;
+}
+
+const MaterialRecord& ShadedScene::materialOf(const SurfaceHit& hit) const
+{
+    static const MaterialRecord otherwise = defaultMaterial();
+    const uint32_t material = geometry_.view().clusters()[hit.cluster].material;
+    return material == kNone ? otherwise : geometry_.view().materials()[material];
+}
+
+Rgba ShadedScene::look(const TextureRef& texture, const SurfacePoint& point, double sample_size) const
+{
+    return textures_.sample(texture, point.uv[texture.uv_set],
+                            sample_size * point.uv_per_metre[texture.uv_set]);
+}
+
+/// Back faces of single-sided materials and holes of masks are not there.
+bool ShadedScene::isThere(const SurfaceHit& hit) const
+{
+    return (hit.front || (materialOf(hit).flags & kMaterialDoubleSided) != 0) && !isHole(hit);
+}
+
+bool ShadedScene::blocks(const SurfaceHit& hit) const
+{
+    return (materialOf(hit).flags & kMaterialUnlit) == 0 && !isHole(hit);
+}
+
+/// Blended surfaces are where alpha exceeds one half: they have no reference of their own.
+bool ShadedScene::isHole(const SurfaceHit& hit) const
+{
+    const MaterialRecord& material = materialOf(hit);
+    if (material.alpha_mode == static_cast<uint32_t>(AlphaMode::opaque))
+        return false;
+    const SurfacePoint point = surfaceAt(placement_, hit, 0);
+    const double alpha = double{material.base_color.w} * double{point.color.w} *
+                         look(material.base_color_texture, point, 0).alpha;
+    const bool mask = material.alpha_mode == static_cast<uint32_t>(AlphaMode::mask);
+    return alpha < (mask ? double{material.alpha_cutoff} : 0.5);
+}
+
+Coating ShadedScene::coatingAt(const SurfaceHit& hit, const SurfacePoint& point, double sample_size) const
+{
+    const MaterialRecord& material = materialOf(hit);
+    Coating c;
+    const Double3 factor{double{material.base_color.x}, double{material.base_color.y},
+                         double{material.base_color.z}};
+    const Double3 vertex{double{point.color.x}, double{point.color.y}, double{point.color.z}};
+    c.base = factor * vertex * look(material.base_color_texture, point, sample_size).rgb;
+    const Double3 metallic_roughness = look(material.metallic_roughness_texture, point, sample_size).rgb;
+    c.metallic = std::clamp(double{material.metallic} * metallic_roughness.z, 0.0, 1.0);
+    c.roughness = std::clamp(double{material.roughness} * metallic_roughness.y, 0.045, 1.0);
+    const double occlusion = look(material.occlusion_texture, point, sample_size).rgb.x;
+    c.occlusion = 1 + double{material.occlusion_strength} * (occlusion - 1);
+    c.emitted = Double3(material.emissive) * look(material.emissive_texture, point, sample_size).rgb;
+    c.normal = point.normal;
+    if (material.normal_texture.image != kNone)
+    {
+        const Double3 n = look(material.normal_texture, point, sample_size).rgb * 2.0 - Double3{1, 1, 1};
+        const double scale = double{material.normal_scale};
+        c.normal =
+            normalize(point.tangent * (n.x * scale) + point.bitangent * (n.y * scale) + point.normal * n.z);
+    }
+    if (!hit.front)
+        c.normal = -c.normal;
+    return c;
+}
+
+Double3 lifted(const ShadedPoint& point)
+{
+    const double step = 1e-4 * (point.hit.distance + length(point.surface.position));
+    return point.surface.position + point.surface.geometric_normal * (point.hit.front ? step : -step);
+}
+
+Double3 cosineDirection(Double3 normal, double u, double v)
+{
+    const Double3 tangent =
+        normalize(cross(normal, std::abs(normal.x) < 0.5 ? Double3{1, 0, 0} : Double3{0, 1, 0}));
+    const Double3 bitangent = cross(normal, tangent);
+    const double radius = std::sqrt(u), angle = 2 * kPi * v;
+    return tangent * (radius * std::cos(angle)) + bitangent * (radius * std::sin(angle)) +
+           normal * std::sqrt(1 - u);
+}
+
+} // namespace hearth::reference

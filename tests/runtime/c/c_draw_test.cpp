@@ -1,0 +1,102 @@
+// The C API draws what the renderer draws, in every pixel, from C99; and streams through a callback that ends on other threads.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "tests/runtime/c/c_fixture.h"
+
+namespace hearth::test
+{
+
+TEST_F(CApiTest, drawsThePictureOfTheRenderer)
+{
+    const c_picture picture = drawInC(makeFrame());
+    expectEqual(picture, drawInCpp({}));
+    for (int i = 1; i < HEARTH_TIMESTAMP_COUNT; ++i)
+        EXPECT_GE(picture.ticks[i], picture.ticks[i - 1]);
+    EXPECT_GT(picture.ticks[HEARTH_TIMESTAMP_SHADING], picture.ticks[HEARTH_TIMESTAMP_BEGIN]);
+}
+
+TEST_F(CApiTest, handsOnAllThatAFrameSays)
+{
+    const hearth_lod_knot knots[] = {{0.5f, 0.7f}, {4, 1.3f}, {8, 0.2f}};
+    const hearth_move move{0, {{1, 0, 0, 0.5f}, {0, 0, -1, 0.25f}, {0, 1, 0, -0.5f}}};
+    hearth_frame frame = makeFrame();
+    frame.error_pixels = 0.25f;
+    frame.cull_flags = HEARTH_CULL_FRUSTUM | HEARTH_CULL_CONE;
+    frame.lod_knots = knots;
+    frame.lod_knot_count = 3;
+    frame.moves = &move;
+    frame.move_count = 1;
+    frame.shaded_area = HEARTH_SHADE_TILES;
+    moved_ = Affine3{{{1, 0, 0, 0.5f}, {0, 0, -1, 0.25f}, {0, 1, 0, -0.5f}}};
+    DrawOptions options{.error_pixels = 0.25f,
+                        .flags = shared::kCullFrustum | shared::kCullCone,
+                        .area = gpu::ShadedArea::tiles,
+                        .lod_curve = {{0.5f, 0.7f}, {4, 1.3f}, {8, 0.2f}}};
+    for (const uint32_t shown : {HEARTH_SHOW_FINAL, HEARTH_SHOW_LOD, HEARTH_SHOW_OVERDRAW})
+    {
+        frame.shown = options.shown = shown;
+        const c_picture picture = drawInC(frame);
+        expectEqual(picture, drawInCpp(options));
+    }
+}
+
+TEST_F(CApiTest, castsTheShadowsOfTheRenderer)
+{
+    const hearth_shadow_sphere sphere{.center = {0, 0.5f, 0}, .radius = 1, .light = 0, .texels = 0};
+    hearth_frame frame = makeFrame();
+    frame.shadow_spheres = &sphere;
+    frame.shadow_sphere_count = 1;
+    hearth_scene_options c_options = HEARTH_SCENE_OPTIONS_INIT;
+    c_options.shadows.max_maps = 4;
+    c_options.shadows.texels = 256;
+    c_options.shadows.splits = 2;
+    c_options.shadows.split_far = 20;
+    shadows_ = {.max_maps = 4, .texels = 256, .splits = 2, .split_range = {.far = 20}};
+    const gpu::ShadowSphere cpp_sphere{.center = {0, 0.5f, 0}, .radius = 1, .light = 0};
+    DrawOptions options;
+    options.shadow_spheres = {&cpp_sphere, 1};
+    drawInC(makeFrame());
+    const std::vector<uint32_t> lit_color = color_;
+    for (const uint32_t shown : {HEARTH_SHOW_FINAL, HEARTH_SHOW_SHADOW_MAPS})
+    {
+        frame.shown = options.shown = shown;
+        expectEqual(drawInC(frame, c_options), drawInCpp(options));
+        EXPECT_NE(color_, lit_color);
+    }
+}
+
+TEST_F(CApiTest, readsOnOtherThreadsEndInThePictureOfTheWhole)
+{
+    Reader reader{.pack = pack_, .threads = {}};
+    hearth_frame frame = makeFrame();
+    frame.error_pixels = 0.5f;
+    const c_picture picture = drawInC(frame, streamedBy(reader));
+    expectEqual(picture, drawInCpp({.error_pixels = 0.5f}));
+    EXPECT_GT(reader.threads.size(), 4u) << "or nothing was streamed";
+    EXPECT_GT(picture.streaming.settled_serial, 1u);
+    EXPECT_GT(picture.streaming.bytes_streamed, 0u);
+    EXPECT_LE(picture.streaming.bytes_in_use, picture.streaming.budget_bytes);
+    EXPECT_EQ(picture.streaming.error_scale, 1);
+    EXPECT_EQ(picture.streaming.failures, 0u);
+}
+
+TEST_F(CApiTest, aReadThatFailsIsCountedAndThePictureIsDrawn)
+{
+    Reader reader{.pack = pack_, .threads = {}};
+    reader.bad_page = static_cast<uint32_t>(view_->meshes()[0].pages.first + 1);
+    hearth_frame frame = makeFrame();
+    frame.error_pixels = 0;
+    const c_picture picture = drawInC(frame, streamedBy(reader));
+    EXPECT_EQ(picture.streaming.failures, 1u);
+    EXPECT_EQ(picture.streaming.reads_in_flight, 0u);
+}
+
+TEST_F(CApiTest, clustersBeyondTheCapacityAreCounted)
+{
+    hearth_scene_options options = HEARTH_SCENE_OPTIONS_INIT;
+    options.max_visible_clusters = 8;
+    const c_picture picture = drawInC(makeFrame(), options);
+    EXPECT_GT(picture.counters.drawn_clusters, 8u);
+    EXPECT_EQ(picture.counters.dropped_clusters, picture.counters.drawn_clusters - 8);
+}
+
+} // namespace hearth::test

@@ -1,0 +1,141 @@
+// Characters and clips by way of hearth.h: the same pictures as by the classes.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "runtime/c/hearth.hpp"
+#include "tests/runtime/c/c_fixture.h"
+#include "tests/runtime/gpu/animated_rocks.h"
+#include "tests/runtime/gpu/deformed_scene.h"
+#include "tests/support/shapes.h"
+
+namespace hearth::test
+{
+
+namespace
+{
+
+class CPoseTest : public CApiTest
+{
+protected:
+    /// In place of the fixture's pack.
+    void open(const formats::PackView& view, const AlignedBytes& bytes)
+    {
+        ASSERT_EQ(hearth_pack_close(pack_), HEARTH_OK);
+        pack_ = nullptr;
+        ASSERT_EQ(hearth_pack_open_memory(bytes.span().data(), bytes.size(), "test", &pack_, message_,
+                                          sizeof(message_)),
+                  HEARTH_OK)
+            << message_;
+        view_ = view;
+    }
+};
+
+hearth_pose toC(const TestPose& pose)
+{
+    return {pose.instance,
+            static_cast<uint32_t>(pose.world_from_bind.size()),
+            reinterpret_cast<const hearth_transform*>(pose.world_from_bind.data()),
+            pose.morph_weights.data(),
+            static_cast<uint32_t>(pose.morph_weights.size()),
+            pose.free ? 1u : 0u};
+}
+
+} // namespace
+
+TEST_F(CPoseTest, posesAreDrawnAsByTheClasses)
+{
+    std::mt19937 random(71);
+    DeformedScene test({.rings = 60}, 31);
+    open(test.pack(), test.bytes());
+    std::vector<TestPose> poses;
+    std::vector<hearth_pose> c_poses;
+    for (const uint32_t instance : test.deformedInstances())
+        poses.push_back(poses.size() % 3 == 2 ? test.freePose(instance, random)
+                                              : test.randomPose(instance, random));
+    for (const TestPose& pose : poses)
+        c_poses.push_back(toC(pose));
+    hearth_frame frame = makeFrame();
+    frame.poses = c_poses.data();
+    frame.pose_count = static_cast<uint32_t>(c_poses.size());
+    const auto views = viewsOf(poses);
+    for (const uint64_t skinning_bytes : {uint64_t{16} << 20, uint64_t{0}})
+    {
+        hearth_scene_options options = HEARTH_SCENE_OPTIONS_INIT;
+        options.skinning_bytes = skinning_bytes;
+        const c_picture picture = drawInC(frame, options);
+        expectEqual(picture, drawInCpp({.poses = views}));
+    }
+}
+
+TEST_F(CPoseTest, posesThatCannotBeAreRefused)
+{
+    std::mt19937 random(72);
+    DeformedScene test({.limbs = 1, .tentacles = 1, .blobs = 1, .rocks = 1}, 32);
+    open(test.pack(), test.bytes());
+    TestPose good = test.randomPose(test.deformedInstances()[0], random);
+    hearth_targets* targets = nullptr;
+    ASSERT_EQ(hearth_targets_create(renderer_, 16, 16, &targets), HEARTH_OK);
+    hearth_scene* scene = nullptr;
+    const hearth_scene_options options = HEARTH_SCENE_OPTIONS_INIT;
+    const VkCommandBuffer commands = c_caller_begin(caller_);
+    ASSERT_EQ(hearth_scene_upload(renderer_, pack_, commands, &options, &scene), HEARTH_OK);
+    ASSERT_EQ(c_caller_submit(caller_), VK_SUCCESS);
+    const auto draw = [&](const hearth_pose& pose)
+    {
+        hearth_frame frame = makeFrame();
+        frame.poses = &pose;
+        frame.pose_count = 1;
+        const hearth_result result = hearth_record_frame(scene, targets, c_caller_begin(caller_), &frame);
+        EXPECT_EQ(c_caller_submit(caller_), VK_SUCCESS);
+        return result;
+    };
+    EXPECT_EQ(draw(toC(good)), HEARTH_OK);
+    hearth_pose rigid = toC(good), few = toC(good), missing = toC(good);
+    rigid.instance = 0;
+    few.joint_count -= 1;
+    missing.world_from_bind = nullptr;
+    for (const hearth_pose& bad : {rigid, few, missing})
+        EXPECT_EQ(draw(bad), HEARTH_ERROR_USAGE) << hearth_last_error(renderer_);
+    good.world_from_bind[1].m[2][3] = std::numeric_limits<double>::infinity();
+    EXPECT_EQ(draw(toC(good)), HEARTH_ERROR_USAGE);
+    EXPECT_THAT(hearth_last_error(renderer_), testing::HasSubstr("not finite"));
+    EXPECT_EQ(hearth_scene_destroy(scene), HEARTH_OK);
+    EXPECT_EQ(hearth_targets_destroy(targets), HEARTH_OK);
+}
+
+TEST_F(CPoseTest, aPlayerMovesWhatItsClipsMove)
+{
+    TestScene test;
+    fillAnimatedRocks(test, test.addMesh(withMaterial(shapes::rock(20, 0.3f), formats::kNone)));
+    const formats::PackView view = test.build();
+    const AlignedBytes bytes = test.model().bytes();
+    open(view, bytes);
+
+    uint32_t slide = 0, rise = 0;
+    double seconds = 0;
+    ASSERT_EQ(hearth_pack_find_animation(pack_, "slide", &slide, &seconds, message_, sizeof(message_)),
+              HEARTH_OK);
+    EXPECT_EQ(seconds, 4);
+    ASSERT_EQ(hearth_pack_find_animation(pack_, "1", &rise, nullptr, message_, sizeof(message_)), HEARTH_OK);
+    EXPECT_EQ(hearth_pack_find_animation(pack_, "fall", &rise, nullptr, message_, sizeof(message_)),
+              HEARTH_ERROR_USAGE);
+
+    Pack pack(pack_);
+    Player player;
+    std::string message;
+    ASSERT_EQ(Player::create(pack, player, &message), HEARTH_OK) << message;
+    EXPECT_EQ(hearth_pack_close(pack.get()), HEARTH_ERROR_IN_USE);
+    const hearth_clip from{slide, 0, 3}, to{rise, 0, 2}, none{7, 0, 0};
+    EXPECT_EQ(player.goTo(&none, nullptr, 0, &message), HEARTH_ERROR_USAGE);
+    EXPECT_THAT(message, testing::HasSubstr("animation 7"));
+    EXPECT_EQ(player.goTo(&from, &to, 1.5, &message), HEARTH_ERROR_USAGE);
+    EXPECT_EQ(player.goTo(nullptr, &to, 0.5, &message), HEARTH_ERROR_USAGE);
+    ASSERT_EQ(player.goTo(&from, &to, 0.5, &message), HEARTH_OK) << message;
+    hearth_player_information pose = HEARTH_PLAYER_INFORMATION_INIT;
+    ASSERT_EQ(player.inform(pose), HEARTH_OK);
+    EXPECT_EQ(pose.pose_count, 0u);
+    ASSERT_EQ(pose.move_count, 3u);
+    EXPECT_EQ(pose.moves[0].world_from_object[0][3], 3.5f);
+    EXPECT_EQ(pose.moves[0].world_from_object[1][3], 1.0f);
+    (void)pack.release();
+}
+
+} // namespace hearth::test

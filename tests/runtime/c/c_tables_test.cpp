@@ -1,0 +1,170 @@
+// Names, instances and cameras of a pack by way of hearth.h: those of its tables.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "runtime/c/hearth.hpp"
+#include "tests/support/small_pack.h"
+
+#include <gmock/gmock.h>
+
+namespace hearth::test
+{
+
+namespace
+{
+
+using testing::ElementsAre;
+using testing::ElementsAreArray;
+using testing::HasSubstr;
+
+/// A pack with records in all tables.
+class CTablesTest : public testing::Test
+{
+protected:
+    void SetUp() override
+    {
+        model_.cameras[0].world_from_camera = {{{0, 0, 1, 5}, {0, 1, 0, 6}, {-1, 0, 0, 7}}}; // looks along -x
+        model_.cameras[0].aspect = 1.5f;
+        bytes_ = model_.bytes();
+        ASSERT_EQ(Pack::openMemory(bytes_.span().data(), bytes_.size(), "small", pack_, &message_), HEARTH_OK)
+            << message_;
+    }
+
+    uint32_t count(uint32_t table) const
+    {
+        uint32_t count = 0;
+        EXPECT_EQ(pack_.getCount(table, count), HEARTH_OK);
+        return count;
+    }
+
+    std::string name(uint32_t table, uint32_t index)
+    {
+        std::string_view name = "none";
+        EXPECT_EQ(pack_.getName(table, index, name, &message_), HEARTH_OK) << message_;
+        return std::string(name);
+    }
+
+    /// The names of `records` are those of the table.
+    template <typename Record>
+    void expectNames(uint32_t table, const std::vector<Record>& records)
+    {
+        ASSERT_EQ(count(table), records.size()) << table;
+        ASSERT_GT(records.size(), 0u) << table;
+        for (uint32_t i = 0; i < records.size(); ++i)
+            EXPECT_EQ(name(table, i), model_.strings.substr(records[i].name.offset, records[i].name.length));
+    }
+
+    PackModel model_ = smallPack();
+    AlignedBytes bytes_;
+    Pack pack_;
+    std::string message_;
+};
+
+} // namespace
+
+TEST_F(CTablesTest, namesAreThoseOfTheSource)
+{
+    expectNames(HEARTH_TABLE_NODES, model_.nodes);
+    expectNames(HEARTH_TABLE_MESHES, model_.meshes);
+    expectNames(HEARTH_TABLE_MATERIALS, model_.materials);
+    expectNames(HEARTH_TABLE_IMAGES, model_.images);
+    expectNames(HEARTH_TABLE_CAMERAS, model_.cameras);
+    expectNames(HEARTH_TABLE_LIGHTS, model_.lights);
+    expectNames(HEARTH_TABLE_SKINS, model_.skins);
+    expectNames(HEARTH_TABLE_ANIMATIONS, model_.animations);
+    EXPECT_EQ(name(HEARTH_TABLE_NODES, 0), "Wurzel \xC3\xA4\xE2\x82\xAC");
+    EXPECT_EQ(name(HEARTH_TABLE_CAMERAS, 1), "camera");
+    ASSERT_EQ(count(HEARTH_TABLE_INSTANCES), model_.instances.size());
+    for (uint32_t i = 0; i < model_.instances.size(); ++i)
+        EXPECT_EQ(name(HEARTH_TABLE_INSTANCES, i), name(HEARTH_TABLE_NODES, model_.instances[i].node));
+}
+
+TEST_F(CTablesTest, aRecordWithoutANameHasAnEmptyOne)
+{
+    model_.materials[0].name = {0, 0};
+    const AlignedBytes bytes = model_.bytes();
+    Pack pack;
+    ASSERT_EQ(Pack::openMemory(bytes.span().data(), bytes.size(), "small", pack, &message_), HEARTH_OK);
+    hearth_name name{nullptr, 7};
+    EXPECT_EQ(hearth_pack_get_name(pack.get(), HEARTH_TABLE_MATERIALS, 0, &name, nullptr, 0), HEARTH_OK);
+    EXPECT_NE(name.text, nullptr);
+    EXPECT_EQ(name.length, 0u);
+}
+
+TEST_F(CTablesTest, instancesSayWhatTheyDraw)
+{
+    for (uint32_t i = 0; i < model_.instances.size(); ++i)
+    {
+        const formats::InstanceRecord& record = model_.instances[i];
+        hearth_pack_instance instance = HEARTH_PACK_INSTANCE_INIT;
+        ASSERT_EQ(pack_.getInstance(i, instance, &message_), HEARTH_OK) << message_;
+        EXPECT_EQ(instance.mesh, record.mesh);
+        EXPECT_EQ(instance.node, record.node);
+        for (int row = 0; row < 3; ++row)
+            EXPECT_THAT(instance.world_from_object[row], ElementsAreArray(record.world_from_object.m[row]));
+    }
+}
+
+TEST_F(CTablesTest, camerasAreReadyForAFrame)
+{
+    hearth_pack_camera camera = HEARTH_PACK_CAMERA_INIT;
+    ASSERT_EQ(pack_.getCamera(0, camera, &message_), HEARTH_OK) << message_;
+    EXPECT_EQ(camera.struct_size, sizeof(camera));
+    EXPECT_EQ(camera.type, static_cast<uint32_t>(HEARTH_CAMERA_PERSPECTIVE));
+    EXPECT_EQ(camera.node, model_.cameras[0].node);
+    EXPECT_EQ(camera.aspect, 1.5f);
+    EXPECT_EQ(camera.z_far, 0);
+    EXPECT_THAT(camera.world_from_camera[2], ElementsAre(-1, 0, 0, 7));
+    EXPECT_THAT(camera.view.position, ElementsAre(5, 6, 7));
+    EXPECT_THAT(camera.view.target, ElementsAre(4, 6, 7));
+    EXPECT_THAT(camera.view.up, ElementsAre(0, 1, 0));
+    EXPECT_EQ(camera.view.y_fov_rad, 1);
+    EXPECT_EQ(camera.view.z_near, 0.1f);
+
+    ASSERT_EQ(pack_.getCamera(1, camera, &message_), HEARTH_OK) << message_;
+    EXPECT_EQ(camera.type, static_cast<uint32_t>(HEARTH_CAMERA_ORTHOGRAPHIC));
+    EXPECT_EQ(camera.half_width, 2);
+    EXPECT_EQ(camera.half_height, 2);
+    EXPECT_EQ(camera.z_far, 100);
+}
+
+TEST_F(CTablesTest, whatIsNotThereIsRefused)
+{
+    hearth_pack_camera camera = HEARTH_PACK_CAMERA_INIT;
+    hearth_pack_instance instance = HEARTH_PACK_INSTANCE_INIT;
+    uint32_t count = 0;
+    char message[256] = "";
+    EXPECT_EQ(pack_.getCamera(2, camera, &message_), HEARTH_ERROR_USAGE);
+    EXPECT_THAT(message_, HasSubstr("there is no camera 2: the pack has 2"));
+    EXPECT_EQ(pack_.getInstance(1000, instance, &message_), HEARTH_ERROR_USAGE);
+    EXPECT_THAT(message_, HasSubstr("there is no instance 1000"));
+    std::string_view name;
+    EXPECT_EQ(pack_.getName(HEARTH_TABLE_ANIMATIONS, 1000, name, &message_), HEARTH_ERROR_USAGE);
+    EXPECT_THAT(message_, HasSubstr("there is no animation 1000"));
+    EXPECT_EQ(pack_.getName(HEARTH_TABLE_ANIMATIONS + 1, 0, name, &message_), HEARTH_ERROR_USAGE);
+    EXPECT_THAT(message_, HasSubstr("table 9 is not one that this version knows"));
+    EXPECT_EQ(hearth_pack_get_count(pack_.get(), 9, &count, nullptr, 0), HEARTH_ERROR_USAGE);
+    EXPECT_EQ(hearth_pack_get_count(pack_.get(), 0, nullptr, nullptr, 0), HEARTH_ERROR_USAGE);
+    EXPECT_EQ(hearth_pack_get_count(nullptr, 0, &count, message, sizeof(message)), HEARTH_ERROR_USAGE);
+    EXPECT_THAT(message, HasSubstr("pack is NULL"));
+    EXPECT_EQ(hearth_pack_get_name(pack_.get(), 0, 0, nullptr, nullptr, 0), HEARTH_ERROR_USAGE);
+    camera.struct_size = 8;
+    EXPECT_EQ(pack_.getCamera(0, camera, &message_), HEARTH_ERROR_USAGE);
+    EXPECT_THAT(message_, HasSubstr("camera has a struct_size of 8"));
+    EXPECT_EQ(hearth_pack_get_instance(pack_.get(), 0, nullptr, nullptr, 0), HEARTH_ERROR_USAGE);
+}
+
+TEST_F(CTablesTest, aPackInUseCountsItsPlayers)
+{
+    EXPECT_STREQ(pack_.lastError(), "");
+    EXPECT_STREQ(hearth_pack_last_error(nullptr), "");
+    Player player, other;
+    ASSERT_EQ(Player::create(pack_, player), HEARTH_OK);
+    EXPECT_EQ(hearth_pack_close(pack_.get()), HEARTH_ERROR_IN_USE);
+    EXPECT_STREQ(hearth_pack_last_error(pack_.get()), "hearth_pack_close: error: 1 player is alive [E1000] "
+                                                      "hint: destroy it before the pack");
+    ASSERT_EQ(Player::create(pack_, other), HEARTH_OK);
+    EXPECT_EQ(hearth_pack_close(pack_.get()), HEARTH_ERROR_IN_USE);
+    EXPECT_THAT(hearth_pack_last_error(pack_.get()),
+                HasSubstr("2 players are alive [E1000] hint: destroy them"));
+}
+
+} // namespace hearth::test

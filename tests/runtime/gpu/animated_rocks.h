@@ -1,0 +1,69 @@
+// Rocks on nodes that clips move, put together in a test.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "tests/support/test_scene.h"
+
+namespace hearth::test
+{
+
+/// A node of its own, with translation, rotation and scale; returns its number.
+inline uint32_t addTrsNode(PackModel& model, uint32_t parent, Float3 translation)
+{
+    formats::NodeRecord node{};
+    node.parent = parent;
+    node.mesh = node.skin = formats::kNone;
+    node.has_trs = 1;
+    node.translation = translation;
+    node.rotation = {0, 0, 0, 1};
+    node.scale = {1, 1, 1};
+    node.parent_from_node = translated(translation);
+    model.nodes.push_back(node);
+    return static_cast<uint32_t>(model.nodes.size()) - 1;
+}
+
+/// A clip that moves a node on a straight line from 0 to `seconds`, by name.
+inline void addSlide(PackModel& model, const std::string& name, uint32_t node, float seconds, Float3 from,
+                     Float3 to)
+{
+    const auto first = static_cast<uint32_t>(model.keys.size());
+    for (const float key : {0.0f, seconds, from.x, from.y, from.z, to.x, to.y, to.z})
+        model.keys.push_back(key);
+    formats::AnimationChannelRecord channel{};
+    channel.node = node;
+    channel.path = static_cast<uint32_t>(formats::AnimationPath::translation);
+    channel.interpolation = static_cast<uint32_t>(formats::Interpolation::linear);
+    channel.components = 3;
+    channel.key_count = 2;
+    channel.first_time = first;
+    channel.first_value = first + 2;
+    const formats::StringRef text{static_cast<uint32_t>(model.strings.size()),
+                                  static_cast<uint32_t>(name.size())};
+    model.strings += name;
+    model.animations.push_back({text, {static_cast<uint32_t>(model.channels.size()), 1}, seconds, 0});
+    model.channels.push_back(channel);
+}
+
+/// Rock 0 stands at the origin; rock 1 on a node that "slide" brings from (2, 0, 0) to (6, 0, 0) in four seconds and "rise"
+/// to (2, 4, 0); rock 2 one metre above it, on a node below; rock 3 as rock 1, but moved by instancing, three metres on.
+inline void fillAnimatedRocks(TestScene& test, uint32_t mesh)
+{
+    PackModel& model = test.model();
+    test.addInstance(mesh, Affine3{});
+    const uint32_t node = addTrsNode(model, formats::kNone, {2, 0, 0});
+    const uint32_t below = addTrsNode(model, node, {0, 1, 0});
+    const auto add = [&](uint32_t on, Float3 place)
+    {
+        test.addInstance(mesh, translated(place));
+        model.instances.back().node = on;
+        model.nodes[on].mesh = mesh;
+        model.nodes.pop_back(); // of its own
+    };
+    add(node, {2, 0, 0});
+    add(below, {2, 1, 0});
+    add(node, {2, 0, 3});
+    addSlide(model, "slide", node, 4, {2, 0, 0}, {6, 0, 0});
+    addSlide(model, "rise", node, 4, {2, 0, 0}, {2, 4, 0});
+}
+
+} // namespace hearth::test

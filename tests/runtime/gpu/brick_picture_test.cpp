@@ -1,0 +1,308 @@
+// The light of bricks in pictures: what is gathered for surfaces, beside the CPU's gather; how it stands still, and follows.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/bricks/light/face_lighting.h"
+#include "formats/gpu_shared/gather_lobe.h"
+#include "runtime/gpu/scene/scene_shading.h"
+#include "tests/runtime/gpu/brick_scene.h"
+#include "tests/support/gpu_fixture.h"
+#include "tests/support/lit_scene.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hearth::test
+{
+
+namespace
+{
+
+using namespace shared;
+
+constexpr std::array<uint32_t, 3> kVoxels{24, 16, 24};
+
+/// A floor of two voxels, and a wall at its left end that glows red.
+bool floorAndWall(uint32_t x, uint32_t y, uint32_t)
+{
+    return y < 2 || x < 2;
+}
+
+FaceLook redWall(std::array<uint32_t, 3> voxel, uint32_t side)
+{
+    const bool glows = side == 1 && voxel[0] == 1;
+    return {{0.4f, 0.5f, 0.6f}, glows ? Float3{2, 0.05f, 0.05f} : Float3{}};
+}
+
+/// Floor, wall and an upright card that is not in the bricks.
+class BrickPictureTest : public GpuTest
+{
+protected:
+    static constexpr uint32_t kWidth = 128, kHeight = 96;
+
+    void load(bool with_bricks = true)
+    {
+        BrickModel bricks = brickModel(kVoxels, floorAndWall, redWall);
+        bricks.grid.origin = {-6, -1, -6};
+        bricks.grid.voxel_size = 0.5f;
+        model_ = bricks;
+        const uint32_t white = test_.addMaterial(plainMaterial());
+        const uint32_t floor = test_.addMaterial(floor_);
+        test_.addInstance(test_.addMesh(withMaterial(makeQuad(12, 12), floor)), lying({0, 0, 0}));
+        test_.addInstance(test_.addMesh(withMaterial(makeQuad(1.5f, 1.5f), white)), translated(kCardFar));
+        test_.addLight(sun({0.2f, -1, -0.3f}));
+        if (with_bricks)
+            setBricks(test_, bricks);
+        pack_.emplace(test_.build());
+        scene_ = upload(*pack_);
+        targets_.emplace(makeTargets(kWidth, kHeight));
+    }
+
+    Picture frame(const DrawOptions& more = {}, Float3 eye = {2, 3, 7})
+    {
+        DrawOptions options = more;
+        options.width = kWidth;
+        options.height = kHeight;
+        return draw(*scene_, *targets_, {.position = eye, .target = {0, 0.5f, 0}}, options);
+    }
+
+    Picture settled(const DrawOptions& options = {}, uint32_t frames = 48)
+    {
+        for (uint32_t i = 0; i < frames; ++i)
+            frame(options);
+        return frame(options);
+    }
+
+    /// What the tiles of the last frame hold, those that see nothing left out.
+    std::vector<GatherPoint> points()
+    {
+        const VkExtent2D tiles = targets_->gather().tiles();
+        std::vector<GatherPoint> all =
+            read<GatherPoint>(targets_->gather().points(), size_t{tiles.width} * tiles.height);
+        std::erase_if(all, [](const GatherPoint& p) { return p.count == 0; });
+        return all;
+    }
+
+    static constexpr Float3 kCardFar{3, 0.8f, 1};
+    static constexpr Float3 kCardNear{-4, 0.8f, 1};
+    static constexpr uint32_t kCard = 1; ///< instance
+
+    /// The floor, anew: of metal.
+    void polish(float roughness)
+    {
+        floor_.metallic = 1;
+        floor_.roughness = roughness;
+        test_ = TestScene();
+        load();
+    }
+
+    static constexpr uint32_t kFloor = 0; ///< instance
+
+    formats::MaterialRecord floor_ = plainMaterial(); ///< of what is loaded next
+    BrickModel model_;
+    TestScene test_;
+    std::optional<formats::PackView> pack_;
+    std::unique_ptr<gpu::Scene> scene_;
+    std::optional<gpu::FrameTargets> targets_;
+};
+
+/// What all rays of a lobe bring to the point of a tile.
+Float3 lobeOf(const BrickScene& scene, const BrickSky& sky, const BrickStart& start, const GatherPoint& point,
+              float roughness)
+{
+    constexpr uint32_t kRays = kGatherLobeRays * kGatherFrames;
+    const Float3 to_eye = point.position * (-1 / length(point.position));
+    Float3 sum;
+    float weights = 0;
+    for (uint32_t i = 0; i < kRays; ++i)
+    {
+        const GatherLobeRay ray = gatherLobeRay(to_eye, point.normal, roughness, i, kRays, 0);
+        sum += brickRayLight(scene, sky, start.place, ray.direction).radiance * ray.weight;
+        weights += ray.weight;
+    }
+    return sum / weights;
+}
+
+/// Of two pictures, the most that a channel differs.
+int mostDifference(const Picture& a, const Picture& b)
+{
+    int most = 0;
+    for (size_t i = 0; i < a.color.size(); ++i)
+        for (int c = 0; c < 3; ++c)
+            most = std::max(most, std::abs(channel(a.color[i], c) - channel(b.color[i], c)));
+    return most;
+}
+
+} // namespace
+
+TEST_F(BrickPictureTest, gathersWhatTheCpuGathers)
+{
+    load();
+    settled({}, 40);
+    const Lighting lighting = gpu::makeLighting(*pack_);
+    bricks::FaceLighting solver(brickViewOf(model_));
+    solver.sweep(lighting, scene_->bricks->rays, 24);
+    const BrickSky sky{lighting.sky_zenith, lighting.sky_horizon, lighting.sky_ground};
+    const BrickScene scene = solver.scene();
+    const Float3 eye{2, 3, 7};
+    const std::vector<GatherPoint> gathered = points();
+    ASSERT_GT(gathered.size(), 60u);
+    double square = 0, sum = 0, lobe_square = 0, lobe_sum = 0;
+    size_t count = 0;
+    for (const GatherPoint& point : gathered)
+    {
+        const Float3 place = (eye + point.position - model_.grid.origin) / model_.grid.voxel_size;
+        const BrickStart start = brickSurfaceStart(scene, place, point.normal);
+        // corners: the device looks for air elsewhere, too
+        if (start.buried != 0 || length(start.place - place) > 2)
+            continue;
+        ++count;
+        const Float3 truth = brickGather(scene, sky, start, 512, 1);
+        const Float3 sharp = lobeOf(scene, sky, start, point, kGatherSharp);
+        const Float3 wide = lobeOf(scene, sky, start, point, kGatherWide);
+        const Float3 sharp_found{point.red.w, point.green.w, point.blue.w};
+        for (int c = 0; c < 3; ++c)
+        {
+            square += std::pow(double(point.mean[c] - truth[c]), 2);
+            sum += double(truth[c]);
+            lobe_square += std::pow(double(sharp_found[c] - sharp[c]), 2);
+            lobe_square += std::pow(double(point.wide[c] - wide[c]), 2);
+            lobe_sum += double(sharp[c] + wide[c]);
+        }
+    }
+    ASSERT_GT(count, gathered.size() * 3 / 4);
+    const double rms = std::sqrt(square * 3 * double(count)) / sum; // of the mean
+    EXPECT_LT(rms, 0.02);
+    // of the last frames of their cycle the lobes have more than of the others
+    const double lobe_rms = std::sqrt(lobe_square * 6 * double(count)) / lobe_sum;
+    EXPECT_LT(lobe_rms, 0.05);
+}
+
+TEST_F(BrickPictureTest, standsStill)
+{
+    const auto unrest = [&]
+    {
+        settled({}, 40);
+        Picture last = frame();
+        int most = 0;
+        for (int i = 0; i < 16; ++i)
+        {
+            const Picture next = frame();
+            most = std::max(most, mostDifference(last, next));
+            last = next;
+        }
+        return most;
+    };
+    load();
+    EXPECT_LE(unrest(), 2); // of 255
+    polish(0.1f);
+    EXPECT_LE(unrest(), 3);
+    polish(0.5f);
+    EXPECT_LE(unrest(), 3);
+}
+
+TEST_F(BrickPictureTest, mirrorImagesAreAsSharpAsTheSurfaceIsSmooth)
+{
+    // the wall is seen in the left of the floor, the sky in its right
+    const auto contrast = [&](float roughness)
+    {
+        polish(roughness);
+        const Picture picture = settled({}, 20);
+        double red[2]{}, green[2]{};
+        for (uint32_t y = 0; y < kHeight; ++y)
+            for (uint32_t x = 0; x < kWidth; ++x)
+            {
+                if (picture.seen()[x + size_t{y} * kWidth][0] != kFloor ||
+                    (x > kWidth / 4 && x < kWidth * 3 / 4))
+                    continue;
+                red[x > kWidth / 2 ? 1 : 0] += channel(picture.at(x, y), 0);
+                green[x > kWidth / 2 ? 1 : 0] += channel(picture.at(x, y), 1);
+            }
+        return red[0] / green[0] / (red[1] / green[1]);
+    };
+    const double mirror = contrast(0.1f), smooth = contrast(0.35f), rough = contrast(0.6f),
+                 matt = contrast(1);
+    EXPECT_GT(mirror, 1.05 * smooth);
+    EXPECT_GT(smooth, 1.1 * rough);
+    EXPECT_GT(rough, 1.05 * matt);
+}
+
+TEST_F(BrickPictureTest, whatMovesReceivesLight)
+{
+    load();
+    const auto rednessOfCard = [&](const Picture& picture)
+    {
+        double red = 0, green = 0;
+        size_t i = 0;
+        for (const auto& seen : picture.seen())
+        {
+            if (seen[0] == kCard)
+            {
+                red += channel(picture.color[i], 0);
+                green += channel(picture.color[i], 1);
+            }
+            ++i;
+        }
+        EXPECT_GT(green, 0);
+        return red / green;
+    };
+    const double far = rednessOfCard(settled({.shown = kViewGathered}));
+    const gpu::InstanceMove move = gpu::moveInstance(*scene_, kCard, translated(kCardNear)).value();
+    frame({.shown = kViewGathered, .moves = {&move, 1}});
+    const double near = rednessOfCard(settled({.shown = kViewGathered}, 8));
+    EXPECT_GT(near, 1.15 * far);
+}
+
+TEST_F(BrickPictureTest, withoutTheirLightThePictureIsThatOfAPackWithoutBricks)
+{
+    load();
+    const Picture off = frame({.bricks_light = false});
+    const Picture on = frame();
+    EXPECT_NE(off.color, on.color);
+    test_ = TestScene();
+    load(false);
+    EXPECT_EQ(frame({.bricks_light = false}).color, off.color);
+    EXPECT_EQ(frame().color, off.color);
+}
+
+TEST_F(BrickPictureTest, tilesAndPartsShowTheSame)
+{
+    load();
+    const Picture whole = settled({.area = gpu::ShadedArea::wholePicture}, 2);
+    targets_.emplace(makeTargets(kWidth, kHeight));
+    scene_ = upload(*pack_);
+    EXPECT_EQ(settled({.area = gpu::ShadedArea::tiles}, 2).color, whole.color);
+}
+
+TEST_F(BrickPictureTest, showsBricksAndTheirLight)
+{
+    load();
+    const Picture lit = settled({.shown = kViewBrickLighting}, 8);
+    const Picture cells = frame({.shown = kViewBricks});
+    const auto red = std::count_if(lit.color.begin(), lit.color.end(),
+                                   [](uint32_t c)
+                                   { return channel(c, 0) > 200 && 2 * channel(c, 0) > 3 * channel(c, 1); });
+    EXPECT_GT(red, 200);
+    const uint32_t sky = lit.at(kWidth - 4, 2);
+    EXPECT_GE(channel(sky, 2), channel(sky, 0));
+    EXPECT_NE(cells.color, lit.color);
+    // bluish, as the albedo of the floor is
+    const uint32_t floor = cells.at(kWidth / 2, kHeight * 3 / 4);
+    EXPECT_GT(channel(floor, 2), channel(floor, 0));
+}
+
+TEST_F(BrickPictureTest, newLightIsSeenSoon)
+{
+    load();
+    settled();
+    const Picture before = frame();
+    formats::LightRecord out = sun({0.2f, -1, -0.3f});
+    out.intensity = 0;
+    const gpu::LightChange change = gpu::changeLight(*scene_, 0, out).value();
+    const gpu::EmissionScale dark{{{-10, -10, -10}, {10, 10, 10}}, 0};
+    frame({.lights = {&change, 1}, .emission = {&dark, 1}});
+    const Picture soon = settled({.emission = {&dark, 1}}, 20);
+    const Picture late = settled({.emission = {&dark, 1}}, 40);
+    EXPECT_GT(mostDifference(before, late), 20);
+    EXPECT_LE(mostDifference(soon, late), 3);
+}
+
+} // namespace hearth::test

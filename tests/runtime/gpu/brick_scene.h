@@ -1,0 +1,48 @@
+// Scenes with bricks that are made by hand.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "cook/bricks/grid/brick_view.h"
+#include "tests/support/brick_model.h"
+#include "tests/support/test_scene.h"
+
+namespace hearth::test
+{
+
+/// Of the face that looks along `side` of a voxel.
+struct FaceLook
+{
+    Float3 albedo{0.5f, 0.5f, 0.5f};
+    Float3 emission{};
+};
+using LookOf = std::function<FaceLook(std::array<uint32_t, 3> voxel, uint32_t side)>;
+
+/// A grid with looks; faces start dark.
+BrickModel brickModel(std::array<uint32_t, 3> voxels,
+                      const std::function<bool(uint32_t, uint32_t, uint32_t)>& solid, const LookOf& look);
+
+/// Gives the scene bricks, before it is built.
+void setBricks(TestScene& scene, const BrickModel& bricks);
+
+/// What the cookers' library reads of a model, which must outlive it.
+bricks::BrickView brickViewOf(const BrickModel& model);
+
+/// Voxel and side of each face.
+struct FacePlace
+{
+    std::array<uint32_t, 3> voxel;
+    uint32_t side;
+};
+std::vector<FacePlace> facePlaces(const BrickModel& model);
+
+/// The shell of a box: solid within `thick` voxels of its outside.
+inline auto shellOf(std::array<uint32_t, 3> voxels, uint32_t thick = 1)
+{
+    return [=](uint32_t x, uint32_t y, uint32_t z)
+    {
+        return x < thick || y < thick || z < thick || x >= voxels[0] - thick || y >= voxels[1] - thick ||
+               z >= voxels[2] - thick;
+    };
+}
+
+} // namespace hearth::test

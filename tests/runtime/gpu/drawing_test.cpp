@@ -1,0 +1,446 @@
+// What is seen: culling changes nothing, whatever the size, the transforms and the number of threads.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "runtime/viewer/pyramid_start.h"
+#include "tests/support/gpu_fixture.h"
+#include "tests/support/shapes.h"
+#include "tests/support/test_scene.h"
+
+#include <cstdlib>
+#include <set>
+#include <thread>
+
+namespace hearth::test
+{
+
+namespace
+{
+
+using namespace shared;
+
+/// Rocks that overlap, sheared and mirrored, one of them two-sided.
+void fillRocks(TestScene& scene, int count, uint32_t seed)
+{
+    std::mt19937 random(seed);
+    formats::MaterialRecord two_sided = plainMaterial();
+    two_sided.flags = formats::kMaterialDoubleSided;
+    const uint32_t meshes[] = {
+        scene.addMesh(withMaterial(shapes::rock(24, 0.3f), scene.addMaterial(plainMaterial()))),
+        scene.addMesh(withMaterial(shapes::terrain(32), scene.addMaterial(two_sided)))};
+    scene.addInstance(meshes[0], Affine3{});
+    for (int i = 1; i < count; ++i)
+        scene.addInstance(meshes[i % 4 == 3 ? 1 : 0], randomAffine(random, 4));
+}
+
+Camera lookingAtOrigin(Float3 position)
+{
+    return {.position = position, .target = {0, 0, 0}, .y_fov_rad = 0.9f, .z_near = 0.05f};
+}
+
+/// New places for some of the instances, half of them mirrored.
+std::vector<gpu::InstanceMove> randomMoves(const gpu::Scene& scene, const formats::PackView& pack,
+                                           std::mt19937& random)
+{
+    std::vector<gpu::InstanceMove> moves;
+    for (uint32_t i = 0; i < pack.instances().size(); ++i)
+    {
+        if (random() % 4 != 0)
+            continue;
+        Affine3 place = randomAffine(random, 4);
+        if (random() % 2 == 0)
+            for (auto& row : place.m)
+                row[0] = -row[0];
+        const auto move = gpu::moveInstance(scene, i, place);
+        HEARTH_ASSERT(move.ok());
+        moves.push_back(*move);
+    }
+    return moves;
+}
+
+class DrawingTest : public GpuTest
+{
+protected:
+    /// Fill the pyramid with anything and say that it was seen from anywhere.
+    void writeNoise(gpu::FrameTargets& targets, std::mt19937& random)
+    {
+        const auto [width, height] = targets.extent();
+        const OcclusionView view =
+            makeOcclusionView(makeFrameView(randomCamera(random, 6), width, height, 1, 0));
+        ASSERT_TRUE(
+            viewer::writeNoise(host(), renderer().device(), targets, view, static_cast<uint32_t>(random()))
+                .ok());
+    }
+};
+
+} // namespace
+
+TEST_F(DrawingTest, cullingIsLossless)
+{
+    TestScene test;
+    fillRocks(test, 16, 21);
+    const formats::PackView pack = test.build();
+    const auto scene = upload(pack);
+    uint64_t culled = 0;
+    for (const Float3 eye : {Float3{9, 5, 7}, {0.3f, 0.2f, 0.1f}, {-4, 1, 0}, {0, 12, 0.001f}, {2, -3, 40}})
+    {
+        DrawOptions options{.width = 333, .height = 177, .error_pixels = 0, .flags = 0};
+        const Picture all = draw(*scene, lookingAtOrigin(eye), options);
+        for (const uint32_t flags :
+             {kCullInstances, kCullFrustum, kCullCone, kCullOcclusion, kCullEverything})
+        {
+            options.flags = flags;
+            const Picture some = draw(*scene, lookingAtOrigin(eye), options);
+            EXPECT_EQ(some.seen(), all.seen()) << "eye " << eye.x << " flags " << flags;
+            EXPECT_EQ(some.color, all.color);
+            culled += all.list.slots.size() - some.list.slots.size();
+        }
+    }
+    EXPECT_GT(culled, 1000u) << "a culling that culls nothing is not tested";
+}
+
+TEST_F(DrawingTest, cullingIsLosslessWhateverWasDrawnBefore)
+{
+    std::mt19937 random(77);
+    TestScene test;
+    fillRocks(test, 12, 5);
+    const formats::PackView pack = test.build();
+    const auto scene = upload(pack);
+    size_t frames = 0, drawn = 0, all = 0, late = 0;
+    const auto compare = [&](uint32_t width, uint32_t height, int count)
+    {
+        gpu::FrameTargets targets = makeTargets(width, height);
+        gpu::FrameTargets other = makeTargets(width, height);
+        Camera camera = randomCamera(random, 6);
+        for (int i = 0; i < count; ++i, ++frames)
+        {
+            switch (i % 4)
+            {
+            case 0: // a cut, and a few frames into the picture before it
+                camera = randomCamera(random, 6);
+                break;
+            case 1: // anything may have been there
+                writeNoise(targets, random);
+                break;
+            case 2:
+                camera.position += {uniform(random, -1, 1), uniform(random, -1, 1), uniform(random, -1, 1)};
+                break;
+            default: // the same again: what was drawn hides the rest
+                break;
+            }
+            std::vector<gpu::InstanceMove> moves;
+            if (i % 3 == 0)
+                moves = randomMoves(*scene, pack, random);
+            DrawOptions options{
+                .width = width, .height = height, .error_pixels = i % 5 == 0 ? 0.0f : 2.0f, .moves = moves};
+            const Picture some = draw(*scene, targets, camera, options);
+            options.flags = 0;
+            const Picture whole = draw(*scene, other, camera, options);
+            ASSERT_EQ(some.seen(), whole.seen()) << width << "x" << height << " frame " << i;
+            ASSERT_EQ(some.color, whole.color);
+            drawn += some.list.slots.size();
+            late += some.list.slots.size() - some.list.counters.early_clusters;
+            all += whole.list.slots.size();
+        }
+    };
+    compare(64, 48, 350);
+    compare(1, 1, 40);
+    compare(97, 131, 98);
+    compare(333, 777, 10);
+    compare(1920, 1080, 2);
+    EXPECT_EQ(frames, 500u);
+    EXPECT_LT(drawn * 5, all * 3) << "a culling that culls nothing is not tested";
+    EXPECT_GT(late, frames) << "a late phase that finds nothing is not tested";
+}
+
+TEST_F(DrawingTest, littleIsDrawnThatIsNotSeen)
+{
+    // a crowd that hides most of itself
+    std::mt19937 random(3);
+    TestScene test;
+    const uint32_t mesh =
+        test.addMesh(withMaterial(shapes::rock(48, 0.2f), test.addMaterial(plainMaterial())));
+    for (int x = -4; x <= 4; ++x)
+        for (int z = 0; z < 14; ++z)
+            test.addInstance(mesh, translated({static_cast<float>(x) * 1.7f + uniform(random, -0.2f, 0.2f),
+                                               uniform(random, -0.2f, 0.2f), static_cast<float>(z) * -2.5f}));
+    const formats::PackView pack = test.build();
+    const auto scene = upload(pack);
+    gpu::FrameTargets targets = makeTargets(640, 360);
+    const Camera camera{.position = {0, 0.5f, 7}, .target = {0, 0, 0}, .z_near = 0.05f};
+    // clusters are small beside the rocks: at one pixel of error they are large, and 1.73 times as many are drawn as seen
+    const DrawOptions options{.width = 640, .height = 360, .error_pixels = 0.25f};
+    draw(*scene, targets, camera, options);
+    const Picture picture = draw(*scene, targets, camera, options);
+    std::set<std::pair<uint32_t, uint32_t>> owners;
+    for (const auto& [instance, cluster, triangle] : picture.seen())
+        if (instance != kNothingVisible)
+            owners.emplace(instance, cluster);
+    EXPECT_GT(owners.size(), 200u);
+    EXPECT_LE(static_cast<double>(picture.list.slots.size()), 1.6 * static_cast<double>(owners.size()));
+}
+
+TEST_F(DrawingTest, coneCullingRemovesTheFarSideOfARock)
+{
+    TestScene test;
+    const uint32_t mesh =
+        test.addMesh(withMaterial(shapes::rock(32, 0.0f), test.addMaterial(plainMaterial())));
+    test.addInstance(mesh, Affine3{});
+    const formats::PackView pack = test.build();
+    const auto scene = upload(pack);
+    DrawOptions options{.error_pixels = 0, .flags = 0};
+    const size_t all = draw(*scene, lookingAtOrigin({0, 0, 5}), options).list.slots.size();
+    options.flags = kCullCone;
+    const size_t facing = draw(*scene, lookingAtOrigin({0, 0, 5}), options).list.slots.size();
+    EXPECT_LT(facing, all * 7 / 10);
+    EXPECT_GE(facing, all * 4 / 10);
+}
+
+TEST_F(DrawingTest, everySizeIsDrawn)
+{
+    TestScene test;
+    fillRocks(test, 5, 4);
+    const formats::PackView pack = test.build();
+    const auto scene = upload(pack);
+    for (const auto& [width, height] : {std::pair{1u, 1u}, {2u, 1u}, {1u, 97u}, {333u, 777u}, {64u, 64u}})
+    {
+        const Picture picture = draw(*scene, lookingAtOrigin({6, 4, 6}), {.width = width, .height = height});
+        EXPECT_EQ(picture.color.size(), size_t{width} * height);
+        EXPECT_NE(picture.visibility[height / 2 * width + width / 2], kNothingVisible);
+    }
+}
+
+TEST_F(DrawingTest, framesRepeatExactly)
+{
+    TestScene test;
+    fillRocks(test, 9, 8);
+    const formats::PackView pack = test.build();
+    const auto scene = upload(pack);
+    const Picture first = draw(*scene, lookingAtOrigin({6, 4, 6}));
+    draw(*scene, lookingAtOrigin({-2, 7, 1}), {.width = 64, .height = 64, .error_pixels = 30});
+    const Picture again = draw(*scene, lookingAtOrigin({6, 4, 6}));
+    EXPECT_EQ(first.visibility, again.visibility);
+    EXPECT_EQ(first.color, again.color);
+}
+
+TEST_F(DrawingTest, frontFacesAreCounterClockwiseAlsoWhenMirrored)
+{
+    TestScene test;
+    const uint32_t mesh = test.addMesh(withMaterial(makeQuad(1, 1), test.addMaterial(plainMaterial())));
+    Affine3 mirrored = translated({1, 0, 0});
+    mirrored.m[0][0] = -1;
+    test.addInstance(mesh, translated({-1, 0, 0}));
+    test.addInstance(mesh, mirrored);
+    const formats::PackView pack = test.build();
+    const auto scene = upload(pack);
+    const auto instancesSeen = [&](const Picture& picture)
+    {
+        uint32_t seen = 0;
+        for (const auto& [instance, cluster, triangle] : picture.seen())
+            if (instance != kNothingVisible)
+                seen |= 1u << instance;
+        return seen;
+    };
+    EXPECT_EQ(instancesSeen(draw(*scene, lookingAtOrigin({0, 0, 4}), {.flags = 0})), 3u);
+    EXPECT_EQ(instancesSeen(draw(*scene, lookingAtOrigin({0, 0, -4}), {.flags = 0})), 0u);
+}
+
+TEST_F(DrawingTest, nearerSurfacesHideThoseBehindThem)
+{
+    TestScene test;
+    const uint32_t mesh = test.addMesh(withMaterial(makeQuad(2, 2), test.addMaterial(plainMaterial())));
+    test.addInstance(mesh, translated({0, 0, -1}));
+    test.addInstance(mesh, translated({0, 0, 1}));
+    test.addInstance(mesh, translated({0, 0, 0}));
+    const formats::PackView pack = test.build();
+    const auto scene = upload(pack);
+    const Picture picture = draw(*scene, lookingAtOrigin({0, 0, 4}));
+    EXPECT_EQ(picture.seen()[60 * 160 + 80][0], 1u);
+}
+
+TEST_F(DrawingTest, blendedSurfacesCoverAsManyPixelsAsTheirAlphaSays)
+{
+    for (const float alpha : {0.0f, 0.25f, 0.5f, 1.0f})
+    {
+        TestScene test;
+        formats::MaterialRecord glass = plainMaterial();
+        glass.alpha_mode = static_cast<uint32_t>(formats::AlphaMode::blend);
+        glass.base_color.w = alpha;
+        test.addInstance(test.addMesh(withMaterial(makeQuad(100, 100), test.addMaterial(glass))), Affine3{});
+        const formats::PackView pack = test.build();
+        const auto scene = upload(pack);
+        const Picture picture = draw(*scene, lookingAtOrigin({0, 0, 4}), {.width = 64, .height = 64});
+        const auto covered =
+            4096 - std::count(picture.visibility.begin(), picture.visibility.end(), kNothingVisible);
+        EXPECT_EQ(covered, static_cast<long>(4096 * alpha));
+    }
+}
+
+TEST_F(DrawingTest, maskedSurfacesHaveTheHolesOfTheirTexture)
+{
+    TestScene test;
+    formats::MaterialRecord leaf = plainMaterial();
+    leaf.alpha_mode = static_cast<uint32_t>(formats::AlphaMode::mask);
+    // left half opaque, right half a hole
+    leaf.base_color_texture =
+        textureOf(test.addImage(formats::TexelFormat::rgba8_srgb, 2, 1, {0xFFFFFFFF, 0x00FFFFFF}));
+    leaf.base_color_texture.nearest = 1;
+    test.addInstance(test.addMesh(withMaterial(makeQuad(2, 2), test.addMaterial(leaf))), Affine3{});
+    const formats::PackView pack = test.build();
+    const auto scene = upload(pack);
+    const Picture picture = draw(*scene, lookingAtOrigin({0, 0, 4}));
+    EXPECT_NE(picture.visibility[60 * 160 + 70], kNothingVisible);
+    EXPECT_EQ(picture.visibility[60 * 160 + 90], kNothingVisible);
+}
+
+TEST_F(DrawingTest, geometryInEverySliceOfThePoolIsDrawn)
+{
+    // One triangle a page, in pages of 64 KiB that hold nothing else: 2100 of them are more than one slice.
+    constexpr uint32_t kPages = 2100;
+    TestScene test;
+    test.addInstance(test.addMesh(withMaterial(makeQuad(1, 1), test.addMaterial(plainMaterial()))),
+                     Affine3{});
+    const formats::PackView small = test.build();
+    const auto page = small.decodePage(0);
+    ASSERT_TRUE(page.ok());
+
+    PackModel model = test.model();
+    const formats::PageRecord page_record = model.pages[0];
+    const formats::ClusterRecord cluster = model.clusters[0];
+    model.pages.clear();
+    model.clusters.clear();
+    model.decoded_pages.clear();
+    for (uint32_t i = 0; i < kPages; ++i)
+    {
+        std::vector<std::byte> bytes = *page;
+        bytes.resize(formats::kPageMaxBytes);
+        model.decoded_pages.push_back(std::move(bytes));
+        model.pages.push_back(page_record);
+        model.pages.back().clusters = {i, 1};
+        model.clusters.push_back(cluster);
+        model.clusters.back().page = i;
+        // a row of quads, one behind the other to the right
+        model.clusters.back().base[0] +=
+            static_cast<int32_t>(static_cast<float>(i) / model.meshes[0].grid_step);
+        model.clusters.back().cone_cutoff = formats::kNoCone;
+    }
+    model.meshes[0].clusters.count = kPages;
+    model.meshes[0].pages.count = kPages;
+    model.sealPages();
+    const AlignedBytes bytes = model.bytes();
+    auto reader = formats::ContainerReader::fromBytes(bytes.span(), "test", formats::Check::structure);
+    ASSERT_TRUE(reader.ok());
+    const auto pack = formats::PackView::read(std::move(*reader));
+    ASSERT_TRUE(pack.ok());
+
+    const auto scene = upload(*pack);
+    EXPECT_EQ(scene->used_slices, kPoolSlices);
+    for (const uint32_t quad : {0u, 2047u, 2048u, kPages - 1})
+    {
+        const auto x = static_cast<float>(quad);
+        const Camera camera{.position = {x, 0, 3}, .target = {x, 0, 0}};
+        const Picture picture = draw(*scene, camera, {.width = 32, .height = 32});
+        EXPECT_EQ(picture.seen()[16 * 32 + 16][1], quad);
+        EXPECT_GT(channel(picture.at(16, 16), 0), 100) << "the quad faces the light";
+    }
+}
+
+TEST_F(DrawingTest, theNumberOfThreadsChangesNothing)
+{
+    TestScene test;
+    fillRocks(test, 9, 8);
+    const formats::PackView pack = test.build();
+    std::vector<Picture> pictures;
+    for (const char* threads : {"0", "1", "2", "4"})
+    {
+        // read by lavapipe when a device is made; other drivers draw four times the same
+        ::setenv("LP_NUM_THREADS", threads, 1);
+        TearDownTestSuite();
+        SetUpTestSuite();
+        const auto scene = upload(pack);
+        pictures.push_back(draw(*scene, lookingAtOrigin({6, 4, 6})));
+        EXPECT_EQ(pictures.back().visibility, pictures.front().visibility) << threads;
+        EXPECT_EQ(pictures.back().color, pictures.front().color) << threads;
+    }
+    ::unsetenv("LP_NUM_THREADS");
+}
+
+namespace
+{
+
+/// The colours of a few frames, with an instance, a device and a renderer of their own.
+void drawAlone(const formats::PackView& pack, std::vector<std::vector<std::byte>>& pictures)
+{
+    auto host = viewer::VulkanHost::create({.device_name = "", .validate = true});
+    ASSERT_TRUE(host.ok()) << formatMessage(host.error());
+    auto renderer = gpu::Renderer::create((*host)->description());
+    ASSERT_TRUE(renderer.ok()) << formatMessage(renderer.error());
+    std::unique_ptr<gpu::Scene> scene;
+    const Status uploaded = (*host)->run(
+        [&](VkCommandBuffer commands) -> Status
+        {
+            HEARTH_ASSIGN_OR_RETURN(scene, (*renderer)->upload(pack, commands));
+            return success();
+        });
+    ASSERT_TRUE(uploaded.ok()) << formatMessage(uploaded.error());
+    auto targets = (*renderer)->createTargets({96, 72});
+    ASSERT_TRUE(targets.ok());
+    for (const Float3 eye : {Float3{6, 4, 6}, {-2, 7, 1}, {9, 1, -3}})
+    {
+        const FrameView view = makeFrameView(lookingAtOrigin(eye), 96, 72, 1, scene->instance_count);
+        const Status drawn = (*host)->run(
+            [&](VkCommandBuffer commands)
+            {
+                (*renderer)->record(commands, *scene, *targets, {.view = view});
+                return success();
+            });
+        ASSERT_TRUE(drawn.ok()) << formatMessage(drawn.error());
+        auto color = (*host)->read((*renderer)->device(), targets->color(), 4);
+        ASSERT_TRUE(color.ok());
+        pictures.push_back(std::move(*color));
+    }
+    EXPECT_EQ((*host)->messages(), std::vector<std::string>{});
+}
+
+} // namespace
+
+TEST_F(DrawingTest, renderersOfOneProcessKnowNothingOfEachOther)
+{
+    TestScene test, other_test;
+    fillRocks(test, 9, 8);
+    fillRocks(other_test, 7, 3);
+    const formats::PackView packs[] = {test.build(), other_test.build()};
+    std::vector<std::vector<std::byte>> alone[2], together[2];
+    for (size_t i = 0; i < 2; ++i)
+        drawAlone(packs[i], alone[i]);
+    std::thread other([&] { drawAlone(packs[1], together[1]); });
+    drawAlone(packs[0], together[0]);
+    other.join();
+    for (size_t i = 0; i < 2; ++i)
+    {
+        ASSERT_EQ(alone[i].size(), 3u);
+        EXPECT_EQ(together[i], alone[i]);
+    }
+    EXPECT_NE(alone[0], alone[1]);
+}
+
+TEST_F(DrawingTest, aMistakeIsReportedByTheValidationLayer)
+{
+    // the canary: tests that expect silence are worth something only if mistakes are heard
+    const gpu::Device& device = renderer().device();
+    gpu::MemoryArena arena(device);
+    auto buffer = arena.createBuffer(64, VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::MemoryKind::device);
+    ASSERT_TRUE(buffer.ok());
+    const Status status = host().run(
+        [&](VkCommandBuffer commands)
+        {
+            // two writes to the same bytes without a barrier: a hazard that only synchronization validation sees
+            device.vk.vkCmdFillBuffer(commands, buffer->handle.get(), 0, VK_WHOLE_SIZE, 1);
+            device.vk.vkCmdFillBuffer(commands, buffer->handle.get(), 0, VK_WHOLE_SIZE, 2);
+            return success();
+        });
+    ASSERT_TRUE(status.ok());
+    ASSERT_EQ(host().messages().size(), 1u);
+    EXPECT_NE(host().messages()[0].find("SYNC-HAZARD-WRITE-AFTER-WRITE"), std::string::npos);
+    host().clearMessages();
+}
+
+} // namespace hearth::test

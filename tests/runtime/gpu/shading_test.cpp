@@ -1,0 +1,318 @@
+// Surfaces whose picture is known: textures, normals, lights.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "tests/support/gpu_fixture.h"
+#include "tests/support/test_scene.h"
+
+#include <cmath>
+
+namespace hearth::test
+{
+
+namespace
+{
+
+using namespace formats;
+
+int srgbByte(float linear)
+{
+    const float encoded =
+        linear <= 0.0031308f ? linear * 12.92f : 1.055f * std::pow(linear, 1 / 2.4f) - 0.055f;
+    return static_cast<int>(encoded * 255 + 0.5f);
+}
+
+uint32_t gray(uint32_t value)
+{
+    return 0xFF000000u | value << 16 | value << 8 | value;
+}
+
+MaterialRecord unlitMaterial()
+{
+    MaterialRecord material = plainMaterial();
+    material.flags = kMaterialUnlit;
+    return material;
+}
+
+LightRecord light(LightType type, float intensity)
+{
+    LightRecord record{};
+    record.type = static_cast<uint32_t>(type);
+    record.color = {1, 1, 1};
+    record.intensity = intensity;
+    record.outer_cone_rad = 0.785f;
+    return record;
+}
+
+/// The camera sees exactly the square of side 2 around the origin at z = 0.
+shared::Camera squareCamera()
+{
+    return {.position = {0, 0, 2}, .target = {0, 0, 0}, .y_fov_rad = 2 * std::atan(0.5f), .z_near = 0.01f};
+}
+
+class ShadingTest : public GpuTest
+{
+protected:
+    /// Draw the scene with squareCamera on 64 x 64 pixels.
+    Picture drawSquare(TestScene& test, uint32_t shown = shared::kViewFinal)
+    {
+        const PackView pack = test.build();
+        const auto scene = upload(pack);
+        return draw(*scene, squareCamera(), {.width = 64, .height = 64, .shown = shown});
+    }
+
+    /// A square of this material that fills the picture, drawn.
+    Picture drawMaterial(TestScene& test, const MaterialRecord& material, uint32_t shown = shared::kViewFinal)
+    {
+        test.addInstance(test.addMesh(withMaterial(makeQuad(2, 2), test.addMaterial(material))), Affine3{});
+        return drawSquare(test, shown);
+    }
+
+    static void expectNormal(uint32_t color, Float3 normal)
+    {
+        normal = normal / length(normal);
+        EXPECT_NEAR(channel(color, 0), (normal.x * 0.5f + 0.5f) * 255, 1.6f);
+        EXPECT_NEAR(channel(color, 1), (normal.y * 0.5f + 0.5f) * 255, 1.6f);
+        EXPECT_NEAR(channel(color, 2), (normal.z * 0.5f + 0.5f) * 255, 1.6f);
+    }
+};
+
+} // namespace
+
+TEST_F(ShadingTest, unlitColoursReachThePictureUnchanged)
+{
+    TestScene test;
+    MaterialRecord material = unlitMaterial();
+    material.base_color = {0.2f, 0.5f, 0.8f, 1};
+    const Picture picture = drawMaterial(test, material);
+    for (const uint32_t color : picture.color)
+    {
+        ASSERT_NEAR(channel(color, 0), srgbByte(0.2f), 1);
+        ASSERT_NEAR(channel(color, 1), srgbByte(0.5f), 1);
+        ASSERT_NEAR(channel(color, 2), srgbByte(0.8f), 1);
+    }
+}
+
+TEST_F(ShadingTest, texturesStandUprightAndKeepTheirBytes)
+{
+    TestScene test;
+    MaterialRecord material = unlitMaterial();
+    material.base_color_texture = textureOf(
+        test.addImage(TexelFormat::rgba8_srgb, 2, 2, {0xFF0000FF, 0xFF00FF00, 0xFFFF0000, 0xFF808080}));
+    material.base_color_texture.nearest = 1;
+    const Picture picture = drawMaterial(test, material);
+    EXPECT_EQ(picture.at(10, 10), 0xFF0000FFu);
+    EXPECT_EQ(picture.at(50, 10), 0xFF00FF00u);
+    EXPECT_EQ(picture.at(10, 50), 0xFFFF0000u);
+    EXPECT_EQ(picture.at(50, 50), 0xFF808080u);
+}
+
+TEST_F(ShadingTest, theMipLevelFollowsTheSizeOnTheScreen)
+{
+    // mips of 0, 100 and 200: the picture says which level is sampled, in hundredths
+    constexpr uint32_t kSize = 128;
+    std::vector<uint32_t> texels(kSize * kSize, gray(0));
+    texels.resize(texels.size() + kSize * kSize / 4, gray(100));
+    texels.resize(texels.size() + kSize * kSize / 16, gray(200));
+    for (const float size : {2.0f, 1.41421356f, 1.0f, 0.70710678f})
+    {
+        TestScene test;
+        MaterialRecord material = unlitMaterial();
+        material.base_color_texture =
+            textureOf(test.addImage(TexelFormat::rgba8_unorm, kSize, kSize, texels));
+        test.addInstance(test.addMesh(withMaterial(makeQuad(size, size), test.addMaterial(material))),
+                         Affine3{});
+        const Picture picture = drawSquare(test);
+        // 128 texels on 32 * size pixels
+        const float level = std::min(std::log2(128 / (32 * size)), 2.0f);
+        for (const uint32_t x : {22u, 32u, 41u})
+            EXPECT_NEAR(channel(picture.at(x, 32), 0), srgbByte(level * 100 / 255), 2) << size;
+    }
+}
+
+TEST_F(ShadingTest, uvTransformAndUvSetAreFollowed)
+{
+    TestScene test;
+    MaterialRecord material = unlitMaterial();
+    material.base_color_texture =
+        textureOf(test.addImage(TexelFormat::rgba8_srgb, 2, 1, {gray(10), gray(240)}));
+    material.base_color_texture.nearest = 1;
+    material.base_color_texture.uv_set = 1;
+    // swaps u and v, and shifts the new u by half the texture
+    const float transform[6] = {0, 1, 0.5f, 1, 0, 0};
+    std::copy(std::begin(transform), std::end(transform), material.base_color_texture.uv_transform);
+    mesh::SourceMesh quad = withMaterial(makeQuad(2, 2), test.addMaterial(material));
+    quad.uvs[1] = quad.uvs[0];
+    quad.uvs[0].assign(4, {0.25f, 0.25f});
+    test.addInstance(test.addMesh(quad), Affine3{});
+    const Picture picture = drawSquare(test);
+    for (const uint32_t x : {5u, 60u})
+    {
+        EXPECT_EQ(picture.at(x, 5), gray(240));
+        EXPECT_EQ(picture.at(x, 60), gray(10));
+    }
+}
+
+TEST_F(ShadingTest, vertexColoursMultiply)
+{
+    TestScene test;
+    MaterialRecord material = unlitMaterial();
+    material.base_color = {0.5f, 1, 1, 1};
+    mesh::SourceMesh quad = withMaterial(makeQuad(2, 2), test.addMaterial(material));
+    quad.colors = {{0, 1, 0, 1}, {1, 1, 0, 1}, {1, 1, 0, 1}, {0, 1, 0, 1}};
+    test.addInstance(test.addMesh(quad), Affine3{});
+    const Picture picture = drawSquare(test);
+    for (const uint32_t x : {3u, 20u, 60u})
+    {
+        const float red = (static_cast<float>(x) + 0.5f) / 64;
+        EXPECT_NEAR(channel(picture.at(x, 30), 0), srgbByte(0.5f * red), 1);
+        EXPECT_EQ(channel(picture.at(x, 30), 1), 255);
+        EXPECT_EQ(channel(picture.at(x, 30), 2), 0);
+    }
+}
+
+TEST_F(ShadingTest, normalsFollowShearedAndMirroredInstances)
+{
+    std::mt19937 random(5);
+    for (int i = 0; i < 12; ++i)
+    {
+        TestScene test;
+        MaterialRecord material = plainMaterial();
+        material.flags = kMaterialDoubleSided;
+        const Affine3 instance = randomAffine(random, 0);
+        test.addInstance(test.addMesh(withMaterial(makeQuad(9, 9), test.addMaterial(material))), instance);
+        const Picture picture = drawSquare(test, shared::kViewNormals);
+        // the normal of the plane, on the side of the eye
+        Float3 normal = cross(transformVector(instance, {1, 0, 0}), transformVector(instance, {0, 1, 0}));
+        if (normal.z < 0)
+            normal = -normal;
+        if (picture.visibility[32 * 64 + 32] != shared::kNothingVisible)
+            expectNormal(picture.at(32, 32), normal);
+    }
+}
+
+TEST_F(ShadingTest, normalMapsTiltAlongTangentAndBitangent)
+{
+    // 0.48 along the tangent, 0.6 along the bitangent, 0.64 along the normal
+    const uint32_t texel = 0xFF000000u | 209u << 16 | 204u << 8 | 189u;
+    for (const bool mirrored : {false, true})
+        for (const bool tangents : {false, true})
+        {
+            TestScene test;
+            MaterialRecord material = plainMaterial();
+            material.normal_texture = textureOf(test.addImage(TexelFormat::rgba8_unorm, 1, 1, {texel}));
+            mesh::SourceMesh quad = withMaterial(makeQuad(2, 2), test.addMaterial(material));
+            if (!tangents)
+                quad.tangents.clear();
+            Affine3 instance;
+            instance.m[0][0] = mirrored ? -1.0f : 1.0f;
+            test.addInstance(test.addMesh(quad), instance);
+            const Picture picture = drawSquare(test, shared::kViewNormals);
+            // green points up in the picture, u to the right unless mirrored
+            expectNormal(picture.at(32, 32), {mirrored ? -0.48f : 0.48f, 0.6f, 0.64f});
+        }
+}
+
+TEST_F(ShadingTest, theSecondSideOfATwoSidedSurfaceIsLitFromItsOwnSide)
+{
+    TestScene test;
+    MaterialRecord material = plainMaterial();
+    material.flags = kMaterialDoubleSided;
+    Affine3 turned;
+    turned.m[0][0] = turned.m[2][2] = -1;
+    test.addInstance(test.addMesh(withMaterial(makeQuad(2, 2), test.addMaterial(material))), turned);
+    expectNormal(drawSquare(test, shared::kViewNormals).at(32, 32), {0, 0, 1});
+}
+
+TEST_F(ShadingTest, occlusionDarkensTheSkyAndEmissionAdds)
+{
+    const auto brightness = [&](uint32_t occlusion, float emissive)
+    {
+        TestScene test;
+        test.addLight(light(LightType::directional, 0)); // no default sun
+        MaterialRecord material = plainMaterial();
+        material.occlusion_texture =
+            textureOf(test.addImage(TexelFormat::rgba8_unorm, 1, 1, {gray(occlusion)}));
+        material.emissive = {emissive, emissive, emissive};
+        return channel(drawMaterial(test, material).at(32, 32), 0);
+    };
+    EXPECT_EQ(brightness(0, 0), 0);
+    EXPECT_GT(brightness(128, 0), 50);
+    EXPECT_GT(brightness(255, 0), brightness(128, 0) + 30);
+    EXPECT_GT(brightness(0, 1), 200);
+}
+
+TEST_F(ShadingTest, pointAndSpotLightsEndWhereTheySay)
+{
+    const auto drawWith = [&](LightRecord record)
+    {
+        TestScene test;
+        record.world_from_light = translated({0, 0, 1});
+        test.addLight(record);
+        MaterialRecord material = plainMaterial();
+        material.occlusion_texture = textureOf(test.addImage(TexelFormat::rgba8_unorm, 1, 1, {gray(0)}));
+        return drawMaterial(test, material);
+    };
+    LightRecord lamp = light(LightType::point, 3);
+    EXPECT_GT(channel(drawWith(lamp).at(32, 32), 0), 150);
+    EXPECT_GT(channel(drawWith(lamp).at(0, 0), 0), 20);
+    lamp.range = 1.2f; // the corners are 1.73 m away
+    EXPECT_GT(channel(drawWith(lamp).at(32, 32), 0), 50);
+    EXPECT_EQ(channel(drawWith(lamp).at(0, 0), 0), 0);
+    LightRecord spot = light(LightType::spot, 3);
+    spot.outer_cone_rad = 0.4636f; // half a metre at one metre: half of the way to the side
+    const Picture cone = drawWith(spot);
+    EXPECT_GT(channel(cone.at(32, 32), 0), 150);
+    EXPECT_GT(channel(cone.at(32 + 12, 32), 0), 0);
+    EXPECT_EQ(channel(cone.at(32 + 18, 32), 0), 0);
+}
+
+TEST_F(ShadingTest, strongLightsAreExposedToTheSamePicture)
+{
+    const auto drawWith = [&](float lux)
+    {
+        TestScene test;
+        test.addLight(light(LightType::directional, lux));
+        return drawMaterial(test, plainMaterial()).color;
+    };
+    EXPECT_EQ(drawWith(100), drawWith(120000));
+    EXPECT_NE(drawWith(1), drawWith(2));
+    EXPECT_LT(channel(drawWith(120000)[0], 0), 250) << "daylight does not blow out";
+}
+
+TEST_F(ShadingTest, aSurfaceAcrossTheEyePlaneIsShadedWithoutHoles)
+{
+    // a floor that runs under the eye and far behind it
+    TestScene test;
+    MaterialRecord material = unlitMaterial();
+    material.flags |= kMaterialDoubleSided;
+    material.base_color_texture = textureOf(test.addImage(TexelFormat::rgba8_srgb, 1, 1, {gray(200)}));
+    test.addInstance(test.addMesh(withMaterial(makeQuad(2000, 2000), test.addMaterial(material))), Affine3{});
+    const PackView pack = test.build();
+    const auto scene = upload(pack);
+    const shared::Camera camera{
+        .position = {0, 0, 0.1f}, .target = {0, 1, 0.05f}, .up = {0, 0, 1}, .z_near = 0.01f};
+    const Picture picture = draw(*scene, camera, {.width = 64, .height = 64});
+    for (uint32_t y = 34; y < 64; ++y)
+        for (uint32_t x = 0; x < 64; ++x)
+            ASSERT_EQ(picture.at(x, y), gray(200)) << x << " " << y;
+}
+
+TEST_F(ShadingTest, everyMaterialShadesItsOwnPixels)
+{
+    TestScene test;
+    for (uint32_t i = 0; i < 40; ++i)
+    {
+        MaterialRecord material = unlitMaterial();
+        material.base_color_texture =
+            textureOf(test.addImage(TexelFormat::rgba8_srgb, 1, 1, {gray(5 * i + 20)}));
+        const float y = 0.975f - 0.05f * static_cast<float>(i);
+        test.addInstance(test.addMesh(withMaterial(makeQuad(2, 0.05f), test.addMaterial(material))),
+                         translated({0, y, 0}));
+    }
+    const PackView pack = test.build();
+    const auto scene = upload(pack);
+    const Picture picture = draw(*scene, squareCamera(), {.width = 80, .height = 80});
+    for (uint32_t i = 0; i < 40; ++i)
+        EXPECT_EQ(picture.at(40, 2 * i + 1), gray(5 * i + 20)) << i;
+}
+
+} // namespace hearth::test

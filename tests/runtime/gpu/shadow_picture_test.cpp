@@ -1,0 +1,342 @@
+// Pictures with shadows: those of rays but for a rim of a few texels, without acne at any angle, whatever the levels that
+// cast are, and what lies beyond the capacity is counted.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "tests/reference/tracer/reference_renderer.h"
+#include "tests/support/gpu_fixture.h"
+#include "tests/support/lit_scene.h"
+#include "tests/support/shapes.h"
+
+#include "runtime/gpu/scene/scene_shadows.h"
+
+#include <cmath>
+#include <cstdlib>
+#include <numbers>
+
+namespace hearth::test
+{
+
+namespace
+{
+
+using namespace formats;
+
+constexpr uint32_t kSize = 192;
+constexpr double kDegree = std::numbers::pi / 180;
+
+/// A floor of 8 m with rocks of about a metre on it and above it.
+formats::PackView buildRocks(TestScene& test, uint32_t detail, const LightRecord& record)
+{
+    const uint32_t white = test.addMaterial(plainMaterial());
+    const uint32_t floor = test.addMesh(withMaterial(makeQuad(8, 8), white));
+    const uint32_t rock = test.addMesh(withMaterial(shapes::rock(detail, 0.25f), white));
+    test.addInstance(floor, lying({0, 0, 0}));
+    test.addInstance(rock, scaled(0.5f, {-0.8f, 0.4f, 0.5f}));
+    test.addInstance(rock, scaled(0.35f, {0.9f, 1.2f, -0.3f}));
+    test.addInstance(rock, scaled(0.2f, {0.3f, 0.2f, 1.3f}));
+    test.addLight(record);
+    return test.build();
+}
+
+shared::Camera roomCamera()
+{
+    return {.position = {2.2f, 2.6f, 4.2f}, .target = {0, 0.3f, 0}, .y_fov_rad = 0.8f, .z_near = 0.05f};
+}
+
+class ShadowPictureTest : public GpuTest
+{
+protected:
+    Picture drawShadowed(const PackView& pack, const gpu::ShadowOptions& shadows, const DrawOptions& options,
+                         const shared::Camera& camera = roomCamera())
+    {
+        const auto scene = upload(pack, {.shadows = shadows});
+        Picture picture = draw(*scene, camera, options);
+        statistics_ = scene->shadows->statistics();
+        return picture;
+    }
+
+    gpu::ShadowStatistics statistics_;
+};
+
+reference::Picture traced(const PackView& pack, bool shadows)
+{
+    const auto picture = reference::renderReference(
+        pack,
+        {.camera = roomCamera(), .width = kSize, .height = kSize, .samples_per_side = 1, .shadows = shadows});
+    HEARTH_ASSERT(picture.ok());
+    return *picture;
+}
+
+/// For people to look at, where HEARTH_KEEP_PICTURES names a folder.
+void keep(const Picture& picture, const std::string& name)
+{
+    const char* const folder = std::getenv("HEARTH_KEEP_PICTURES");
+    if (folder == nullptr)
+        return;
+    reference::Picture copy(picture.width, picture.height);
+    for (size_t i = 0; i < picture.color.size(); ++i)
+        for (int c = 0; c < 3; ++c)
+            copy.rgb[3 * i + static_cast<size_t>(c)] = static_cast<uint8_t>(channel(picture.color[i], c));
+    EXPECT_TRUE(reference::writePng(std::string(folder) + "/" + name + ".png", copy).ok());
+}
+
+struct Comparison
+{
+    size_t shadowed = 0; ///< pixels that lose light by the rays
+    size_t rim = 0;      ///< pixels near the edge of a shadow, which are not compared
+    size_t wrong = 0;    ///< others whose brightness differs by more than a twentieth
+};
+
+/// reach  pixels that count as near an edge
+Comparison compare(const PackView& pack, const Picture& drawn, int reach)
+{
+    const reference::Picture with = traced(pack, true);
+    const reference::Picture without = traced(pack, false);
+    const auto lost = [&](int x, int y)
+    {
+        const auto at = [&](const reference::Picture& p)
+        { return int{*p.at(static_cast<size_t>(x), static_cast<size_t>(y))}; };
+        return at(without) - at(with) > 8;
+    };
+    Comparison result;
+    const int size = static_cast<int>(kSize);
+    for (int y = 0; y < size; ++y)
+        for (int x = 0; x < size; ++x)
+        {
+            result.shadowed += lost(x, y);
+            bool rim = false;
+            for (int v = std::max(y - reach, 0); v <= std::min(y + reach, size - 1); ++v)
+                for (int u = std::max(x - reach, 0); u <= std::min(x + reach, size - 1); ++u)
+                    rim = rim || lost(u, v) != lost(x, y);
+            result.rim += rim;
+            const int expected = *with.at(static_cast<size_t>(x), static_cast<size_t>(y));
+            const int got = channel(drawn.at(static_cast<uint32_t>(x), static_cast<uint32_t>(y)), 0);
+            result.wrong += !rim && std::abs(expected - got) > 12;
+        }
+    return result;
+}
+
+void expectTraced(const Comparison& comparison)
+{
+    EXPECT_GT(comparison.shadowed, 1000u);
+    EXPECT_LT(comparison.rim, size_t{kSize} * kSize / 3);
+    // silhouettes, whose pixels the two find by different roundings
+    EXPECT_LE(comparison.wrong, 40u);
+}
+
+constexpr gpu::ShadowOptions kFour{
+    .max_maps = 4, .texels = 512, .splits = 4, .split_range = {.near = 2, .far = 12, .blend = 0.5f}};
+constexpr DrawOptions kSource{.width = kSize, .height = kSize, .error_pixels = 0};
+
+} // namespace
+
+TEST_F(ShadowPictureTest, thoseOfASunAreThoseOfRays)
+{
+    for (const Float3 direction : {Float3{0.3f, -1, -0.4f}, Float3{-1, -0.5f, 0.2f}, Float3{0, -1, 0}})
+    {
+        TestScene test;
+        const PackView pack = buildRocks(test, 12, sun(direction));
+        const Picture picture = drawShadowed(pack, kFour, kSource);
+        keep(picture, "sun");
+        expectTraced(compare(pack, picture, 3));
+        EXPECT_EQ(statistics_.maps, 4u);
+    }
+}
+
+TEST_F(ShadowPictureTest, thoseOfASpotAreThoseOfRays)
+{
+    TestScene test;
+    const PackView pack = buildRocks(test, 12, light(LightType::spot, {-2, 4, 1}, {2, -4, -1}, 30));
+    const Picture picture = drawShadowed(pack, {.max_maps = 1, .texels = 512}, kSource);
+    keep(picture, "spot");
+    expectTraced(compare(pack, picture, 3));
+}
+
+TEST_F(ShadowPictureTest, spheresMakeThemFinerWhereTheyAre)
+{
+    for (const LightRecord& record :
+         {sun({0.3f, -1, -0.4f}), light(LightType::spot, {-2, 4, 1}, {2, -4, -1}, 30)})
+    {
+        TestScene test;
+        const PackView pack = buildRocks(test, 12, record);
+        // so coarse that shadows are off by far more than the rim
+        const gpu::ShadowOptions coarse{
+            .max_maps = 2, .texels = 64, .splits = 1, .split_range = {.near = 2, .far = 30}};
+        gpu::ShadowOptions two = coarse;
+        two.texels = 512;
+        const gpu::ShadowSphere sphere{.center = {0, 0.5f, 0}, .radius = 2};
+        DrawOptions options = kSource;
+        options.shadow_spheres = {&sphere, 1};
+        const Comparison without = compare(pack, drawShadowed(pack, coarse, kSource), 2);
+        const Comparison with = compare(pack, drawShadowed(pack, two, options), 2);
+        EXPECT_EQ(statistics_.maps, 2u);
+        EXPECT_GT(without.wrong, 100u);
+        EXPECT_LE(with.wrong, without.wrong / 4);
+    }
+}
+
+TEST_F(ShadowPictureTest, spheresOfThePackAreThoseOfEveryFrame)
+{
+    TestScene test;
+    const gpu::ShadowSphere sphere{.center = {0, 0.5f, 0}, .radius = 2, .light = 0, .texels = 128};
+    const gpu::ShadowOptions shadows{.max_maps = 2, .texels = 256, .splits = 1};
+    DrawOptions options = kSource;
+    options.shadow_spheres = {&sphere, 1};
+    const PackView plain = buildRocks(test, 12, sun({0.3f, -1, -0.4f}));
+    const Picture given = drawShadowed(plain, shadows, options);
+    const Picture without = drawShadowed(plain, shadows, kSource);
+    test.model().shadow_spheres.push_back({.node = 0,
+                                           .light = sphere.light,
+                                           .center = sphere.center,
+                                           .radius = sphere.radius,
+                                           .texels = sphere.texels,
+                                           .reserved = 0});
+    const Picture placed = drawShadowed(test.build(), shadows, kSource);
+    EXPECT_EQ(statistics_.maps, 2u);
+    EXPECT_EQ(placed.color, given.color);
+    EXPECT_NE(placed.color, without.color);
+}
+
+/// The casters' levels are coarser than those of the picture, and neither shadows the other.
+TEST_F(ShadowPictureTest, coarserCastersShadowNothingThatIsLit)
+{
+    for (const float bias : {1.0f, 4.0f})
+    {
+        TestScene test;
+        const PackView pack = buildRocks(test, 40, sun({0.3f, -1, -0.4f}));
+        gpu::ShadowOptions options = kFour;
+        options.error_bias = bias;
+        DrawOptions coarse = kSource;
+        coarse.error_pixels = 1;
+        const Picture picture = drawShadowed(pack, options, coarse);
+        keep(picture, "bias" + std::to_string(static_cast<int>(bias)));
+        const Comparison comparison = compare(pack, picture, 4);
+        EXPECT_GT(comparison.shadowed, 1000u);
+        EXPECT_LE(comparison.wrong, 150u) << bias;
+    }
+}
+
+/// Where a sphere goes while the cut stays, its map moves by whole texels and shows the same: shadows do not shimmer.
+TEST_F(ShadowPictureTest, aMapThatMovesShowsTheSame)
+{
+    TestScene test;
+    const PackView pack = buildRocks(test, 20, sun({0.3f, -1, -0.4f}));
+    const auto scene = upload(pack, {.shadows = {.max_maps = 1, .texels = 128, .splits = 0}});
+    std::mt19937 random(3);
+    shared::ShadowMap first{};
+    std::vector<float> expected;
+    size_t compared = 0;
+    for (int i = 0; i < 12; ++i)
+    {
+        const auto along = [&] { return uniform(random, -0.7f, 0.7f); };
+        const gpu::ShadowSphere sphere{.center = {along(), along(), along()}, .radius = 2};
+        DrawOptions options{.width = 16, .height = 16, .error_pixels = 0};
+        options.shadow_spheres = {&sphere, 1};
+        draw(*scene, roomCamera(), options);
+        const shared::ShadowMap map = scene->shadows->plan().block.maps[0];
+        const auto depths = host().readDepth(renderer().device(), scene->shadows->image(), 0);
+        ASSERT_TRUE(depths.ok());
+        if (i == 0)
+        {
+            first = map;
+            expected = *depths;
+        }
+        EXPECT_EQ(map.scale_x, first.scale_x);
+        const int dx = static_cast<int>(map.offset_x - first.offset_x);
+        const int dy = static_cast<int>(map.offset_y - first.offset_y);
+        EXPECT_EQ(static_cast<float>(dx), map.offset_x - first.offset_x);
+        for (int y = std::max(0, dy); y < std::min(128, 128 + dy); ++y)
+            for (int x = std::max(0, dx); x < std::min(128, 128 + dx); ++x, ++compared)
+                ASSERT_NEAR((*depths)[static_cast<size_t>(y * 128 + x)],
+                            expected[static_cast<size_t>((y - dy) * 128 + x - dx)], shared::kDepthMargin)
+                    << x << " " << y << " moved by " << dx << " " << dy;
+    }
+    EXPECT_GT(compared, 100000u);
+}
+
+/// A plane that nothing shadows looks as without shadows.
+TEST_F(ShadowPictureTest, aPlaneIsFreeOfAcneAtAllAngles)
+{
+    for (const bool spot : {false, true})
+        for (const uint32_t kernel : {0u, 1u, 2u})
+            for (int degrees = 1; degrees <= 89; degrees += 11)
+            {
+                TestScene test;
+                const uint32_t white = test.addMaterial(plainMaterial());
+                test.addInstance(test.addMesh(withMaterial(makeQuad(40, 40), white)), lying({0, 0, 0}));
+                const double angle = degrees * kDegree;
+                const Float3 shine{static_cast<float>(0.8 * std::sin(angle)),
+                                   static_cast<float>(-std::cos(angle)),
+                                   static_cast<float>(0.6 * std::sin(angle))};
+                test.addLight(spot ? light(LightType::spot, shine * -4.0f, shine, 100) : sun(shine));
+                const PackView pack = test.build();
+                gpu::ShadowOptions options = kFour;
+                options.texels = 128;
+                options.kernel = kernel;
+                const DrawOptions drawn{.width = 96, .height = 96, .error_pixels = 0};
+                const auto plain = upload(pack);
+                const Picture shadowed = drawShadowed(pack, options, drawn);
+                const Picture lit = draw(*plain, roomCamera(), drawn);
+                size_t darker = 0;
+                for (size_t i = 0; i < lit.color.size(); ++i)
+                    darker += channel(shadowed.color[i], 0) < channel(lit.color[i], 0) - 1;
+                EXPECT_EQ(darker, 0u) << degrees << " degrees, kernel " << kernel << (spot ? ", spot" : "");
+            }
+}
+
+TEST_F(ShadowPictureTest, holesOfAMaskCastNone)
+{
+    const auto drawUnder = [&](float alpha)
+    {
+        TestScene test;
+        const uint32_t white = test.addMaterial(plainMaterial());
+        MaterialRecord masked = plainMaterial();
+        masked.alpha_mode = static_cast<uint32_t>(AlphaMode::mask);
+        masked.base_color.w = alpha;
+        test.addInstance(test.addMesh(withMaterial(makeQuad(8, 8), white)), lying({0, 0, 0}));
+        const uint32_t sheet = test.addMesh(withMaterial(makeQuad(2, 2), test.addMaterial(masked)));
+        test.addInstance(sheet, lying({0, 4, 0})); // above the picture
+        test.addLight(sun({0, -1, 0}));
+        const PackView pack = test.build();
+        return channel(drawShadowed(pack, kFour, kSource).at(kSize / 2, kSize / 2), 0);
+    };
+    EXPECT_LT(drawUnder(0.6f), drawUnder(0.4f) - 40);
+}
+
+TEST_F(ShadowPictureTest, unlitSurfacesCastNone)
+{
+    const auto drawUnder = [&](uint32_t flags)
+    {
+        TestScene test;
+        MaterialRecord sky = plainMaterial();
+        sky.flags = kMaterialDoubleSided | flags;
+        test.addInstance(test.addMesh(withMaterial(makeQuad(8, 8), test.addMaterial(plainMaterial()))),
+                         lying({0, 0, 0}));
+        test.addInstance(test.addMesh(withMaterial(makeQuad(8, 8), test.addMaterial(sky))), lying({0, 4, 0}));
+        test.addLight(sun({0, -1, 0}));
+        const PackView pack = test.build();
+        return channel(drawShadowed(pack, kFour, kSource).at(kSize / 2, kSize / 2), 0);
+    };
+    EXPECT_LT(drawUnder(0), drawUnder(kMaterialUnlit) - 40);
+}
+
+TEST_F(ShadowPictureTest, whatIsBeyondTheCapacityIsCounted)
+{
+    TestScene test;
+    const uint32_t white = test.addMaterial(plainMaterial());
+    test.addInstance(test.addMesh(withMaterial(makeQuad(8, 8), white)), lying({0, 0, 0}));
+    for (uint32_t i = 0; i < 20; ++i)
+        test.addLight(light(LightType::spot, {0, 3, 0}, {0, -1, 0}, 1));
+    test.addLight(light(LightType::point, {0, 3, 0}, {0, -1, 0}, 1));
+    test.addLight(sun({0, -1, 0}));
+    const PackView pack = test.build();
+    const DrawOptions small{.width = 16, .height = 16};
+    gpu::ShadowOptions options{.max_maps = 6, .texels = 32, .splits = 3};
+    drawShadowed(pack, options, small);
+    // of 21 lights 16 have a row, the sun the first; it takes three layers, the next three lights one each
+    EXPECT_EQ(statistics_.maps, 6u);
+    EXPECT_EQ(statistics_.drawn_maps, 6u);
+    EXPECT_EQ(statistics_.dropped_maps, 12u);
+    EXPECT_EQ(statistics_.unshadowed_lights, 5u + 12u);
+}
+
+} // namespace hearth::test

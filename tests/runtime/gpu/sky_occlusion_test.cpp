@@ -1,0 +1,509 @@
+// Visibility in the picture: the views of it, and the sky's light, against twins of the shaders that are written with the same
+// formulas (formats/gpu_shared) and everything else anew.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "formats/gpu_shared/specular_occlusion.h"
+#include "tests/reference/pack_geometry.h"
+#include "tests/reference/tracer/gltf_material.h"
+#include "tests/runtime/gpu/deformed_scene.h"
+#include "tests/support/gpu_fixture.h"
+#include "tests/support/lit_scene.h"
+#include "tests/support/shapes.h"
+
+#include <cmath>
+
+namespace hearth::test
+{
+
+namespace
+{
+
+using namespace shared;
+using formats::MaterialRecord;
+using reference::Double3;
+
+Double3 wide(Float3 v)
+{
+    return Double3(v);
+}
+
+/// Narrow and wide cones that lean about, some of them nearly shut: smooth in the position.
+VisibilityMoments leaningCones(uint32_t, Float3 p, Float3 n)
+{
+    const Float3 lean{std::sin(3 * p.x + p.y), std::cos(2 * p.y), std::sin(4 * p.z)};
+    const Float3 axis = normalizeOr(n + lean * 0.6f, n);
+    const float cosine = 0.5f + 0.45f * std::sin(5 * p.x - 2 * p.z);
+    const float scale = 0.6f + 0.4f * std::cos(3 * p.y + p.z);
+    return {2 * kVisibilityPi * scale * (1 - cosine), axis * (kVisibilityPi * scale * (1 - cosine * cosine))};
+}
+
+/// Like the sum of rotation, scale and mirror that a similarity is.
+Affine3 similarity(float factor, float angle, bool mirrored, Float3 offset)
+{
+    Affine3 t = translated(offset);
+    const float c = std::cos(angle) * factor, s = std::sin(angle) * factor;
+    const float x = mirrored ? -1.0f : 1.0f;
+    const float rows[3][3] = {{x * c, 0, s}, {0, factor, 0}, {x * -s, 0, c}};
+    for (int r = 0; r < 3; ++r)
+        for (int column = 0; column < 3; ++column)
+            t.m[r][column] = rows[r][column];
+    return t;
+}
+
+/// What the twin finds at a pixel.
+struct TwinPoint
+{
+    const formats::ClusterRecord* cluster;
+    bool says = false; ///< the mesh has visibility
+    Double3 position, to_eye;
+    Double3 geometric; ///< interpolated normal, towards the side that is seen
+    Double3 normal;    ///< bent by the map
+    VisibilityCone cone{};
+};
+
+class SkyOcclusionTest : public GpuTest
+{
+protected:
+    static constexpr uint32_t kWidth = 160, kHeight = 120;
+
+    clusters::Config withVisibility() const
+    {
+        clusters::Config config;
+        config.visibility = true;
+        return config;
+    }
+
+    void load(const TestScene::Visibility& visibility = leaningCones)
+    {
+        test_.setVisibility(visibility);
+        pack_.emplace(test_.build());
+        geometry_.emplace(reference::PackGeometry::decode(*pack_).value());
+        scene_ = upload(*pack_);
+    }
+
+    Picture show(uint32_t view, uint32_t ambient = kAmbientOcclusionExact,
+                 uint32_t specular = kSpecularOcclusionFit)
+    {
+        return draw(*scene_, camera_,
+                    {.width = kWidth,
+                     .height = kHeight,
+                     .shown = view,
+                     .ambient_occlusion = ambient,
+                     .specular_occlusion = specular});
+    }
+
+    /// The ray through the middle of a pixel meets the plane of the triangle that was drawn there.
+    TwinPoint twinAt(const Picture& picture, uint32_t x, uint32_t y) const
+    {
+        const uint32_t id = picture.visibility[y * kWidth + x];
+        const VisibleCluster slot = picture.list.slots.at(id >> kTriangleBits);
+        const formats::InstanceRecord& instance = pack_->instances()[slot.instance];
+        const auto pose = posed_.find(slot.instance);
+        const reference::DoubleAffine world = pose == posed_.end()
+                                                  ? reference::DoubleAffine(instance.world_from_object)
+                                                  : reference::DoubleAffine(pose->second);
+        const formats::ClusterGeometry cluster = geometry_->cluster(slot.cluster);
+        const auto vertices = cluster.triangle(id & ((1u << kTriangleBits) - 1));
+
+        const Double3 eye = wide(camera_.position), forward = normalize(wide(camera_.target) - eye);
+        const Double3 right = normalize(cross(forward, wide(camera_.up))), up = cross(right, forward);
+        const double slope = std::tan(double{camera_.y_fov_rad} / 2), aspect = double{kWidth} / kHeight;
+        const Double3 ray = forward + right * ((2 * (x + 0.5) / kWidth - 1) * slope * aspect) +
+                            up * ((1 - 2 * (y + 0.5) / kHeight) * slope);
+
+        Double3 corners[3];
+        for (size_t i = 0; i < 3; ++i)
+            corners[i] = world.point(wide(cluster.position(vertices[i]))) - eye;
+        const Double3 e1 = corners[1] - corners[0], e2 = corners[2] - corners[0], area = cross(e1, e2);
+        const Double3 hit = ray * (dot(area, corners[0]) / dot(area, ray));
+        const Double3 from = hit - corners[0];
+        const double area2 = dot(area, area);
+        const double w1 = dot(cross(from, e2), area) / area2, w2 = dot(cross(e1, from), area) / area2;
+        const double weights[] = {1 - w1 - w2, w1, w2};
+
+        const bool mirrored = world.determinant() < 0;
+        const bool front = (dot(area, ray) < 0) != mirrored;
+        Double3 normal, m1;
+        double m0 = 0;
+        TwinPoint point;
+        point.cluster = &pack_->clusters()[slot.cluster];
+        point.says = cluster.has(formats::kVertexVisibility);
+        for (size_t i = 0; i < 3; ++i)
+        {
+            normal += wide(cluster.normal(vertices[i])) * weights[i];
+            if (!point.says)
+                continue;
+            const VisibilityMoments moments = cluster.visibility(vertices[i]);
+            m0 += double{moments.m0} * weights[i];
+            m1 += wide(moments.m1) * weights[i];
+        }
+        // a similarity turns directions as it turns everything
+        normal = normalize(world.vector(normal));
+        m1 = length(m1) > 0 ? normalize(world.vector(m1)) * length(m1) : m1;
+        if (!front)
+        {
+            m1 = m1 - normal * (2 * dot(normal, m1));
+            normal = -normal;
+        }
+        point.position = hit + eye;
+        point.to_eye = -normalize(ray);
+        point.geometric = point.normal = normal;
+        const auto narrow = [](Double3 v) {
+            return Float3{static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
+        };
+        point.cone = visibilityCone(static_cast<float>(m0), narrow(m1), narrow(normal));
+        return point;
+    }
+
+    float twinAmbient(const TwinPoint& p, uint32_t mode) const
+    {
+        return ambientOcclusion(mode, p.cone.scale, p.cone.cos_aperture, p.cone.aperture,
+                                cosine(p.cone.axis, p.geometric), cosine(p.cone.axis, p.normal));
+    }
+
+    static float cosine(Float3 a, Double3 b) { return static_cast<float>(dot(wide(a), b)); }
+
+    float twinSpecular(const TwinPoint& p, float roughness) const
+    {
+        const double facing = std::abs(dot(p.normal, p.to_eye));
+        const Double3 mirror = p.normal * (2 * dot(p.normal, p.to_eye)) - p.to_eye;
+        return p.cone.scale * specularOcclusionFit(p.cone.cos_aperture, roughness, static_cast<float>(facing),
+                                                   cosine(p.cone.axis, p.normal),
+                                                   cosine(p.cone.axis, mirror));
+    }
+
+    /// Each pixel of a surface has the colour (0 to 1, as displayed) that is expected, to `tolerance` of 255; a few on the
+    /// rims of triangles may not. Returns how many were looked at.
+    template <typename Expected>
+    size_t expectPixels(const Picture& picture, int tolerance, const Expected& expected)
+    {
+        size_t seen = 0, wrong = 0;
+        for (uint32_t y = 0; y < kHeight; ++y)
+            for (uint32_t x = 0; x < kWidth; ++x)
+            {
+                if (picture.visibility[y * kWidth + x] == kNothingVisible)
+                    continue;
+                const Float3 color = expected(twinAt(picture, x, y));
+                bool differs = false;
+                for (int c = 0; c < 3; ++c)
+                    differs |= std::abs(static_cast<float>(channel(picture.at(x, y), c)) - color[c] * 255) >
+                               static_cast<float>(tolerance) + 0.5f;
+                wrong += differs ? 1 : 0;
+                ++seen;
+            }
+        EXPECT_LE(wrong, seen / 200) << "of " << seen;
+        return seen;
+    }
+
+    void lookAtBall()
+    {
+        camera_ = {.position = {1.5f, 2, 6}, .target = {0, 0, 0}, .y_fov_rad = 0.7f, .z_near = 0.05f};
+    }
+
+    TestScene test_;
+    std::optional<formats::PackView> pack_;
+    std::optional<reference::PackGeometry> geometry_;
+    std::unique_ptr<gpu::Scene> scene_;
+    Camera camera_;
+    std::map<uint32_t, Affine3d> posed_; ///< instances all of whose joints stand so
+};
+
+constexpr Float3 kNone{0.35f, 0.05f, 0.05f};
+
+Float3 grey(float value)
+{
+    return {value, value, value};
+}
+
+/// Rocks that are turned, scaled and mirrored, and one without visibility.
+class SkyViewTest : public SkyOcclusionTest
+{
+protected:
+    void SetUp() override
+    {
+        SkyOcclusionTest::SetUp();
+        MaterialRecord material = plainMaterial();
+        material.roughness = 0.4f;
+        const uint32_t plain = test_.addMaterial(material);
+        const mesh::SourceMesh source = withMaterial(shapes::rock(12, 0.1f), plain);
+        const uint32_t rock = test_.addMesh(source, withVisibility());
+        const uint32_t without = test_.addMesh(source);
+        test_.addInstance(rock, similarity(1, 0, false, {-1.2f, 0, 0}));
+        test_.addInstance(rock, similarity(0.7f, 1.1f, false, {1.2f, 0.5f, 0}));
+        test_.addInstance(rock, similarity(0.5f, 2.5f, true, {0.3f, -1, 1}));
+        test_.addInstance(without, similarity(0.4f, 0, false, {0.2f, 1.2f, 1}));
+        lookAtBall();
+        load();
+    }
+};
+
+} // namespace
+
+TEST_F(SkyViewTest, ambientOcclusionIsThatOfTheInterpolatedMoments)
+{
+    for (const uint32_t mode : {kAmbientOcclusionExact, kAmbientOcclusionSmoothstep,
+                                kAmbientOcclusionQuadratic, kAmbientOcclusionOff})
+    {
+        size_t dark = 0;
+        const size_t seen = expectPixels(show(kViewAmbientOcclusion, mode), 1,
+                                         [&](const TwinPoint& p)
+                                         {
+                                             const float value = p.says ? twinAmbient(p, mode) : 1;
+                                             dark += value < 0.5f ? 1u : 0u;
+                                             return p.says ? grey(value) : kNone;
+                                         });
+        EXPECT_GT(seen, 3000u);
+        if (mode == kAmbientOcclusionOff)
+            EXPECT_EQ(dark, 0u);
+        else
+            EXPECT_GT(dark, 300u);
+    }
+}
+
+TEST_F(SkyViewTest, bentNormalAndApertureAreThoseOfTheCone)
+{
+    expectPixels(show(kViewBentNormal), 1,
+                 [&](const TwinPoint& p) {
+                     return p.says ? p.cone.axis * 0.5f + Float3{0.5f, 0.5f, 0.5f} : kNone;
+                 });
+    expectPixels(show(kViewAperture), 1,
+                 [&](const TwinPoint& p)
+                 { return p.says ? grey(p.cone.aperture / (kVisibilityPi / 2)) : kNone; });
+}
+
+TEST_F(SkyViewTest, specularOcclusionIsTheFit)
+{
+    for (const uint32_t mode : {kSpecularOcclusionFit, kSpecularOcclusionTable, kSpecularOcclusionOff})
+        expectPixels(show(kViewSpecularOcclusion, kAmbientOcclusionExact, mode), 1,
+                     [&](const TwinPoint& p)
+                     {
+                         const bool off = mode == kSpecularOcclusionOff; // and there is no table
+                         return p.says ? grey(off ? 1 : twinSpecular(p, 0.4f)) : kNone;
+                     });
+}
+
+/// By trilinear interpolation in doubles.
+TEST_F(SkyViewTest, specularOcclusionIsLookedUpInTheTable)
+{
+    formats::SpecularTableRecord table{};
+    table.aperture_nodes = table.roughness_nodes = table.beta_nodes = kSpecularNodes;
+    table.least_roughness = kSpecularLeastRoughness;
+    const auto value = [](uint32_t x, uint32_t y, uint32_t z)
+    {
+        return static_cast<uint8_t>(x * 15 + (y * z * 30) / 225);
+    }; // rises with the aperture, at each node another
+    for (uint32_t i = 0; i < formats::kSpecularTexels; ++i)
+        table.values[i] = value(i & 15u, i >> 4 & 15u, i >> 8);
+    for (const uint32_t spacing : {kSpecularSpacingCosine, kSpecularSpacingHalfSine})
+    {
+        table.spacing = spacing;
+        test_.model().specular_tables = {table};
+        load();
+        expectPixels(show(kViewSpecularOcclusion, kAmbientOcclusionExact, kSpecularOcclusionTable), 1,
+                     [&](const TwinPoint& p)
+                     {
+                         if (!p.says)
+                             return kNone;
+                         const Double3 mirror = p.normal * (2 * dot(p.normal, p.to_eye)) - p.to_eye;
+                         const Float3 place = specularTablePlace(p.cone.cos_aperture, 0.4f,
+                                                                 cosine(p.cone.axis, mirror), spacing);
+                         double sum = 0;
+                         for (uint32_t corner = 0; corner < 8; ++corner)
+                         {
+                             double weight = 1;
+                             uint32_t node[3];
+                             for (int axis = 0; axis < 3; ++axis)
+                             {
+                                 const double at = double{place[axis]} * 15,
+                                              low = std::min(std::floor(at), 14.0);
+                                 const bool upper = (corner >> axis & 1u) != 0;
+                                 node[axis] = static_cast<uint32_t>(low) + (upper ? 1 : 0);
+                                 weight *= upper ? at - low : 1 - (at - low);
+                             }
+                             sum += weight * value(node[0], node[1], node[2]) / 255;
+                         }
+                         return grey(static_cast<float>(sum) * p.cone.scale);
+                     });
+    }
+}
+
+/// The picture, from the material model of the reference.
+TEST_F(SkyViewTest, thePictureIsOccludedByLobe)
+{
+    const reference::SceneLighting lighting = reference::lightingOf(*pack_);
+    for (const auto& [ambient, specular] : {std::pair{kAmbientOcclusionExact, kSpecularOcclusionFit},
+                                            std::pair{kAmbientOcclusionSmoothstep, kSpecularOcclusionOff},
+                                            std::pair{kAmbientOcclusionOff, kSpecularOcclusionFit}})
+        expectPixels(show(kViewFinal, ambient, specular), 2,
+                     [&](const TwinPoint& p)
+                     {
+                         reference::Coating coating{{1, 1, 1}, 0, double{0.4f}, 1, {}, p.normal};
+                         const reference::SkyResponse open = underSky(coating, lighting, p.to_eye);
+                         const double diffuse = p.says ? double{twinAmbient(p, ambient)} : 1;
+                         const double mirrored =
+                             p.says && specular != kSpecularOcclusionOff ? double{twinSpecular(p, 0.4f)} : 1;
+                         const reference::Incident sun = lighting.lights[0].at(p.position);
+                         const Double3 radiance = open.diffuse * diffuse + open.specular * mirrored +
+                                                  sun.irradiance * reflected(coating, p.to_eye, sun.to_light);
+                         const auto shown = [](double value)
+                         {
+                             const double linear = reference::filmic(value);
+                             return static_cast<float>(linear <= 0.0031308
+                                                           ? linear * 12.92
+                                                           : 1.055 * std::pow(linear, 1 / 2.4) - 0.055);
+                         };
+                         return Float3{shown(radiance.x), shown(radiance.y), shown(radiance.z)};
+                     });
+}
+
+/// All joints of a limb turned alike are the limb turned.
+TEST_F(SkyOcclusionTest, conesOfCharactersTurnWithTheirPose)
+{
+    DeformedSceneOptions options{
+        .limbs = 3, .tentacles = 1, .blobs = 1, .rocks = 0, .pose_count = 1, .rings = 16};
+    options.visibility = leaningCones;
+    const DeformedScene deformed(options, 5);
+    pack_.emplace(deformed.pack());
+    geometry_.emplace(reference::PackGeometry::decode(*pack_).value());
+    scene_ = upload(*pack_);
+    lookAtBall();
+    std::mt19937 random(3);
+    std::vector<TestPose> poses;
+    for (const uint32_t instance : deformed.deformedInstances())
+    {
+        // the first limb here, another that is mirrored beside it, the rest out of sight
+        TestPose pose = deformed.randomPose(instance, random);
+        const bool mirrored = (pack_->instances()[instance].flags & formats::kInstanceMirrored) != 0;
+        const bool shown = poses.empty() || mirrored;
+        posed_[instance] =
+            widened(similarity(0.9f, mirrored ? 2.0f : 0.7f, mirrored,
+                               shown ? Float3{mirrored ? 1.3f : -0.7f, -1, 0} : Float3{0, 500, 0}));
+        std::fill(pose.world_from_bind.begin(), pose.world_from_bind.end(), posed_[instance]);
+        std::fill(pose.morph_weights.begin(), pose.morph_weights.end(), 0.0f);
+        pose.free = true;
+        poses.push_back(pose);
+    }
+    const auto views = viewsOf(poses);
+    for (const uint32_t view : {kViewBentNormal, kViewAmbientOcclusion})
+    {
+        const Picture picture =
+            draw(*scene_, camera_, {.width = kWidth, .height = kHeight, .shown = view, .poses = views});
+        const size_t seen = expectPixels(picture, 1,
+                                         [&](const TwinPoint& p)
+                                         {
+                                             EXPECT_TRUE(p.says);
+                                             return view == kViewBentNormal
+                                                        ? p.cone.axis * 0.5f + Float3{0.5f, 0.5f, 0.5f}
+                                                        : grey(twinAmbient(p, kAmbientOcclusionExact));
+                                         });
+        EXPECT_GT(seen, 600u);
+    }
+}
+
+namespace
+{
+
+/// One sheet, seen from a side.
+class SheetTest : public SkyOcclusionTest
+{
+protected:
+    void addSheet(MaterialRecord material, bool says)
+    {
+        material.flags |= formats::kMaterialDoubleSided;
+        const mesh::SourceMesh sheet = withMaterial(makeQuad(4, 4), test_.addMaterial(material));
+        test_.addInstance(test_.addMesh(sheet, says ? withVisibility() : clusters::Config{}),
+                          similarity(1, 0.3f, false, {}));
+    }
+    void look(Float3 from)
+    {
+        camera_ = {.position = from, .target = {0, 0, 0}, .y_fov_rad = 0.7f, .z_near = 0.05f};
+    }
+};
+
+} // namespace
+
+TEST_F(SheetTest, theBackSeesWhatTheFrontSeesInAMirror)
+{
+    addSheet(plainMaterial(), true);
+    load();
+    for (const Float3 from : {Float3{1, 0.5f, 4}, Float3{1, 0.5f, -4}})
+    {
+        look(from);
+        const size_t seen = expectPixels(show(kViewBentNormal), 1,
+                                         [&](const TwinPoint& p)
+                                         {
+                                             EXPECT_GT(dot(p.geometric, p.to_eye), 0);
+                                             return p.cone.axis * 0.5f + Float3{0.5f, 0.5f, 0.5f};
+                                         });
+        EXPECT_GT(seen, 5000u);
+        expectPixels(show(kViewAmbientOcclusion), 1,
+                     [&](const TwinPoint& p) { return grey(twinAmbient(p, kAmbientOcclusionExact)); });
+    }
+}
+
+TEST_F(SheetTest, anOpenSheetLooksLikeOneThatDoesNotSay)
+{
+    MaterialRecord material = plainMaterial();
+    material.roughness = 0.3f;
+    material.metallic = 0.5f;
+    addSheet(material, true);
+    load([](uint32_t, Float3, Float3 n) { return VisibilityMoments{2 * kVisibilityPi, n * kVisibilityPi}; });
+    look({1, 0.5f, 4});
+    const Picture open = show(kViewFinal);
+    test_ = {};
+    addSheet(material, false);
+    load();
+    const Picture plain = show(kViewFinal);
+    for (size_t i = 0; i < open.color.size(); ++i)
+        for (int c = 0; c < 3; ++c)
+            ASSERT_NEAR(channel(open.color[i], c), channel(plain.color[i], c), 1) << i;
+}
+
+/// A map of one texel bends all of the sheet alike.
+TEST_F(SheetTest, aNormalMapBendsWhatIsLit)
+{
+    MaterialRecord material = plainMaterial();
+    constexpr uint32_t kBent = 190 | 90u << 8 | 220u << 16 | 255u << 24;
+    material.normal_texture = textureOf(test_.addImage(formats::TexelFormat::rgba8_unorm, 1, 1, {kBent}));
+    addSheet(material, true);
+    load();
+    look({1, 0.5f, 4});
+    const auto bent = [&](TwinPoint p)
+    {
+        const reference::DoubleAffine world(pack_->instances()[0].world_from_object);
+        const auto component = [](uint32_t byte) { return byte / 255.0 * 2 - 1; };
+        p.normal =
+            normalize(world.vector({1, 0, 0}) * component(190) + world.vector({0, 1, 0}) * component(90) +
+                      world.vector({0, 0, 1}) * component(220));
+        return p;
+    };
+    for (const uint32_t mode :
+         {kAmbientOcclusionExact, kAmbientOcclusionSmoothstep, kAmbientOcclusionQuadratic})
+        expectPixels(show(kViewAmbientOcclusion, mode), 1,
+                     [&](const TwinPoint& p) { return grey(twinAmbient(bent(p), mode)); });
+    expectPixels(show(kViewSpecularOcclusion), 1,
+                 [&](const TwinPoint& p) { return grey(twinSpecular(bent(p), 1)); });
+}
+
+/// Where the texture says less it counts, and nowhere else.
+TEST_F(SheetTest, theSmallerOfTextureAndConeCounts)
+{
+    MaterialRecord material = plainMaterial();
+    look({1, 0.5f, 4});
+    const auto drawn = [&](uint32_t texel, float ambient)
+    {
+        test_ = {};
+        material.occlusion_texture =
+            textureOf(test_.addImage(formats::TexelFormat::rgba8_unorm, 1, 1, {texel | 0xFF000000u}));
+        addSheet(material, true);
+        load(
+            [&](uint32_t, Float3, Float3 n) {
+                return VisibilityMoments{2 * kVisibilityPi * ambient, n * (kVisibilityPi * ambient)};
+            });
+        return show(kViewFinal).at(kWidth / 2, kHeight / 2);
+    };
+    EXPECT_EQ(drawn(0x808080, 1), drawn(0x808080, 0.75f)) << "the texture";
+    EXPECT_EQ(drawn(0xFFFFFF, 0.25f), drawn(0x808080, 0.25f)) << "the cone";
+    EXPECT_NE(drawn(0xFFFFFF, 0.25f), drawn(0xFFFFFF, 0.75f));
+}
+
+} // namespace hearth::test

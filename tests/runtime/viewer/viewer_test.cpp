@@ -1,0 +1,318 @@
+// The command line of hearth-render, its camera and its files. No device is needed.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "formats/gpu_shared/shading.h"
+#include "runtime/viewer/camera_fit.h"
+#include "runtime/viewer/camera_path.h"
+#include "runtime/viewer/cull_report.h"
+#include "runtime/viewer/file_output.h"
+#include "runtime/viewer/render/options.h"
+#include "tests/support/shapes.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/support/test_scene.h"
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <gtest/gtest.h>
+
+namespace hearth::test
+{
+
+namespace
+{
+
+using viewer::PyramidStart;
+using viewer::RenderOptions;
+
+Result<RenderOptions> parse(std::vector<const char*> arguments)
+{
+    return viewer::parseRenderOptions(arguments);
+}
+
+void expectUsage(const std::vector<const char*>& arguments, const std::string& mention)
+{
+    const auto options = parse(arguments);
+    ASSERT_FALSE(options.ok()) << mention;
+    EXPECT_EQ(exitCode(options.error()), 2);
+    EXPECT_NE(formatMessage(options.error()).find(mention), std::string::npos)
+        << formatMessage(options.error());
+}
+
+} // namespace
+
+TEST(RenderOptions, defaultsFitTheScene)
+{
+    const auto options = parse({"a.hearth", "-o", "a.png"});
+    ASSERT_TRUE(options.ok());
+    EXPECT_EQ(options->pack, "a.hearth");
+    EXPECT_EQ(options->output, "a.png");
+    EXPECT_EQ(options->width, 1280u);
+    EXPECT_EQ(options->height, 720u);
+    EXPECT_FALSE(options->camera.has_value());
+    EXPECT_EQ(options->settings.error_pixels, 1);
+    EXPECT_EQ(options->settings.cull_flags, shared::kCullEverything);
+    EXPECT_EQ(options->geometry_budget, 0u) << "all is resident";
+    EXPECT_EQ(options->shadows.options.max_maps, 0u) << "no shadows";
+}
+
+TEST(RenderOptions, everyOptionIsRead)
+{
+    const auto options = parse({"--size=64x32",
+                                "--camera",
+                                "1,2,3,4,5,-6.5,45",
+                                "--error-pixels",
+                                "0",
+                                "--view",
+                                "lod",
+                                "--samples",
+                                "4",
+                                "--device",
+                                "llvm",
+                                "--stats",
+                                "s.json",
+                                "--frames",
+                                "3",
+                                "--dump-visibility",
+                                "v.bin",
+                                "--cull",
+                                "cone,occlusion",
+                                "--lod-curve",
+                                "0:1,50:0.5",
+                                "--hzb",
+                                "noise:7",
+                                "--shaded-area",
+                                "tiles",
+                                "--ambient-occlusion",
+                                "smoothstep",
+                                "--specular-occlusion=table",
+                                "--budget",
+                                "3M",
+                                "--shadows",
+                                "texels=512,bias=3,splits=2,kernel=0,maps=7,far=20",
+                                "--shadow-sphere",
+                                "1,2,3,4",
+                                "--shadow-sphere=-1,0,0,0.5,6",
+                                "--validate",
+                                "-v",
+                                "--output=b.png",
+                                "b.hearth"});
+    ASSERT_TRUE(options.ok()) << formatMessage(options.error());
+    EXPECT_EQ(options->width, 64u);
+    EXPECT_EQ(options->height, 32u);
+    ASSERT_TRUE(options->camera.has_value());
+    EXPECT_EQ(options->camera->position, (Float3{1, 2, 3}));
+    EXPECT_EQ(options->camera->target, (Float3{4, 5, -6.5f}));
+    EXPECT_NEAR(options->camera->y_fov_rad, 0.785398f, 1e-5f);
+    EXPECT_EQ(options->settings.error_pixels, 0);
+    EXPECT_EQ(options->settings.view, shared::kViewLod);
+    EXPECT_EQ(options->samples, 4u);
+    EXPECT_EQ(options->device, "llvm");
+    EXPECT_EQ(options->stats, "s.json");
+    EXPECT_EQ(options->frames, 3u);
+    EXPECT_EQ(options->visibility, "v.bin");
+    EXPECT_EQ(options->settings.cull_flags, shared::kCullCone | shared::kCullOcclusion);
+    EXPECT_EQ(options->pyramid, PyramidStart::noise);
+    EXPECT_EQ(options->noise_seed, 7u);
+    EXPECT_EQ(options->settings.shaded_area, gpu::ShadedArea::tiles);
+    EXPECT_EQ(options->settings.ambient_occlusion, shared::kAmbientOcclusionSmoothstep);
+    EXPECT_EQ(options->settings.specular_occlusion, shared::kSpecularOcclusionTable);
+    EXPECT_EQ(options->geometry_budget, 3u << 20);
+    ASSERT_EQ(options->settings.lod_curve.size(), 2u);
+    EXPECT_EQ(options->settings.lod_curve[1].distance, 50);
+    EXPECT_EQ(options->settings.lod_curve[1].factor, 0.5f);
+    const gpu::ShadowOptions& shadows = options->shadows.options;
+    EXPECT_EQ(shadows.texels, 512u);
+    EXPECT_EQ(shadows.error_bias, 3);
+    EXPECT_EQ(shadows.splits, 2u);
+    EXPECT_EQ(shadows.kernel, 0u);
+    EXPECT_EQ(shadows.max_maps, 7u);
+    EXPECT_EQ(shadows.split_range.far, 20);
+    ASSERT_EQ(options->shadows.spheres.size(), 2u);
+    EXPECT_EQ(options->shadows.spheres[0].center, (Float3{1, 2, 3}));
+    EXPECT_EQ(options->shadows.spheres[0].light, gpu::ShadowSphere::kAllLights);
+    EXPECT_EQ(options->shadows.spheres[1].radius, 0.5f);
+    EXPECT_EQ(options->shadows.spheres[1].light, 6u);
+    EXPECT_TRUE(options->validate);
+    EXPECT_TRUE(options->verbose);
+}
+
+TEST(CullReport, everythingIsCountedAtTheFirstTestThatItFails)
+{
+    shared::CullStatistics statistics{};
+    statistics.empty_instances = 1;
+    statistics.outside_instances = 2;
+    statistics.occluded_instances = 3;
+    statistics.late_instances = 4;
+    statistics.visible_instances = 5;
+    for (uint32_t i = 0; i < shared::kOutcomeCount; ++i)
+    {
+        statistics.clusters[i] = 10 * (i + 1);
+        statistics.triangles_low[i] = 1000 * (i + 1);
+    }
+    statistics.triangles_high[shared::kOutcomeLod] = 1;
+    // of 50 clusters of instances that were seen at once 20 are drawn early, and 70 of all 110 in the end
+    const viewer::CullReport report = viewer::makeCullReport(statistics, {70, 0, 20, 0}, 2000, 7000);
+    EXPECT_EQ(viewer::formatCullReport(report),
+              "{\"instances\":{\"tested\":15,\"empty\":1,\"frustum\":2,\"occlusion_early\":7,\"occlusion\":3,"
+              "\"drawn\":9},\n"
+              "  \"clusters\":{\"tested\":210,\"instance\":10,\"lod\":20,\"frustum\":30,\"cone\":40,"
+              "\"occlusion_early\":30,\"occlusion\":40,\"drawn\":70},\n"
+              "  \"triangles\":{\"tested\":4294988296,\"instance\":1000,\"lod\":4294969296,\"frustum\":3000,"
+              "\"cone\":4000,\"occlusion_early\":3000,\"occlusion\":4000,\"drawn\":7000}}");
+}
+
+TEST(RenderOptions, mistakesAreNamed)
+{
+    expectUsage({}, "no pack");
+    expectUsage({"a.hearth"}, "no output");
+    expectUsage({"a.hearth", "b.hearth", "-o", "a.png"}, "b.hearth");
+    expectUsage({"a.hearth", "-o"}, "-o needs a value");
+    expectUsage({"a.hearth", "--bogus", "1"}, "--bogus");
+    for (const char* size : {"0x5", "5", "5x", "5x5x5", "99999x1", "-1x5", "5.0x5"})
+        expectUsage({"a.hearth", "-o", "a.png", "--size", size}, size);
+    for (const char* camera :
+         {"1,2,3", "0,0,0,0,0,0,45", "0,0,0,1,0,0,0", "0,0,0,1,0,nan,45", "0,0,0,1,0,0,171"})
+        expectUsage({"a.hearth", "-o", "a.png", "--camera", camera}, camera);
+    expectUsage({"a.hearth", "-o", "a.png", "--error-pixels", "-1"}, "-1");
+    expectUsage({"a.hearth", "-o", "a.png", "--shaded-area", "half"}, "half");
+    expectUsage({"a.hearth", "-o", "a.png", "--ambient-occlusion", "table"}, "smoothstep");
+    expectUsage({"a.hearth", "-o", "a.png", "--specular-occlusion", "exact"}, "table");
+    expectUsage({"a.hearth", "-o", "a.png", "--view", "pretty"}, "pretty");
+    expectUsage({"a.hearth", "-o", "a.png", "--samples", "2"}, "2");
+    for (const char* shadows : {"", "yes", "on,maps=4", "maps=0", "maps=65", "texels=1000", "kernel=4",
+                                "bias=0.5", "far=-1", "near=3,far=2", "size=5"})
+        expectUsage({"a.hearth", "-o", "a.png", "--shadows", shadows}, "--shadows");
+    for (const char* sphere : {"", "1,2,3", "1,2,3,0", "1,2,3,4,x", "1,2,3,4,5,6"})
+        expectUsage({"a.hearth", "-o", "a.png", "--shadow-sphere", sphere}, "--shadow-sphere");
+    expectUsage({"a.hearth", "-o", "a.png", "--view", "shadow-maps"}, "--shadows");
+    for (const char* budget : {"", "0", "M", "-1", "1.5M", "1T", "1025G", "99999999999999999999"})
+        expectUsage({"a.hearth", "-o", "a.png", "--budget", budget}, "--budget");
+    for (const char* tests : {"", "some", "cone,", "all,cone"})
+        expectUsage({"a.hearth", "-o", "a.png", "--cull", tests}, "--cull");
+    for (const char* curve : {"", "1", "1:2:3", "1:x", "1:1,2:3"})
+        expectUsage({"a.hearth", "-o", "a.png", "--lod-curve", curve}, "--lod-curve");
+    expectUsage({"a.hearth", "-o", "a.png", "--camera-path", "p.txt", "--frames", "2"}, "--camera-path");
+    for (const char* meshes : {"", "1,", "x", "1,-2"})
+        expectUsage({"a.hearth", "-o", "a.png", "--meshes", meshes}, "--meshes");
+    expectUsage({"a.hearth", "-o", "a.png", "--meshes", "1", "--camera-path", "p.txt"}, "--meshes");
+    for (const char* views : {"", "final,", "final,nothing", "overdraw"})
+        expectUsage({"a.hearth", "-o", "a.png", "--views", views}, "--views");
+    expectUsage({"a.hearth", "-o", "a.png", "--views", "lod", "--frames", "2"}, "--views");
+    expectUsage({"a.hearth", "-o", "a.png", "--sheet", "yes"}, "--sheet");
+    for (const char* other : {"--frames=2", "--meshes=0", "--camera-path=p.txt", "--animation=Walk",
+                              "--scene-camera=0", "--dump-visibility=v", "--view=bricks", "--views=final,gi"})
+        expectUsage({"a.hearth", "-o", "a.png", "--sheet", "on", other}, "--sheet on excludes");
+    for (const char* start : {"", "noise", "noise:", "noise:x", "noise:-1", "last"})
+        expectUsage({"a.hearth", "-o", "a.png", "--hzb", start}, "--hzb");
+}
+
+TEST(CameraPath, isACameraALine)
+{
+    const std::string file = testing::TempDir() + "camera_path.txt";
+    const auto written = [&](const std::string& text)
+    {
+        std::ofstream(file, std::ios::binary) << text;
+        return viewer::readCameraPath(file);
+    };
+    const auto cameras = written("# eye, target, angle\r\n\n1,2,3,4,5,6,45\r\n0,0,0,0,0,-1,90\n");
+    ASSERT_TRUE(cameras.ok());
+    ASSERT_EQ(cameras->size(), 2u);
+    EXPECT_EQ((*cameras)[0].position, (Float3{1, 2, 3}));
+    EXPECT_EQ((*cameras)[1].target, (Float3{0, 0, -1}));
+    const auto wrong = written("1,2,3,4,5,6,45\n1,2,3\n");
+    ASSERT_FALSE(wrong.ok());
+    EXPECT_EQ(wrong.error().where, "line 2");
+    EXPECT_EQ(wrong.error().issue, Issue::camera_path);
+    EXPECT_EQ(written("# nothing\n").error().issue, Issue::camera_path);
+    EXPECT_EQ(viewer::readCameraPath(file + ".none").error().issue, Issue::input_missing);
+}
+
+TEST(CameraPath, readsWhatItWrites)
+{
+    std::mt19937 random(4);
+    for (int i = 0; i < 100; ++i)
+    {
+        const shared::Camera camera = randomCamera(random, 100);
+        const auto read = viewer::parseCamera(viewer::formatCamera(camera));
+        ASSERT_TRUE(read) << viewer::formatCamera(camera);
+        EXPECT_EQ(read->position, camera.position);
+        EXPECT_EQ(read->target, camera.target);
+        EXPECT_NEAR(read->y_fov_rad, camera.y_fov_rad, 1e-6f);
+    }
+}
+
+TEST(CameraPath, numbersItsFiles)
+{
+    EXPECT_EQ(viewer::numberedFile("a.png", 0), "a-0000.png");
+    EXPECT_EQ(viewer::numberedFile("x.y/a", 12), "x.y/a-0012");
+    EXPECT_EQ(viewer::numberedFile("x.y/.a", 12345), "x.y/.a-12345");
+}
+
+TEST(FitCamera, showsEveryVertexBetweenTheSides)
+{
+    std::mt19937 random(9);
+    const mesh::SourceMesh rock = withMaterial(shapes::rock(24, 0.2f), formats::kNone);
+    for (const float aspect : {0.4f, 1.0f, 1.78f})
+        for (const uint32_t count : {1u, 4u})
+        {
+            TestScene test;
+            const uint32_t mesh = test.addMesh(rock);
+            for (uint32_t i = 0; i < count; ++i)
+                test.addInstance(mesh, randomAffine(random, 20));
+            const formats::PackView pack = test.build();
+            const shared::Camera camera = viewer::fitCamera(pack, aspect);
+            const auto width = static_cast<uint32_t>(1000 * aspect);
+            const shared::FrameView view = shared::makeFrameView(camera, width, 1000, 1, count);
+            float left = 0, right = 0, bottom = 0, top = 0;
+            for (const formats::InstanceRecord& instance : pack.instances())
+                for (const Float3 position : rock.positions)
+                {
+                    const Float3 p = transformPoint(instance.world_from_object, position);
+                    const Float4 clip = shared::clipPosition(view, p - camera.position);
+                    EXPECT_GT(clip.w, camera.z_near);
+                    right = std::max(right, clip.x / clip.w);
+                    left = std::max(left, -clip.x / clip.w);
+                    top = std::max(top, clip.y / clip.w);
+                    bottom = std::max(bottom, -clip.y / clip.w);
+                }
+            const float reach = std::max({left, right, bottom, top});
+            EXPECT_LT(reach, 1);
+            EXPECT_GT(reach, 0.8f);
+            // of the two sides that it is nearest to, it is as far from one as from the other
+            const bool wide = std::max(left, right) > std::max(bottom, top);
+            EXPECT_LT(std::abs(wide ? left - right : top - bottom), 0.2f);
+        }
+}
+
+TEST(FitCamera, standsSomewhereSensibleInAnEmptyScene)
+{
+    TestScene test;
+    const shared::Camera camera = viewer::fitCamera(test.build(), 1);
+    EXPECT_TRUE(isFinite(camera.position));
+    EXPECT_GT(length(camera.position - camera.target), 0.1f);
+}
+
+TEST(WriteFile, leavesNothingBehindWhereItCannotWrite)
+{
+    const TemporaryFolder folder;
+    const std::byte bytes[] = {std::byte{1}};
+    const Status status = viewer::writeFile(folder.file("missing/a.png"), bytes);
+    ASSERT_FALSE(status.ok());
+    EXPECT_EQ(exitCode(status.error()), 73);
+    // a folder stands where the file should
+    std::filesystem::create_directory(folder.file("taken"));
+    EXPECT_FALSE(viewer::writeFile(folder.file("taken"), bytes).ok());
+    EXPECT_EQ(folder.files(), std::set<std::string>{"taken"});
+}
+
+TEST(Downsample, averagesInLinearLight)
+{
+    std::vector<std::byte> pixels(2 * 2 * 4, std::byte{0});
+    for (int i = 0; i < 8; ++i) // the upper two are white
+        pixels[static_cast<size_t>(i)] = std::byte{255};
+    const auto result = viewer::downsampleSrgb(pixels, 2, 2);
+    ASSERT_EQ(result.size(), 4u);
+    EXPECT_EQ(std::to_integer<int>(result[0]), 188) << "half of the light, not half of the code";
+}
+
+} // namespace hearth::test

@@ -1,0 +1,39 @@
+// The real hearth and hearth-link with small scripts in place of the other cookers.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "tests/support/sandbox.h"
+
+#include <gtest/gtest.h>
+#include <string>
+#include <vector>
+
+namespace hearth::test
+{
+
+/// A folder to cook in; the programs lie elsewhere, so that the folder shows what cooking leaves behind.
+class Cook : public ::testing::Test
+{
+protected:
+    Cook();
+
+    ProgramEnd cook(std::vector<std::string> arguments,
+                    const std::vector<std::string>& environment = {"TMPDIR="})
+    {
+        return folder.run(command(std::move(arguments)), environment);
+    }
+
+    std::vector<std::string> command(std::vector<std::string> arguments) const
+    {
+        arguments.insert(arguments.begin(), {programs / "hearth", "cook"});
+        return arguments;
+    }
+
+    /// The cook failed with one error line, and neither made nor left anything.
+    void expectFailure(const ProgramEnd& end, int exit_code, const std::string& part_of_message);
+
+    Sandbox programs;
+    Sandbox folder;
+};
+
+} // namespace hearth::test

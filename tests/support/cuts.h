@@ -1,0 +1,42 @@
+// Cuts through a hierarchy and what must hold for each.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "cook/clusters/levels/validate.h"
+
+#include <cstdint>
+#include <random>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace hearth::cuts
+{
+
+/// replaced[group] of the cut at one object-space error.
+std::vector<uint8_t> cutAtError(const clusters::Hierarchy& hierarchy, double error);
+
+/// The cut that an eye sees with errors up to `threshold` per distance.
+std::vector<uint8_t> cutFromEye(const clusters::Hierarchy& hierarchy, Float3 eye, double threshold);
+
+/// Any closed cut: each group is replaced with the given chance if all that its clusters were made from is.
+std::vector<uint8_t> randomCut(const clusters::Hierarchy& hierarchy, double chance, std::mt19937& random);
+
+/// Position triples of the triangles that a cut draws.
+std::vector<uint32_t> trianglesOfCut(const clusters::Hierarchy& hierarchy,
+                                     const clusters::DecodedHierarchy& decoded,
+                                     std::span<const uint8_t> replaced);
+
+/// The surface's border: the open edges of the finest level.
+struct Border
+{
+    bool closed = false;
+    std::vector<uint8_t> is_border; ///< for each position
+};
+Border borderOf(const clusters::Hierarchy& hierarchy, const clusters::DecodedHierarchy& decoded);
+
+/// Empty if the cut has no open edge but along the source's border, or around small islands of an open surface,
+/// which grow when others go. Else what is wrong.
+std::string crackOf(const Border& border, std::span<const uint32_t> triangles);
+
+} // namespace hearth::cuts

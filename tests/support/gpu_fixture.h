@@ -1,0 +1,96 @@
+// What the tests on a graphics device share: the device with validation on, drawing, and reading back.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "runtime/frame/lod_curve.h"
+#include "runtime/viewer/frame_report.h"
+
+#include <cstring>
+#include <gtest/gtest.h>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace hearth::test
+{
+
+/// A frame that was drawn.
+struct Picture
+{
+    uint32_t width = 0, height = 0;
+    std::vector<uint32_t> color;      ///< RGBA8 sRGB, red in the low byte
+    std::vector<uint32_t> visibility; ///< as records.h says
+    viewer::VisibleList list;
+
+    uint32_t at(uint32_t x, uint32_t y) const { return color[y * width + x]; }
+    /// (instance, cluster, triangle) of every pixel: what is seen, whatever the order of the slots.
+    std::vector<std::array<uint32_t, 3>> seen() const;
+};
+
+/// Channel 0, 1 or 2 of a colour, 0 to 255.
+inline int channel(uint32_t color, int index)
+{
+    return static_cast<int>(color >> (8 * index) & 255u);
+}
+
+struct DrawOptions
+{
+    uint32_t width = 160;
+    uint32_t height = 120;
+    float error_pixels = 1;
+    uint32_t flags = shared::kCullEverything;
+    uint32_t shown = shared::kViewFinal;
+    gpu::ShadedArea area = gpu::ShadedArea::automatic;
+    uint32_t ambient_occlusion = shared::kAmbientOcclusionExact;
+    uint32_t specular_occlusion = shared::kSpecularOcclusionFit;
+    std::vector<shared::LodKnot> lod_curve{};
+    std::span<const gpu::InstanceMove> moves{};
+    std::span<const gpu::InstancePose> poses{};
+    std::span<const gpu::ShadowSphere> shadow_spheres{};
+    std::span<const gpu::LightChange> lights{};
+    std::span<const gpu::EmissionScale> emission{};
+    bool bricks_light = true;
+};
+
+/// Skips where there is no device; fails where the validation layers say anything, in any test.
+class GpuTest : public testing::Test
+{
+protected:
+    static void SetUpTestSuite();
+    static void TearDownTestSuite();
+    void SetUp() override;
+    void TearDown() override;
+
+    static viewer::VulkanHost& host() { return *host_; }
+    static gpu::Renderer& renderer() { return *renderer_; }
+
+    std::unique_ptr<gpu::Scene> upload(const formats::PackView& pack, const gpu::SceneOptions& options = {});
+    /// With targets of its own: nothing is known of an earlier frame.
+    Picture draw(const gpu::Scene& scene, const shared::Camera& camera, const DrawOptions& options = {});
+    /// With targets of the size that the options say, which remember the frame before.
+    Picture draw(const gpu::Scene& scene, gpu::FrameTargets& targets, const shared::Camera& camera,
+                 const DrawOptions& options);
+    /// Of the last frame, which has run.
+    static Picture readPicture(const gpu::Scene& scene, const gpu::FrameTargets& targets);
+    static shared::FrameView viewOf(const gpu::Scene& scene, const shared::Camera& camera,
+                                    const DrawOptions& options);
+    gpu::FrameTargets makeTargets(uint32_t width, uint32_t height);
+
+    template <typename T>
+    std::vector<T> read(const gpu::Buffer& buffer, size_t count)
+    {
+        auto bytes = host().read(renderer().device(), buffer);
+        HEARTH_ASSERT(bytes.ok() && bytes->size() >= count * sizeof(T));
+        std::vector<T> values(count);
+        if (count > 0)
+            std::memcpy(static_cast<void*>(values.data()), bytes->data(), count * sizeof(T));
+        return values;
+    }
+
+private:
+    static std::unique_ptr<viewer::VulkanHost> host_;
+    static std::unique_ptr<gpu::Renderer> renderer_;
+    static std::string no_device_;
+};
+
+} // namespace hearth::test

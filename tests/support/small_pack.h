@@ -1,0 +1,75 @@
+// A small but complete pack, made by hand: every chunk type of a pack, two levels, six clusters, three pages.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "formats/records/deformation.h"
+#include "formats/records/mesh.h"
+#include "formats/records/provenance.h"
+#include "formats/records/scene.h"
+#include "formats/records/specular.h"
+#include "tests/support/brick_model.h"
+#include "tests/support/container_image.h"
+
+#include <string>
+#include <vector>
+
+namespace hearth::test
+{
+
+/// The content of a pack as plain arrays, so that a test can spoil one thing and write it with right hashes.
+struct PackModel
+{
+    std::string meta;
+    std::string strings;
+    std::vector<formats::AssetRecord> assets;
+    std::vector<formats::NodeRecord> nodes;
+    std::vector<formats::InstanceRecord> instances;
+    std::vector<formats::CameraRecord> cameras;
+    std::vector<formats::LightRecord> lights;
+    std::vector<formats::ShadowSphereRecord> shadow_spheres;
+    std::vector<formats::MaterialRecord> materials;
+    std::vector<formats::ImageRecord> images;
+    std::vector<std::vector<std::byte>> image_data;
+    std::vector<formats::SkinRecord> skins;
+    std::vector<formats::JointRecord> joints;
+    std::vector<formats::AnimationRecord> animations;
+    std::vector<formats::AnimationChannelRecord> channels;
+    std::vector<float> keys;
+    std::vector<uint32_t> key_bits;
+    std::vector<float> morph_weights;
+    std::vector<formats::MeshRecord> meshes;
+    std::vector<formats::LevelRecord> levels;
+    std::vector<formats::GroupRecord> groups;
+    std::vector<formats::ClusterRecord> clusters;
+    std::vector<formats::PageRecord> pages;
+    std::vector<uint32_t> page_parents;
+    std::vector<std::vector<std::byte>> decoded_pages;
+    std::vector<std::byte> page_bytes; ///< chunk PAGE
+    std::vector<formats::AuthoredLevelRecord> authored_levels;
+    std::vector<formats::DeformedMeshRecord> deformed_meshes;
+    std::vector<formats::DeformedClusterRecord> deformed_clusters;
+    std::vector<uint32_t> cluster_joints;
+    std::vector<formats::DeformedGroupRecord> deformed_groups; ///< in parts alone
+    std::vector<formats::SpecularTableRecord> specular_tables;
+    std::vector<formats::BrickGridRecord> brick_grids;
+    BrickModel bricks; ///< without its grid, which stands in brick_grids
+
+    /// Encode decoded_pages into page_bytes again, and set offset, size and hash of the page records.
+    /// The second page is stored as it is, the others by zstd.
+    void sealPages();
+
+    /// The chunks in the order in which hearth-link writes them; `compressed` picks zstd for the tables.
+    std::vector<ChunkImage> chunks(bool compressed = false) const;
+
+    AlignedBytes bytes(bool compressed = false) const
+    {
+        return assemble(formats::ContainerKind::pack, chunks(compressed));
+    }
+};
+
+/// Mesh 0: a folded strip of four quads. Level 0 has a cluster for each quad, two groups of two; each group was
+/// simplified to one flat quad; those two are the root group, and said to be made by hand. Page 0 holds the root, pages 1 and 2 a group each.
+/// Mesh 1: no triangles. Mesh 2: one triangle without attributes, skinned, with one morph target that moves its last vertex.
+PackModel smallPack();
+
+} // namespace hearth::test
